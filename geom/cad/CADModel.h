@@ -1,0 +1,77 @@
+// The CAD model as the rest of CADRefine sees it: no type of Open CASCADE appears here.
+#pragma once
+
+#include "ClosestPointSearch.h"
+#include "EntityId.h"
+#include "NurbsModel.h"
+#include "Vector3.h"
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace cadrefine
+{
+
+/// Something in the file that could not be read, or could be read only after a repair.
+struct UnreadEntity
+{
+  int entity = 0;     ///< IGES directory entry number, STEP instance number, 0: the file itself.
+  std::string type;   ///< For example "IGES 128 (rational B-spline surface)".
+  std::string reason; ///< One line.
+};
+
+/// Triangles or line segments that show one entity.
+struct Tessellation
+{
+  std::vector<Point3> points;
+  std::vector<std::array<int, 3>> triangles; ///< Of a face.
+  std::vector<int> line;                     ///< Of an edge, a polyline.
+};
+
+/// An immutable CAD model, safe from many threads at once. Coordinates are the file's own numbers.
+class CADModel
+{
+public:
+  /// The model that `bytes` (from toBytes) holds; ids and coordinates are those of the model that
+  /// was written. Throws Error where the bytes are not a model.
+  static std::shared_ptr<const CADModel> fromBytes(const std::vector<char>& bytes);
+  std::vector<char> toBytes() const;
+
+  ~CADModel();
+  CADModel(const CADModel&) = delete;
+  CADModel& operator=(const CADModel&) = delete;
+
+  const NurbsModel& nurbs() const;
+  int count(int dimension) const { return this->nurbs().count(dimension); }
+  /// Diagonal of the bounding box.
+  double size() const;
+  /// Name of the length unit of the file, for example "mm", "m", "in"; empty where it has none.
+  const std::string& unit() const;
+  const std::vector<UnreadEntity>& unread() const;
+
+  ClosestPoint nearest(const Point3& point, const SearchScope& scope = {}) const;
+  ClosestPoint nearestOn(EntityId entity, const Point3& point) const;
+
+  /// Point of `entity` at `parameters` (see ClosestPoint::parameters).
+  Point3 evaluate(EntityId entity, const std::array<double, 2>& parameters) const;
+  /// Outward unit normal of a face; the zero vector where it is undefined even in the limit.
+  Vector3 normal(int face, const std::array<double, 2>& parameters) const;
+  /// Unit tangent of an edge in the direction of growing t.
+  Vector3 tangent(int edge, double t) const;
+
+  /// True where `entity` is `of` or bounds it, directly or through an edge.
+  bool inClosure(EntityId entity, EntityId of) const;
+
+  /// Drawing of a face or an edge, to `deflection` (a length). A vertex has none.
+  Tessellation tessellate(EntityId entity, double deflection) const;
+
+private:
+  friend class CADModelBuilder;
+  struct Implementation;
+  explicit CADModel(std::unique_ptr<const Implementation> implementation);
+  std::unique_ptr<const Implementation> implementation_;
+};
+
+} // namespace cadrefine

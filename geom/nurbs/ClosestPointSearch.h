@@ -1,0 +1,66 @@
+// Closest point of a whole trimmed model, or of one of its entities.
+#pragma once
+
+#include "EntityId.h"
+#include "NurbsModel.h"
+#include "Vector3.h"
+
+#include <array>
+#include <limits>
+#include <memory>
+
+namespace cadrefine
+{
+
+/// Answer to a closest-point query. `entity` is none where nothing lies within the limit asked for.
+struct ClosestPoint
+{
+  EntityId entity;
+  Point3 point{};
+  /// (u, v) on a face, (t, 0) on an edge, NaN on a vertex.
+  std::array<double, 2> parameters{};
+  double distance = std::numeric_limits<double>::infinity();
+  /// False where the work limit ended the search before the bound of 1e-9 of the model's size was
+  /// reached (centres of curvature); the distance is still that of a point on the model.
+  bool converged = true;
+};
+
+/// What a whole-model query looks at.
+struct SearchScope
+{
+  double maximumDistance = std::numeric_limits<double>::infinity();
+  bool faces = true;
+  bool edges = true; ///< All edges. Off with `sharpEdges` on: only creases.
+  bool sharpEdges = true;
+  bool vertices = true;
+};
+
+/// Search structure over one model, built once. Queries are const, free of hidden state and safe
+/// from many threads at once; the answer is a pure function of the model and the point.
+class ClosestPointSearch
+{
+public:
+  /// Keeps a reference to `model`, which must outlive the search.
+  explicit ClosestPointSearch(const NurbsModel& model);
+  ~ClosestPointSearch();
+  ClosestPointSearch(const ClosestPointSearch&) = delete;
+  ClosestPointSearch& operator=(const ClosestPointSearch&) = delete;
+
+  /// Nearest point of the trimmed model: never farther than the true one by more than 1e-9 of the
+  /// model's size. Of entities equally near, the smallest (dimension, index) wins: on the border of
+  /// a face the answer is its edge, at the end of an edge its vertex.
+  ClosestPoint nearest(const Point3& point, const SearchScope& scope = {}) const;
+
+  /// Nearest point of one entity and its closure: for a face also its edges and vertices, for an
+  /// edge its end vertices, and the answer then names these.
+  ClosestPoint nearestOn(EntityId entity, const Point3& point) const;
+
+  /// Diagonal of the model's bounding box: the size that tolerances refer to.
+  double modelSize() const;
+
+private:
+  struct Implementation;
+  std::unique_ptr<const Implementation> implementation_;
+};
+
+} // namespace cadrefine
