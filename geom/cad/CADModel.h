@@ -26,6 +26,7 @@ struct UnreadEntity
 struct Tessellation
 {
   std::vector<Point3> points;
+  std::vector<Vector3> normals; ///< Of a face at its points, outward; zero where there is none.
   std::vector<std::array<int, 3>> triangles; ///< Of a face.
   std::vector<int> line;                     ///< Of an edge, a polyline.
 };
@@ -44,13 +45,15 @@ public:
   CADModel& operator=(const CADModel&) = delete;
 
   const NurbsModel& nurbs() const;
-  int count(int dimension) const { return this->nurbs().count(dimension); }
+  int count(int dimension) const { return nurbs().count(dimension); }
   /// Diagonal of the bounding box.
   double size() const;
   /// Name of the length unit of the file, for example "mm", "m", "in"; empty where it has none.
   const std::string& unit() const;
   const std::vector<UnreadEntity>& unread() const;
 
+  /// See ClosestPointSearch. The first query of a model builds the search structure, once for all
+  /// threads; every later one only reads it.
   ClosestPoint nearest(const Point3& point, const SearchScope& scope = {}) const;
   ClosestPoint nearestOn(EntityId entity, const Point3& point) const;
 
@@ -58,13 +61,17 @@ public:
   Point3 evaluate(EntityId entity, const std::array<double, 2>& parameters) const;
   /// Outward unit normal of a face; the zero vector where it is undefined even in the limit.
   Vector3 normal(int face, const std::array<double, 2>& parameters) const;
+  /// Outward unit normal of a face at the point of its surface that is nearest to `point` (which
+  /// may lie on the face's border).
+  Vector3 normalNear(int face, const Point3& point) const;
   /// Unit tangent of an edge in the direction of growing t.
   Vector3 tangent(int edge, double t) const;
 
   /// True where `entity` is `of` or bounds it, directly or through an edge.
   bool inClosure(EntityId entity, EntityId of) const;
 
-  /// Drawing of a face or an edge, to `deflection` (a length). A vertex has none.
+  /// Drawing of a face or an edge, to `deflection` (a length). A vertex has none. Depends on the
+  /// entity and the deflection alone.
   Tessellation tessellate(EntityId entity, double deflection) const;
 
 private:

@@ -55,6 +55,10 @@ public:
   /// edge its end vertices, and the answer then names these.
   ClosestPoint nearestOn(EntityId entity, const Point3& point) const;
 
+  /// Nearest point of a face's surface where it is in or next to the trimmed face, border included,
+  /// named by the face and its parameters: for the face's normal at a point of its border.
+  ClosestPoint nearestOnSurface(int face, const Point3& point) const;
+
   /// Diagonal of the model's bounding box: the size that tolerances refer to.
   double modelSize() const;
 

@@ -1,0 +1,58 @@
+# What people run. CMake does the work; see CMakePresets.json.
+.DEFAULT_GOAL := help
+
+JOBS := $(shell nproc)
+CCACHE := $(shell command -v ccache)
+CONFIGURE := $(if $(CCACHE),-DCMAKE_CXX_COMPILER_LAUNCHER=$(CCACHE) -DCMAKE_C_COMPILER_LAUNCHER=$(CCACHE))
+SOURCES = $(shell find filters geom tests -name '*.h' -o -name '*.cxx' -o -name '*.cpp')
+
+# Open MPI (4 and 5): run as root, as containers do; more ranks than cores; no complaint where the kernel forbids
+# ranks to read each other's memory.
+export OMPI_ALLOW_RUN_AS_ROOT := 1
+export OMPI_ALLOW_RUN_AS_ROOT_CONFIRM := 1
+export OMPI_MCA_rmaps_base_oversubscribe := 1
+export OMPI_MCA_btl_vader_single_copy_mechanism := none
+export PRTE_MCA_rmaps_default_mapping_policy := :oversubscribe
+
+.PHONY: help
+help: ## Show this list
+	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 22
+
+.PHONY: packages
+packages: ## Install the Debian packages that are missing
+	@.ci/install-packages
+
+.PHONY: build
+build: packages ## Build the plugin (build/release) and the tests
+	@cmake --preset release $(CONFIGURE)
+	@cmake --build --preset release --parallel $(JOBS)
+
+.PHONY: demo
+demo: build ## Run the NACA 0012 case on two ranks: tables and pictures in build/demo
+	@/usr/bin/python3 plugin/demo.py --output build/demo
+
+.PHONY: test
+test: build format-check ## Run all tests
+	@ctest --preset release --parallel $(JOBS)
+
+.PHONY: sanitizers
+sanitizers: packages ## Run the tests of the numerical core with address and undefined behaviour sanitizers
+	@cmake --preset sanitizers $(CONFIGURE)
+	@cmake --build --preset sanitizers --parallel $(JOBS)
+	@ctest --preset sanitizers --parallel $(JOBS)
+
+.PHONY: format
+format: packages ## Format the sources
+	@clang-format -i $(SOURCES)
+
+.PHONY: format-check
+format-check: packages ## Fail where make format would change something
+	@clang-format --dry-run --Werror $(SOURCES)
+
+.PHONY: tidy
+tidy: build ## Run clang-tidy on the sources
+	@run-clang-tidy -quiet -j $(JOBS) -p build/release '/(filters|geom)/.*\.cxx$$'
+
+.PHONY: clean
+clean: ## Remove everything that was built
+	@rm -rf build

@@ -1,0 +1,128 @@
+#include "CADArrays.h"
+
+#include "Error.h"
+
+#include <vtkDoubleArray.h>
+#include <vtkIntArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPointSet.h>
+#include <vtkSignedCharArray.h>
+
+#include <limits>
+#include <string>
+
+namespace cadrefine
+{
+namespace
+{
+
+constexpr double noParameter = std::numeric_limits<double>::quiet_NaN();
+
+vtkDataArray* requireArray(vtkPointSet* input, const char* name, int components)
+{
+  vtkDataArray* array = input->GetPointData()->GetArray(name);
+  if (!array && input->GetNumberOfPoints() > 0)
+  {
+    throw Error(std::string("the mesh has no point array ") + name +
+                "; apply the filter Project onto CAD first");
+  }
+  if (array && array->GetNumberOfComponents() != components)
+  {
+    throw Error(std::string("the point array ") + name + " has " +
+                std::to_string(array->GetNumberOfComponents()) + " components instead of " +
+                std::to_string(components));
+  }
+  return array;
+}
+
+EntityId readEntity(double dimension, double index, const CADModel& model)
+{
+  EntityId entity;
+  if (dimension < 0)
+  {
+    return entity;
+  }
+  entity.dimension = static_cast<std::int8_t>(dimension);
+  entity.index = static_cast<std::int32_t>(index);
+  if (entity.dimension > 2 || index < 0 || index >= model.count(entity.dimension))
+  {
+    throw Error("the point arrays CADDimension and CADEntity name an entity (" +
+                std::to_string(static_cast<int>(dimension)) + ", " + std::to_string(entity.index) +
+                ") that the CAD model does not have; were they made with another CAD file?");
+  }
+  return entity;
+}
+
+template<class Array>
+vtkNew<Array> makeArray(const char* name, int components, std::size_t count)
+{
+  vtkNew<Array> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  array->SetNumberOfTuples(static_cast<vtkIdType>(count));
+  return array;
+}
+
+} // namespace
+
+void Classification::resize(std::size_t count)
+{
+  entities.resize(count);
+  parameters.resize(count, { noParameter, noParameter });
+  distances.resize(count, 0.0);
+}
+
+void Classification::set(Index vertex, const ClosestPoint& where)
+{
+  entities[vertex] = where.entity;
+  parameters[vertex] = where.parameters;
+}
+
+bool hasClassification(vtkPointSet* input)
+{
+  return input->GetPointData()->HasArray(arrays::dimension) != 0;
+}
+
+Classification readClassification(
+  vtkPointSet* input, const std::vector<vtkIdType>& pointOf, const CADModel& model)
+{
+  vtkDataArray* dimensions = requireArray(input, arrays::dimension, 1);
+  vtkDataArray* entities = requireArray(input, arrays::entity, 1);
+  vtkDataArray* parameters = requireArray(input, arrays::parameters, 2);
+  vtkDataArray* distances = requireArray(input, arrays::distance, 1);
+  Classification result(pointOf.size());
+  for (std::size_t v = 0; v < pointOf.size(); ++v)
+  {
+    const vtkIdType point = pointOf[v];
+    result.entities[v] =
+      readEntity(dimensions->GetTuple1(point), entities->GetTuple1(point), model);
+    parameters->GetTuple(point, result.parameters[v].data());
+    result.distances[v] = distances->GetTuple1(point);
+  }
+  return result;
+}
+
+void writeClassification(vtkPointSet* output, const Classification& classification)
+{
+  const std::size_t count = classification.entities.size();
+  auto dimensions = makeArray<vtkSignedCharArray>(arrays::dimension, 1, count);
+  auto entities = makeArray<vtkIntArray>(arrays::entity, 1, count);
+  auto parameters = makeArray<vtkDoubleArray>(arrays::parameters, 2, count);
+  auto distances = makeArray<vtkDoubleArray>(arrays::distance, 1, count);
+  for (std::size_t v = 0; v < count; ++v)
+  {
+    const auto point = static_cast<vtkIdType>(v);
+    dimensions->SetValue(point, classification.entities[v].dimension);
+    entities->SetValue(point, classification.entities[v].index);
+    parameters->SetTuple(point, classification.parameters[v].data());
+    distances->SetValue(point, classification.distances[v]);
+  }
+  vtkPointData* pointData = output->GetPointData();
+  pointData->AddArray(dimensions);
+  pointData->AddArray(entities);
+  pointData->AddArray(parameters);
+  pointData->AddArray(distances);
+}
+
+} // namespace cadrefine

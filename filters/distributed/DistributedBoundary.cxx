@@ -1,0 +1,221 @@
+#include "DistributedBoundary.h"
+
+#include "Agreement.h"
+#include "Quality.h"
+#include "SharedEdges.h"
+
+#include <algorithm>
+
+namespace cadrefine
+{
+namespace
+{
+
+/// Whether all vertices of all ranks have a coordinate in common.
+bool liesInCoordinatePlane(RankExchange& exchange, const SimplexMesh& mesh)
+{
+  std::vector<double> low(3, std::numeric_limits<double>::infinity());
+  std::vector<double> high(3, -std::numeric_limits<double>::infinity());
+  for (const Point3& point : mesh.points)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      low[k] = std::min(low[k], point[k]);
+      high[k] = std::max(high[k], point[k]);
+    }
+  }
+  low = exchange.min(low);
+  high = exchange.max(high);
+  return low[0] == high[0] || low[1] == high[1] || low[2] == high[2];
+}
+
+template<std::size_t Corners>
+std::vector<std::array<Index, Corners>> cornersOf(const std::vector<Facet>& facets)
+{
+  std::vector<std::array<Index, Corners>> corners(facets.size());
+  for (std::size_t f = 0; f < facets.size(); ++f)
+  {
+    std::copy_n(facets[f].vertices.begin(), Corners, corners[f].begin());
+  }
+  return corners;
+}
+
+/// Removes the sides that another rank meets too.
+void removeShared(RankExchange& exchange, const DistributedMesh& mesh, std::vector<Facet>& facets)
+{
+  const auto& ids = mesh.mesh().ids;
+  const SharedItems shared =
+    mesh.mesh().dimension == 3
+      ? findSharedSimplices<3>(exchange, mesh.shared, ids, cornersOf<3>(facets))
+      : findSharedSimplices<2>(exchange, mesh.shared, ids, cornersOf<2>(facets));
+  for (const Index facet : shared.all)
+  {
+    facets[facet].cell = -1;
+  }
+  facets.erase(
+    std::remove_if(facets.begin(), facets.end(), [](const Facet& facet) { return facet.cell < 0; }),
+    facets.end());
+}
+
+void listEdges(const SimplexMesh& mesh, DistributedBoundary& boundary)
+{
+  boundary.edges = EdgeList(mesh.ids);
+  for (const Facet& facet : boundary.facets)
+  {
+    std::array<Index, 3> edges{ -1, -1, -1 };
+    const int corners = boundary.facetCorners();
+    for (int k = 0; k < (corners == 3 ? 3 : 1); ++k)
+    {
+      edges[k] = boundary.edges.findOrAdd(facet.vertices[k], facet.vertices[(k + 1) % corners]);
+    }
+    boundary.facetEdges.push_back(edges);
+  }
+}
+
+void measureVertices(
+  RankExchange& exchange, const DistributedMesh& mesh, DistributedBoundary& boundary)
+{
+  const auto& points = mesh.mesh().points;
+  boundary.onBoundary.assign(points.size(), 0);
+  boundary.longestEdge.assign(points.size(), 0.0);
+  for (const auto& ends : boundary.edges.edges())
+  {
+    const double length = distance(points[ends[0]], points[ends[1]]);
+    for (const Index vertex : ends)
+    {
+      boundary.onBoundary[vertex] = 1;
+      boundary.longestEdge[vertex] = std::max(boundary.longestEdge[vertex], length);
+    }
+  }
+  const auto larger = [](auto a, auto b) { return std::max(a, b); };
+  combineShared(exchange, mesh.shared, boundary.onBoundary, larger);
+  combineShared(exchange, mesh.shared, boundary.longestEdge, larger);
+}
+
+/// A record on its way to the rank that has the edge too.
+struct SentRecord
+{
+  std::int64_t edge; ///< Place in the neighbour's list.
+  FacetRecord record;
+};
+
+} // namespace
+
+DistributedBoundary findBoundary(
+  RankExchange& exchange, const DistributedMesh& mesh, const CADModel& model)
+{
+  DistributedBoundary boundary;
+  const SimplexMesh& piece = mesh.mesh();
+  const bool planar =
+    piece.dimension == 2 && (model.count(2) == 0 || liesInCoordinatePlane(exchange, piece));
+  boundary.kind = planar ? BoundaryKind::Segments : BoundaryKind::Triangles;
+  if (piece.dimension == 3 || planar)
+  {
+    boundary.facets = findOuterFacets(piece);
+    removeShared(exchange, mesh, boundary.facets);
+  }
+  else
+  {
+    boundary.facets = facetsOfSurface(piece);
+  }
+  listEdges(piece, boundary);
+  boundary.sharedEdges = findSharedEdges(exchange, mesh.shared, piece.ids, boundary.edges.edges());
+  measureVertices(exchange, mesh, boundary);
+  return boundary;
+}
+
+std::vector<std::vector<FacetRecord>> gatherFacetRecords(RankExchange& exchange,
+  const DistributedBoundary& boundary, const std::vector<FacetRecord>& ofFacets)
+{
+  std::vector<std::vector<FacetRecord>> ofEdges(boundary.edges.edges().size());
+  for (std::size_t f = 0; f < ofFacets.size(); ++f)
+  {
+    for (const Index edge : boundary.facetEdges[f])
+    {
+      if (edge >= 0)
+      {
+        ofEdges[edge].push_back(ofFacets[f]);
+      }
+    }
+  }
+  const auto& shared = boundary.sharedEdges;
+  std::vector<std::vector<SentRecord>> outgoing(shared.neighbours.size());
+  for (std::size_t n = 0; n < shared.neighbours.size(); ++n)
+  {
+    for (std::size_t k = 0; k < shared.items[n].size(); ++k)
+    {
+      for (const FacetRecord& record : ofEdges[shared.items[n][k]])
+      {
+        outgoing[n].push_back({ static_cast<std::int64_t>(k), record });
+      }
+    }
+  }
+  const auto incoming = exchange.exchange(shared.neighbours, outgoing);
+  for (std::size_t n = 0; n < incoming.size(); ++n)
+  {
+    for (const SentRecord& sent : incoming[n])
+    {
+      ofEdges[shared.items[n][sent.edge]].push_back(sent.record);
+    }
+  }
+  return ofEdges;
+}
+
+ClassifiedFacet classifiedFacet(const SimplexMesh& mesh, const std::vector<EntityId>& entities,
+  const Facet& facet, BoundaryKind kind)
+{
+  ClassifiedFacet result;
+  for (int k = 0; k < (kind == BoundaryKind::Triangles ? 3 : 2); ++k)
+  {
+    result.points[k] = mesh.points[facet.vertices[k]];
+    result.entities[k] = entities[facet.vertices[k]];
+  }
+  return result;
+}
+
+FacetRecord makeRecord(const BoundaryProjector& projector, const ClassifiedFacet& facet)
+{
+  const bool triangle = projector.kind() == BoundaryKind::Triangles;
+  const auto& p = facet.points;
+  FacetRecord record;
+  record.normal =
+    triangle ? normalized(twofoldAreaVector(p[0], p[1], p[2])) : normalized(p[1] - p[0]);
+  const auto end = facet.entities.begin() + (triangle ? 3 : 2);
+  const bool classified = std::all_of(
+    facet.entities.begin(), end, [](EntityId entity) { return static_cast<bool>(entity); });
+  record.onCAD = classified && projector.isOnCAD(facet) ? 1 : 0;
+  return record;
+}
+
+BoundaryClasses classifyBoundary(RankExchange& exchange, const SimplexMesh& mesh,
+  const DistributedBoundary& boundary, const std::vector<EntityId>& entities,
+  const BoundaryProjector& projector)
+{
+  BoundaryClasses classes;
+  std::vector<FacetRecord> records;
+  attempt(exchange,
+    [&]
+    {
+      for (const Facet& facet : boundary.facets)
+      {
+        records.push_back(
+          makeRecord(projector, classifiedFacet(mesh, entities, facet, boundary.kind)));
+        classes.facetOnCAD.push_back(records.back().onCAD);
+      }
+    });
+  const auto ofEdges = gatherFacetRecords(exchange, boundary, records);
+  attempt(exchange,
+    [&]
+    {
+      const auto& edges = boundary.edges.edges();
+      for (std::size_t e = 0; e < edges.size(); ++e)
+      {
+        const auto [a, b] = edges[e];
+        classes.ofEdges.push_back(projector.classify(
+          { mesh.points[a], mesh.points[b] }, { entities[a], entities[b] }, ofEdges[e]));
+      }
+    });
+  return classes;
+}
+
+} // namespace cadrefine

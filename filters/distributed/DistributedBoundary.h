@@ -1,0 +1,65 @@
+// The boundary of a mesh in pieces, and how its facets meet at edges.
+#pragma once
+
+#include "BoundaryProjector.h"
+#include "CADArrays.h"
+#include "DistributedMesh.h"
+#include "EdgeTable.h"
+#include "Facets.h"
+
+#include <array>
+#include <vector>
+
+namespace cadrefine
+{
+
+/// The facets of this rank's piece that lie on the boundary of the whole mesh, their edges, and
+/// which vertices lie on that boundary. Refers to the mesh it was made from.
+struct DistributedBoundary
+{
+  BoundaryKind kind = BoundaryKind::Triangles;
+  std::vector<Facet> facets;
+  /// Edges of facets; of a triangle edge k joins corners k and k + 1, a segment is its own edge 0.
+  EdgeList edges;
+  std::vector<std::array<Index, 3>> facetEdges;
+  SharedItems sharedEdges;
+  /// 1 for vertices of facets, on whatever rank these are.
+  std::vector<unsigned char> onBoundary;
+  /// Length of the longest boundary edge at each vertex, over all ranks; 0 elsewhere.
+  std::vector<double> longestEdge;
+
+  int facetCorners() const { return kind == BoundaryKind::Triangles ? 3 : 2; }
+};
+
+/// Boundary of the mesh: triangles met once of a mesh of tetrahedra; segments met once of a planar
+/// mesh of triangles; of a mesh of triangles in space, all triangles. A mesh of triangles is planar
+/// if the model has no faces or if all of its vertices have one coordinate in common. Collective;
+/// messages in proportion to the interface between pieces.
+DistributedBoundary findBoundary(
+  RankExchange& exchange, const DistributedMesh& mesh, const CADModel& model);
+
+/// For each boundary edge the records of all facets beside it, of those on other ranks too, given
+/// those of this rank's facets. Collective.
+std::vector<std::vector<FacetRecord>> gatherFacetRecords(RankExchange& exchange,
+  const DistributedBoundary& boundary, const std::vector<FacetRecord>& ofFacets);
+
+/// The facets as the projector sees them.
+ClassifiedFacet classifiedFacet(const SimplexMesh& mesh, const std::vector<EntityId>& entities,
+  const Facet& facet, BoundaryKind kind);
+
+/// The record of a facet. It is on the CAD if all of its corners are classified and it fits the CAD
+/// there (BoundaryProjector::isOnCAD).
+FacetRecord makeRecord(const BoundaryProjector& projector, const ClassifiedFacet& facet);
+
+/// Classes of all boundary edges of a classified mesh, and which facets are on the CAD. Collective.
+struct BoundaryClasses
+{
+  std::vector<EdgeClass> ofEdges;
+  std::vector<unsigned char> facetOnCAD;
+};
+
+BoundaryClasses classifyBoundary(RankExchange& exchange, const SimplexMesh& mesh,
+  const DistributedBoundary& boundary, const std::vector<EntityId>& entities,
+  const BoundaryProjector& projector);
+
+} // namespace cadrefine

@@ -1,0 +1,77 @@
+#include "DistributedError.h"
+
+#include "Agreement.h"
+#include "DistributedBoundary.h"
+#include "Error.h"
+#include "GeometricError.h"
+
+#include <algorithm>
+
+namespace cadrefine
+{
+namespace
+{
+
+ErrorFacet makeErrorFacet(const SimplexMesh& mesh, const DistributedBoundary& boundary,
+  const BoundaryClasses& classes, const Classification& classification, std::size_t f)
+{
+  ErrorFacet facet;
+  facet.corners = classifiedFacet(mesh, classification.entities, boundary.facets[f], boundary.kind);
+  for (int k = 0; k < 3; ++k)
+  {
+    const Index edge = boundary.facetEdges[f][k];
+    facet.edges[k] = edge < 0 ? EdgeClass{} : classes.ofEdges[edge];
+  }
+  return facet;
+}
+
+} // namespace
+
+MeshError measureError(RankExchange& exchange, const DistributedMesh& mesh, const CADModel& model,
+  const Classification& classification, int depth)
+{
+  const SimplexMesh& piece = mesh.mesh();
+  if (piece.dimension == 0)
+  {
+    throw Error("the mesh has no triangles or tetrahedra; points alone have no geometric error");
+  }
+  const DistributedBoundary boundary = findBoundary(exchange, mesh, model);
+  const BoundaryProjector projector(model, boundary.kind);
+  const BoundaryClasses classes =
+    classifyBoundary(exchange, piece, boundary, classification.entities, projector);
+
+  MeshError result;
+  const std::size_t cells = mesh.converted.cellIds[piece.dimension].size();
+  result.ofCells.assign(cells, 0.0);
+  result.distanceOfCells.assign(cells, 0.0);
+  std::vector<double> addends;
+  attempt(exchange,
+    [&]
+    {
+      for (std::size_t f = 0; f < boundary.facets.size(); ++f)
+      {
+        if (!classes.facetOnCAD[f])
+        {
+          continue;
+        }
+        const Facet& facet = boundary.facets[f];
+        FacetError error = geometricError(
+          projector, makeErrorFacet(piece, boundary, classes, classification, f), depth);
+        for (int k = 0; k < boundary.facetCorners(); ++k)
+        {
+          error.maximumDistance =
+            std::max(error.maximumDistance, classification.distances[facet.vertices[k]]);
+        }
+        result.ofCells[facet.cell] += error.measure;
+        double& cellDistance = result.distanceOfCells[facet.cell];
+        cellDistance = std::max(cellDistance, error.maximumDistance);
+        result.maximumDistance = std::max(result.maximumDistance, error.maximumDistance);
+        addends.push_back(error.measure);
+      }
+    });
+  result.global = exchange.sumReproducibly(addends);
+  result.maximumDistance = exchange.max(result.maximumDistance);
+  return result;
+}
+
+} // namespace cadrefine

@@ -1,0 +1,39 @@
+// A mesh in pieces on ranks.
+#pragma once
+
+#include "PointSetConversion.h"
+#include "RankExchange.h"
+#include "SharedVertices.h"
+#include "SimplexMesh.h"
+
+namespace cadrefine
+{
+
+/// A rank's piece, with what it shares with other ranks.
+struct DistributedMesh
+{
+  ConvertedMesh converted;
+  SharedVertices shared;
+  GlobalId vertexIdBound = 0; ///< All vertex ids are smaller.
+
+  SimplexMesh& mesh() { return converted.mesh; }
+  const SimplexMesh& mesh() const { return converted.mesh; }
+};
+
+/// Reads a data set (see convert) and finds the shared vertices. Collective.
+DistributedMesh makeDistributedMesh(RankExchange& exchange, vtkPointSet* input);
+
+/// The shared vertices of a mesh. Collective. Where there are only cells of the mesh's own
+/// dimension, only ids of vertices on the surface of each piece are sent, otherwise all.
+SharedVertices findShared(RankExchange& exchange, const SimplexMesh& mesh);
+
+/// Counts of the whole mesh, no vertex or cell twice.
+struct MeshCounts
+{
+  std::int64_t vertices = 0;
+  std::int64_t cells = 0; ///< Of the mesh's own dimension.
+};
+
+MeshCounts countMesh(RankExchange& exchange, const DistributedMesh& mesh);
+
+} // namespace cadrefine

@@ -1,0 +1,248 @@
+#include "DistributedRefinement.h"
+
+#include "Agreement.h"
+#include "DistributedBoundary.h"
+#include "DistributedMoves.h"
+#include "GlobalNumbering.h"
+
+#include <algorithm>
+
+namespace cadrefine
+{
+namespace
+{
+
+RefinementPlan makePlan(RankExchange& exchange, const DistributedMesh& mesh)
+{
+  RefinementPlan plan;
+  plan.table = buildEdgeTable(mesh.mesh());
+  plan.sharedEdges = findSharedEdges(exchange, mesh.shared, mesh.mesh().ids, plan.table.edges());
+  return plan;
+}
+
+std::vector<GlobalId> numberNewVertices(RankExchange& exchange, DistributedMesh& mesh,
+  const std::vector<std::array<Index, 2>>& parentEdges)
+{
+  const auto& ids = mesh.mesh().ids;
+  std::vector<Key<2>> keys(parentEdges.size());
+  std::transform(parentEdges.begin(), parentEdges.end(), keys.begin(),
+    [&](const std::array<Index, 2>& ends) {
+      return Key<2>{ ids[ends[0]], ids[ends[1]] };
+    });
+  Numbering numbering = numberDistinct(exchange, keys);
+  for (GlobalId& number : numbering.numbers)
+  {
+    number += mesh.vertexIdBound;
+  }
+  mesh.vertexIdBound += numbering.count;
+  return std::move(numbering.numbers);
+}
+
+/// Ids of the children: parents in the order of their ids, the children of each in a row.
+std::array<std::vector<GlobalId>, 4> numberChildren(RankExchange& exchange,
+  const std::array<std::vector<GlobalId>, 4>& parentIds,
+  const std::array<std::vector<Index>, 4>& parentCells)
+{
+  std::vector<Key<1>> keys;
+  std::vector<std::int64_t> weights;
+  std::array<std::size_t, 4> firsts{};
+  for (int d = 0; d < 4; ++d)
+  {
+    firsts[d] = keys.size();
+    for (const GlobalId id : parentIds[d])
+    {
+      keys.push_back({ id });
+    }
+    weights.resize(keys.size(), 0);
+    for (const Index parent : parentCells[d])
+    {
+      ++weights[firsts[d] + parent];
+    }
+  }
+  auto next = offsets(exchange, keys, weights).numbers;
+  std::array<std::vector<GlobalId>, 4> ids;
+  for (int d = 0; d < 4; ++d)
+  {
+    for (const Index parent : parentCells[d])
+    {
+      ids[d].push_back(next[firsts[d] + parent]++);
+    }
+  }
+  return ids;
+}
+
+/// Class of an edge and whether it lies on the boundary, as one number that ranks can combine by
+/// the maximum: a rank without a facet at the edge has 0.
+std::int64_t encode(const EdgeClass& edgeClass)
+{
+  return 1 + edgeClass.kind + 4 * static_cast<std::int64_t>(edgeClass.edge + 1);
+}
+
+EdgeClass decode(std::int64_t code)
+{
+  return code == 0 ? EdgeClass{}
+                   : EdgeClass{ static_cast<EdgeClass::Kind>((code - 1) % 4),
+                       static_cast<std::int32_t>((code - 1) / 4 - 1) };
+}
+
+/// The code of every edge of the piece, also of edges whose boundary facets are on other ranks.
+std::vector<std::int64_t> edgeCodes(RankExchange& exchange, const DistributedMesh& mesh,
+  const RefinementPlan& plan, const DistributedBoundary& boundary,
+  const BoundaryProjector& projector, const Classification& classification)
+{
+  const BoundaryClasses classes =
+    classifyBoundary(exchange, mesh.mesh(), boundary, classification.entities, projector);
+  std::vector<std::int64_t> codes(plan.table.edges().size(), 0);
+  const auto& edges = boundary.edges.edges();
+  for (std::size_t e = 0; e < edges.size(); ++e)
+  {
+    codes[plan.table.list.find(edges[e][0], edges[e][1])] = encode(classes.ofEdges[e]);
+  }
+  combineShared(exchange, plan.sharedEdges, codes,
+    [](std::int64_t a, std::int64_t b) { return std::max(a, b); });
+  return codes;
+}
+
+/// Where the midpoints of marked edges belong, in the order of the new vertices.
+std::vector<ClosestPoint> projectMidpoints(const SimplexMesh& mesh, const RefinementPlan& plan,
+  const std::vector<std::int64_t>& codes, const BoundaryProjector& projector,
+  const Classification& classification)
+{
+  std::vector<ClosestPoint> hits;
+  for (std::size_t e = 0; e < codes.size(); ++e)
+  {
+    if (plan.marks[e])
+    {
+      const auto [a, b] = plan.table.edges()[e];
+      hits.push_back(projector.projectMidpoint(decode(codes[e]), { mesh.points[a], mesh.points[b] },
+        { classification.entities[a], classification.entities[b] }));
+    }
+  }
+  return hits;
+}
+
+/// Moves of the new vertices to their places, and of old ones that are not there yet.
+Moves movesOntoCAD(const SimplexMesh& mesh, const std::vector<ClosestPoint>& hits,
+  const BoundaryProjector& projector, Classification& classification)
+{
+  Moves moves(mesh);
+  const auto oldCount = static_cast<Index>(classification.entities.size());
+  classification.resize(mesh.points.size());
+  for (Index v = 0; v < oldCount; ++v)
+  {
+    if (classification.distances[v] > 0)
+    {
+      const ClosestPoint where = projector.nearestOn(classification.entities[v], mesh.points[v]);
+      classification.set(v, where);
+      moves.add(v, where.point);
+    }
+  }
+  for (std::size_t n = 0; n < hits.size(); ++n)
+  {
+    if (hits[n].entity)
+    {
+      const auto v = static_cast<Index>(oldCount + n);
+      classification.set(v, hits[n]);
+      moves.add(v, hits[n].point);
+    }
+  }
+  return moves;
+}
+
+std::int64_t countOwnedHits(
+  RankExchange& exchange, const DistributedMesh& mesh, const std::vector<ClosestPoint>& hits)
+{
+  const auto owned = mesh.shared.ownedHere(static_cast<Index>(mesh.mesh().points.size()));
+  const std::size_t first = owned.size() - hits.size();
+  std::int64_t count = 0;
+  for (std::size_t n = 0; n < hits.size(); ++n)
+  {
+    count += hits[n].entity && owned[first + n];
+  }
+  return exchange.sum(count);
+}
+
+} // namespace
+
+RefinementPlan planUniform(RankExchange& exchange, const DistributedMesh& mesh)
+{
+  RefinementPlan plan = makePlan(exchange, mesh);
+  plan.uniform = true;
+  plan.marks.assign(plan.table.edges().size(), 1);
+  return plan;
+}
+
+RefinementPlan planLongestEdge(
+  RankExchange& exchange, const DistributedMesh& mesh, const std::vector<unsigned char>& cellMarks)
+{
+  RefinementPlan plan = makePlan(exchange, mesh);
+  plan.marks.assign(plan.table.edges().size(), 0);
+  markLongestEdges(mesh.mesh(), plan.table, cellMarks, plan.marks);
+  const auto either = [](unsigned char a, unsigned char b) { return std::max(a, b); };
+  bool changed = true;
+  while (changed)
+  {
+    combineShared(exchange, plan.sharedEdges, plan.marks, either);
+    changed = exchange.any(closeMarks(mesh.mesh(), plan.table, plan.marks));
+  }
+  return plan;
+}
+
+std::array<std::vector<Index>, 4> countChildren(const SimplexMesh& mesh, const RefinementPlan& plan)
+{
+  const Midpoints midpoints = makeMidpoints(mesh, plan.table, plan.marks);
+  const std::vector<GlobalId> noIds(midpoints.edges.size(), 0);
+  const SplitMesh split = splitMarked(mesh, plan.table, midpoints, noIds);
+  const std::size_t counts[4] = { mesh.vertices.size(), mesh.segments.size(), mesh.triangles.size(),
+    mesh.tetrahedra.size() };
+  std::array<std::vector<Index>, 4> children;
+  for (int d = 0; d < 4; ++d)
+  {
+    children[d].assign(counts[d], 0);
+    for (const Index parent : split.parentCells[d])
+    {
+      ++children[d][parent];
+    }
+  }
+  return children;
+}
+
+RefinementTrace refine(RankExchange& exchange, DistributedMesh& mesh, const RefinementPlan& plan)
+{
+  const Midpoints midpoints = makeMidpoints(mesh.mesh(), plan.table, plan.marks);
+  const auto ids = numberNewVertices(exchange, mesh, midpoints.parentEdges);
+  SplitMesh split = plan.uniform ? splitUniformly(mesh.mesh(), plan.table, midpoints, ids)
+                                 : splitMarked(mesh.mesh(), plan.table, midpoints, ids);
+  mesh.converted.cellIds = numberChildren(exchange, mesh.converted.cellIds, split.parentCells);
+  mesh.mesh() = std::move(split.mesh);
+  mesh.converted.pointOf.clear();
+  mesh.converted.cellOf = {};
+  mesh.shared = findShared(exchange, mesh.mesh());
+  return { std::move(split.parentEdges), std::move(split.parentCells), 0 };
+}
+
+RefinementTrace refineOntoCAD(RankExchange& exchange, DistributedMesh& mesh,
+  const RefinementPlan& plan, const CADModel& model, Classification& classification)
+{
+  const DistributedBoundary boundary = findBoundary(exchange, mesh, model);
+  const BoundaryProjector projector(model, boundary.kind);
+  const auto codes = edgeCodes(exchange, mesh, plan, boundary, projector, classification);
+  std::vector<ClosestPoint> hits;
+  attempt(exchange,
+    [&] { hits = projectMidpoints(mesh.mesh(), plan, codes, projector, classification); });
+  auto onBoundary = boundary.onBoundary;
+  for (std::size_t e = 0; e < codes.size(); ++e)
+  {
+    if (plan.marks[e])
+    {
+      onBoundary.push_back(codes[e] != 0);
+    }
+  }
+  RefinementTrace trace = refine(exchange, mesh, plan);
+  trace.projectedPoints = countOwnedHits(exchange, mesh, hits);
+  const Moves moves = movesOntoCAD(mesh.mesh(), hits, projector, classification);
+  classification.distances = moveVertices(exchange, mesh, moves, onBoundary);
+  return trace;
+}
+
+} // namespace cadrefine

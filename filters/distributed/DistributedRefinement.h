@@ -1,0 +1,57 @@
+// One level of refinement over all ranks.
+#pragma once
+
+#include "BoundaryProjector.h"
+#include "CADArrays.h"
+#include "DistributedMesh.h"
+#include "EdgeTable.h"
+#include "LongestEdgeMarking.h"
+#include "SharedEdges.h"
+#include "Split.h"
+
+#include <vector>
+
+namespace cadrefine
+{
+
+/// Which edges of a piece are cut.
+struct RefinementPlan
+{
+  EdgeTable table;
+  SharedEdges sharedEdges;
+  EdgeMarks marks;
+  bool uniform = false;
+};
+
+/// Marks all edges. Collective.
+RefinementPlan planUniform(RankExchange& exchange, const DistributedMesh& mesh);
+
+/// Marks the longest edges of the marked cells (one entry for each cell of the mesh's own
+/// dimension), and others until no vertex hangs on any rank. Collective; one message to each
+/// neighbour, of a byte a shared edge, for every time that marks cross between ranks.
+RefinementPlan planLongestEdge(
+  RankExchange& exchange, const DistributedMesh& mesh, const std::vector<unsigned char>& cellMarks);
+
+/// Number of children of each cell, by the dimension of the cells.
+std::array<std::vector<Index>, 4> countChildren(
+  const SimplexMesh& mesh, const RefinementPlan& plan);
+
+/// What refinement made of a mesh, beside the mesh: how to carry arrays over.
+struct RefinementTrace
+{
+  std::vector<std::array<Index, 2>> parentEdges; ///< See SplitMesh.
+  std::array<std::vector<Index>, 4> parentCells;
+  std::int64_t projectedPoints = 0; ///< Over all ranks.
+};
+
+/// Cuts the mesh as planned (new vertices at midpoints; new ids by a parallel sort of the ids of
+/// the edges' ends, so that they do not depend on the partition). Collective.
+RefinementTrace refine(RankExchange& exchange, DistributedMesh& mesh, const RefinementPlan& plan);
+
+/// The same, and then moves the new vertices of classified edges onto the CAD, each onto the entity
+/// of its edge (S. Strunk, KTH 2013, Algorithm 4.3), as far as all cells stay valid; vertices that
+/// stopped on the way earlier try again. Collective.
+RefinementTrace refineOntoCAD(RankExchange& exchange, DistributedMesh& mesh,
+  const RefinementPlan& plan, const CADModel& model, Classification& classification);
+
+} // namespace cadrefine

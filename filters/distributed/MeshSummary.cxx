@@ -1,0 +1,128 @@
+#include "MeshSummary.h"
+
+#include "Quality.h"
+
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkIdTypeArray.h>
+#include <vtkNew.h>
+#include <vtkPointSet.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace cadrefine
+{
+namespace
+{
+
+/// Unit normal of the coordinate plane in which all triangles lie, turned the way most of them
+/// turn; zero where there is no such plane.
+Vector3 planeNormal(RankExchange& exchange, const SimplexMesh& mesh)
+{
+  std::vector<std::int64_t> turns(3, 0);
+  std::vector<std::int64_t> outside(3, 0);
+  for (const auto& cell : mesh.triangles)
+  {
+    const Vector3 area =
+      twofoldAreaVector(mesh.points[cell[0]], mesh.points[cell[1]], mesh.points[cell[2]]);
+    for (int k = 0; k < 3; ++k)
+    {
+      turns[k] += (area[k] > 0) - (area[k] < 0);
+      outside[k] += area[(k + 1) % 3] != 0 || area[(k + 2) % 3] != 0;
+    }
+  }
+  turns = exchange.sum(turns);
+  outside = exchange.sum(outside);
+  Vector3 normal{};
+  for (int k = 0; k < 3; ++k)
+  {
+    normal[k] = outside[k] == 0 ? (turns[k] < 0 ? -1 : 1) : 0;
+  }
+  return squaredNorm(normal) == 1 ? normal : Vector3{};
+}
+
+std::vector<double> meanRatios(RankExchange& exchange, const SimplexMesh& mesh)
+{
+  std::vector<double> ratios;
+  const auto& p = mesh.points;
+  if (mesh.dimension == 3)
+  {
+    for (const auto& cell : mesh.tetrahedra)
+    {
+      ratios.push_back(meanRatio(p[cell[0]], p[cell[1]], p[cell[2]], p[cell[3]]));
+    }
+    return ratios;
+  }
+  const Vector3 normal = planeNormal(exchange, mesh);
+  for (const auto& cell : mesh.triangles)
+  {
+    const double ratio = meanRatio(p[cell[0]], p[cell[1]], p[cell[2]]);
+    const double turn = dot(normal, twofoldAreaVector(p[cell[0]], p[cell[1]], p[cell[2]]));
+    ratios.push_back(turn < 0 ? -ratio : ratio);
+  }
+  return ratios;
+}
+
+} // namespace
+
+CellQualities measureQuality(RankExchange& exchange, const DistributedMesh& mesh)
+{
+  CellQualities result;
+  result.meanRatios = meanRatios(exchange, mesh.mesh());
+  std::int64_t invalid = 0;
+  double minimum = std::numeric_limits<double>::infinity();
+  for (const double ratio : result.meanRatios)
+  {
+    result.valid.push_back(ratio > 0);
+    invalid += !(ratio > 0);
+    minimum = std::min(minimum, ratio);
+  }
+  result.invalidCells = exchange.sum(invalid);
+  result.minimum = exchange.min(minimum);
+  return result;
+}
+
+void setFieldValue(vtkPointSet* output, const char* name, double value)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  array->InsertNextValue(value);
+  output->GetFieldData()->AddArray(array);
+}
+
+void setFieldValue(vtkPointSet* output, const char* name, std::int64_t value)
+{
+  vtkNew<vtkIdTypeArray> array;
+  array->SetName(name);
+  array->InsertNextValue(value);
+  output->GetFieldData()->AddArray(array);
+}
+
+void summariseMesh(RankExchange& exchange, const DistributedMesh& mesh, vtkPointSet* output)
+{
+  const MeshCounts counts = countMesh(exchange, mesh);
+  const CellQualities qualities = measureQuality(exchange, mesh);
+  setFieldValue(output, "GlobalVertices", counts.vertices);
+  setFieldValue(output, "GlobalCells", counts.cells);
+  setFieldValue(output, "InvalidCells", qualities.invalidCells);
+  setFieldValue(output, "MinimumQuality", qualities.minimum);
+}
+
+void summariseProjection(RankExchange& exchange, const DistributedMesh& mesh,
+  const Classification& classification, std::int64_t projectedPoints, vtkPointSet* output)
+{
+  const auto owned = mesh.shared.ownedHere(static_cast<Index>(mesh.mesh().points.size()));
+  std::vector<std::int64_t> counts(2, 0);
+  for (std::size_t v = 0; v < owned.size(); ++v)
+  {
+    counts[0] += owned[v] && classification.entities[v];
+    counts[1] += owned[v] && classification.distances[v] > 0;
+  }
+  counts = exchange.sum(counts);
+  setFieldValue(output, "CADVertices", counts[0]);
+  setFieldValue(output, "UnprojectedVertices", counts[1]);
+  setFieldValue(output, "ProjectedPoints", projectedPoints);
+}
+
+} // namespace cadrefine

@@ -1,0 +1,39 @@
+// Numbers of the whole mesh, as field data.
+#pragma once
+
+#include "CADArrays.h"
+#include "DistributedMesh.h"
+
+#include <cstdint>
+
+class vtkPointSet;
+
+namespace cadrefine
+{
+
+/// Validity and quality of each cell of the mesh's own dimension.
+struct CellQualities
+{
+  std::vector<double> meanRatios;   ///< Negative where inverted.
+  std::vector<unsigned char> valid; ///< 0: inverted or degenerate.
+  std::int64_t invalidCells = 0;    ///< Over all ranks.
+  double minimum = 1;               ///< Over all ranks.
+};
+
+/// Tetrahedra are valid if their volume is positive in VTK's order of vertices. Triangles are valid
+/// if their area is positive and, where all lie in a coordinate plane, they turn the way most do.
+/// Collective; two reductions.
+CellQualities measureQuality(RankExchange& exchange, const DistributedMesh& mesh);
+
+/// Adds a field array of one value to `output`.
+void setFieldValue(vtkPointSet* output, const char* name, double value);
+void setFieldValue(vtkPointSet* output, const char* name, std::int64_t value);
+
+/// Adds GlobalVertices, GlobalCells, InvalidCells and MinimumQuality. Collective.
+void summariseMesh(RankExchange& exchange, const DistributedMesh& mesh, vtkPointSet* output);
+
+/// Adds CADVertices, UnprojectedVertices and ProjectedPoints. Collective.
+void summariseProjection(RankExchange& exchange, const DistributedMesh& mesh,
+  const Classification& classification, std::int64_t projectedPoints, vtkPointSet* output);
+
+} // namespace cadrefine

@@ -1,0 +1,50 @@
+// Between VTK's data sets and the core's meshes.
+#pragma once
+
+#include "RankExchange.h"
+#include "SimplexMesh.h"
+
+#include <vtkSmartPointer.h>
+#include <vtkType.h>
+
+#include <array>
+#include <vector>
+
+class vtkDataSetAttributes;
+class vtkPointSet;
+
+namespace cadrefine
+{
+
+/// A piece of a mesh, and where its vertices and cells come from in the data set it was made from.
+struct ConvertedMesh
+{
+  SimplexMesh mesh;
+  std::vector<vtkIdType> pointOf;
+  /// By the dimension of the cells; cells of each dimension in the order of the data set.
+  std::array<std::vector<vtkIdType>, 4> cellOf;
+  /// Global ids of the cells, likewise.
+  std::array<std::vector<GlobalId>, 4> cellIds;
+};
+
+/// Reads tetrahedra, triangles, lines and vertices from a vtkUnstructuredGrid or vtkPolyData on
+/// each rank. Ghost cells and points that no cell uses are left out; points with the same global id
+/// on a rank become one vertex. Ids come from the data set's global ids if every rank has them, and
+/// otherwise from coordinates (vertices) and vertices (cells): they then do not depend on the
+/// partition, and points that coincide are one vertex. Collective.
+///
+/// Without cells, every point becomes a cell of dimension 0. The mesh's dimension is that of its
+/// cells of highest dimension on any rank, and 0 for points alone.
+///
+/// Throws Error on all ranks for any other cell (named), for a mesh without points, for a mesh of
+/// lines, for coordinates that are not finite, for a cell that names a vertex twice.
+ConvertedMesh convert(RankExchange& exchange, vtkPointSet* input);
+
+/// An empty data set of the class of `input` with the mesh's points (double precision) and cells:
+/// vertices, lines, triangles, tetrahedra. No arrays.
+vtkSmartPointer<vtkPointSet> makePointSet(vtkPointSet* input, const SimplexMesh& mesh);
+
+/// Cell numbers of a data set made by makePointSet are those of dimension 0 first, then 1, 2, 3.
+vtkIdType firstCellOfDimension(const SimplexMesh& mesh, int dimension);
+
+} // namespace cadrefine

@@ -1,0 +1,45 @@
+#include "vtkMeshValidity.h"
+
+#include "ArrayTransfer.h"
+#include "MeshSummary.h"
+
+#include <vtkCellData.h>
+#include <vtkDoubleArray.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkPointSet.h>
+#include <vtkSignedCharArray.h>
+
+vtkStandardNewMacro(vtkMeshValidity);
+
+vtkMeshValidity::vtkMeshValidity() : vtkSimplexMeshAlgorithm(false) {}
+
+vtkMeshValidity::~vtkMeshValidity() = default;
+
+void vtkMeshValidity::Execute(cadrefine::RankExchange& exchange, vtkPointSet* input,
+  const cadrefine::CADModel*, vtkPointSet* output)
+{
+  using namespace cadrefine;
+  const DistributedMesh mesh = makeDistributedMesh(exchange, input);
+  const CellQualities qualities = measureQuality(exchange, mesh);
+  output->ShallowCopy(makePointSet(input, mesh.mesh()));
+  copyArrays(input, mesh.converted, output);
+
+  vtkNew<vtkSignedCharArray> validity;
+  validity->SetName("CellValidity");
+  validity->SetNumberOfValues(output->GetNumberOfCells());
+  validity->FillValue(1);
+  vtkNew<vtkDoubleArray> quality;
+  quality->SetName("CellQuality");
+  quality->SetNumberOfValues(output->GetNumberOfCells());
+  quality->FillValue(1);
+  const vtkIdType first = firstCellOfDimension(mesh.mesh(), mesh.mesh().dimension);
+  for (std::size_t c = 0; c < qualities.meanRatios.size(); ++c)
+  {
+    validity->SetValue(first + static_cast<vtkIdType>(c), qualities.valid[c]);
+    quality->SetValue(first + static_cast<vtkIdType>(c), qualities.meanRatios[c]);
+  }
+  output->GetCellData()->AddArray(validity);
+  output->GetCellData()->AddArray(quality);
+  summariseMesh(exchange, mesh, output);
+}

@@ -1,0 +1,36 @@
+/**
+ * @class vtkMeshValidity
+ * @brief finds inverted and degenerate cells, and gives the quality of each
+ *
+ * Takes a mesh (see vtkSimplexMeshAlgorithm). Output: the mesh with the cell arrays CellValidity
+ * (signed char: 1 valid, 0 inverted or degenerate) and CellQuality (mean ratio: 1 is equilateral, 0
+ * flat, negative inverted), and field data InvalidCells and MinimumQuality over all ranks.
+ * Tetrahedra are valid if their volume is positive in VTK's order of vertices; triangles if their
+ * area is positive and, in a coordinate plane, they turn the way most do. Cells of lower dimension
+ * are valid with quality 1. Cost: linear in the number of cells, two reductions.
+ */
+#ifndef vtkMeshValidity_h
+#define vtkMeshValidity_h
+
+#include "CADRefineFiltersModule.h"
+#include "vtkSimplexMeshAlgorithm.h"
+
+class CADREFINEFILTERS_EXPORT vtkMeshValidity : public vtkSimplexMeshAlgorithm
+{
+public:
+  static vtkMeshValidity* New();
+  vtkTypeMacro(vtkMeshValidity, vtkSimplexMeshAlgorithm);
+
+protected:
+  vtkMeshValidity();
+  ~vtkMeshValidity() override;
+
+  void Execute(cadrefine::RankExchange& exchange, vtkPointSet* input,
+    const cadrefine::CADModel* model, vtkPointSet* output) override;
+
+private:
+  vtkMeshValidity(const vtkMeshValidity&) = delete;
+  void operator=(const vtkMeshValidity&) = delete;
+};
+
+#endif

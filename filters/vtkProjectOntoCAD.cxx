@@ -1,0 +1,59 @@
+#include "vtkProjectOntoCAD.h"
+
+#include "ArrayTransfer.h"
+#include "InitialProjection.h"
+#include "MeshSummary.h"
+
+#include <vtkObjectFactory.h>
+#include <vtkPointSet.h>
+
+#include <algorithm>
+
+vtkStandardNewMacro(vtkProjectOntoCAD);
+
+vtkProjectOntoCAD::vtkProjectOntoCAD() : vtkSimplexMeshAlgorithm(true) {}
+
+vtkProjectOntoCAD::~vtkProjectOntoCAD() = default;
+
+void vtkProjectOntoCAD::Execute(cadrefine::RankExchange& exchange, vtkPointSet* input,
+  const cadrefine::CADModel* model, vtkPointSet* output)
+{
+  using namespace cadrefine;
+  ProjectionOptions options;
+  options.maximumDistance = this->MaximumDistance;
+  if (this->UseRegion)
+  {
+    std::copy_n(this->Region, 6, options.region.emplace().begin());
+  }
+
+  DistributedMesh mesh = makeDistributedMesh(exchange, input);
+  ProjectionResult result;
+  if (mesh.mesh().dimension == 0)
+  {
+    result = projectPoints(exchange, mesh, *model, options);
+  }
+  else
+  {
+    const DistributedBoundary boundary = findBoundary(exchange, mesh, *model);
+    const BoundaryProjector projector(*model, boundary.kind);
+    result = projectBoundary(exchange, mesh, projector, boundary, options);
+  }
+
+  output->ShallowCopy(makePointSet(input, mesh.mesh()));
+  copyArrays(input, mesh.converted, output);
+  writeClassification(output, result.classification);
+  summariseMesh(exchange, mesh, output);
+  summariseProjection(exchange, mesh, result.classification, result.projectedPoints, output);
+}
+
+void vtkProjectOntoCAD::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "UseRegion: " << this->UseRegion << "\n";
+  os << indent << "Region:";
+  for (const double bound : this->Region)
+  {
+    os << " " << bound;
+  }
+  os << "\n" << indent << "MaximumDistance: " << this->MaximumDistance << "\n";
+}

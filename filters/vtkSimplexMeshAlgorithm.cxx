@@ -1,0 +1,79 @@
+#include "vtkSimplexMeshAlgorithm.h"
+
+#include "Agreement.h"
+#include "CADModel.h"
+#include "RankExchange.h"
+#include "vtkCADModelCache.h"
+
+#include <vtkDataObject.h>
+#include <vtkInformation.h>
+#include <vtkInformationVector.h>
+#include <vtkMultiProcessController.h>
+#include <vtkPointSet.h>
+
+vtkCxxSetObjectMacro(vtkSimplexMeshAlgorithm, Controller, vtkMultiProcessController);
+
+vtkSimplexMeshAlgorithm::vtkSimplexMeshAlgorithm(bool needsCAD)
+{
+  this->SetNumberOfInputPorts(needsCAD ? 2 : 1);
+  this->SetController(vtkMultiProcessController::GetGlobalController());
+}
+
+vtkSimplexMeshAlgorithm::~vtkSimplexMeshAlgorithm()
+{
+  this->SetController(nullptr);
+}
+
+int vtkSimplexMeshAlgorithm::FillInputPortInformation(int port, vtkInformation* info)
+{
+  if (port == 1)
+  {
+    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPartitionedDataSetCollection");
+    return 1;
+  }
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  return 1;
+}
+
+std::shared_ptr<const cadrefine::CADModel> vtkSimplexMeshAlgorithm::FindModel(
+  cadrefine::RankExchange& exchange, vtkInformationVector* input) const
+{
+  std::shared_ptr<const cadrefine::CADModel> model;
+  cadrefine::attempt(
+    exchange, [&] { model = vtkCADModelCache::Get(vtkDataObject::GetData(input)); });
+  return model;
+}
+
+int vtkSimplexMeshAlgorithm::RequestData(
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  vtkPointSet* input = vtkPointSet::GetData(inputs[0]);
+  vtkPointSet* output = vtkPointSet::GetData(outputs);
+  try
+  {
+    cadrefine::RankExchange exchange(this->Controller);
+    std::shared_ptr<const cadrefine::CADModel> model;
+    if (this->GetNumberOfInputPorts() == 2)
+    {
+      model = this->FindModel(exchange, inputs[1]);
+    }
+    this->Execute(exchange, input, model.get(), output);
+    return 1;
+  }
+  catch (const std::exception& error)
+  {
+    output->Initialize();
+    if (!this->Controller || this->Controller->GetLocalProcessId() == 0)
+    {
+      vtkErrorMacro(<< error.what());
+    }
+    return 0;
+  }
+}
+
+void vtkSimplexMeshAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Controller: " << this->Controller << "\n";
+}

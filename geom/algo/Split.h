@@ -1,0 +1,47 @@
+// Splitting cells at the midpoints of marked edges.
+#pragma once
+
+#include "EdgeTable.h"
+#include "LongestEdgeMarking.h"
+#include "SimplexMesh.h"
+
+#include <array>
+#include <vector>
+
+namespace cadrefine
+{
+
+/// A split mesh. Its first points are those of the mesh that was split, the new ones follow.
+struct SplitMesh
+{
+  SimplexMesh mesh;
+  /// Ends of the edge that each new vertex halves, smaller id first, in the order of the new
+  /// points.
+  std::vector<std::array<Index, 2>> parentEdges;
+  /// For each cell the cell that it is part of, ascending, by the dimension of the cell.
+  std::array<std::vector<Index>, 4> parentCells;
+};
+
+/// New vertices at the midpoints of the marked edges.
+struct Midpoints
+{
+  std::vector<Index> ofEdge;                     ///< New vertex of each edge, or -1.
+  std::vector<std::array<Index, 2>> parentEdges; ///< See SplitMesh.
+  std::vector<Index> edges;                      ///< Edge of each new vertex.
+};
+
+Midpoints makeMidpoints(const SimplexMesh& mesh, const EdgeTable& table, const EdgeMarks& marks);
+
+/// Recursive bisection of each cell at the longest of its marked edges. Children have the parent's
+/// orientation and, since they are parts of it cut straight, its validity. `ids` are the global ids
+/// of the new vertices.
+SplitMesh splitMarked(const SimplexMesh& mesh, const EdgeTable& table, const Midpoints& midpoints,
+  const std::vector<GlobalId>& ids);
+
+/// Regular splitting; every edge must have a midpoint. Triangles give 4, tetrahedra 8: one at each
+/// corner and four round the shortest diagonal of the octahedron between (ties by global id).
+/// J. Bey, "Tetrahedral grid refinement", Computing 55, 1995.
+SplitMesh splitUniformly(const SimplexMesh& mesh, const EdgeTable& table,
+  const Midpoints& midpoints, const std::vector<GlobalId>& ids);
+
+} // namespace cadrefine

@@ -1,0 +1,133 @@
+#include "BezierConversion.h"
+
+#include <Geom2dConvert.hxx>
+#include <Geom2dConvert_BSplineCurveToBezierCurve.hxx>
+#include <Geom2d_BSplineCurve.hxx>
+#include <Geom2d_BezierCurve.hxx>
+#include <Geom2d_TrimmedCurve.hxx>
+#include <GeomConvert.hxx>
+#include <GeomConvert_BSplineCurveToBezierCurve.hxx>
+#include <GeomConvert_BSplineSurfaceToBezierSurface.hxx>
+#include <Geom_BSplineCurve.hxx>
+#include <Geom_BSplineSurface.hxx>
+#include <Geom_BezierCurve.hxx>
+#include <Geom_BezierSurface.hxx>
+#include <Geom_RectangularTrimmedSurface.hxx>
+#include <Geom_TrimmedCurve.hxx>
+#include <TColGeom_Array2OfBezierSurface.hxx>
+#include <TColStd_Array1OfReal.hxx>
+
+namespace cadrefine
+{
+namespace
+{
+
+ControlPoint homogeneous(const gp_Pnt& p, double w)
+{
+  return { w * p.X(), w * p.Y(), w * p.Z(), w };
+}
+
+BezierPatch toPatch(const Geom_BezierSurface& surface)
+{
+  BezierPatch patch;
+  patch.degreeU = surface.UDegree();
+  patch.degreeV = surface.VDegree();
+  for (int i = 1; i <= surface.NbUPoles(); ++i)
+  {
+    for (int j = 1; j <= surface.NbVPoles(); ++j)
+    {
+      patch.points.push_back(homogeneous(surface.Pole(i, j), surface.Weight(i, j)));
+    }
+  }
+  return patch;
+}
+
+Handle(Geom_BSplineSurface) toBSpline(Handle(Geom_Surface) surface)
+{
+  Handle(Geom_Surface) basis = surface;
+  while (const auto trimmed = Handle(Geom_RectangularTrimmedSurface)::DownCast(basis))
+  {
+    basis = trimmed->BasisSurface();
+  }
+  const auto spline = Handle(Geom_BSplineSurface)::DownCast(basis);
+  return spline.IsNull() ? GeomConvert::SurfaceToBSplineSurface(surface)
+                         : Handle(Geom_BSplineSurface)::DownCast(spline->Copy());
+}
+
+} // namespace
+
+std::vector<BezierCurve> bezierPieces(const Handle(Geom_Curve) & curve, double first, double last)
+{
+  const Handle(Geom_BSplineCurve) spline =
+    GeomConvert::CurveToBSplineCurve(new Geom_TrimmedCurve(curve, first, last));
+  // A range beyond the seam of a periodic curve may come back one period off.
+  const double shift = first - spline->FirstParameter();
+  GeomConvert_BSplineCurveToBezierCurve converter(spline);
+  TColStd_Array1OfReal knots(1, converter.NbArcs() + 1);
+  converter.Knots(knots);
+  std::vector<BezierCurve> pieces(converter.NbArcs());
+  for (int k = 1; k <= converter.NbArcs(); ++k)
+  {
+    const Handle(Geom_BezierCurve) arc = converter.Arc(k);
+    BezierCurve& piece = pieces[k - 1];
+    piece.t0 = knots(k) + shift;
+    piece.t1 = knots(k + 1) + shift;
+    for (int i = 1; i <= arc->NbPoles(); ++i)
+    {
+      piece.points.push_back(homogeneous(arc->Pole(i), arc->Weight(i)));
+    }
+  }
+  return pieces;
+}
+
+std::vector<BezierCurve2> bezierPieces(
+  const Handle(Geom2d_Curve) & curve, double first, double last)
+{
+  const Handle(Geom2d_BSplineCurve) spline =
+    Geom2dConvert::CurveToBSplineCurve(new Geom2d_TrimmedCurve(curve, first, last));
+  Geom2dConvert_BSplineCurveToBezierCurve converter(spline);
+  std::vector<BezierCurve2> pieces(converter.NbArcs());
+  for (int k = 1; k <= converter.NbArcs(); ++k)
+  {
+    const Handle(Geom2d_BezierCurve) arc = converter.Arc(k);
+    for (int i = 1; i <= arc->NbPoles(); ++i)
+    {
+      const double w = arc->Weight(i);
+      const gp_Pnt2d p = arc->Pole(i);
+      pieces[k - 1].points.push_back({ w * p.X(), w * p.Y(), w });
+    }
+  }
+  return pieces;
+}
+
+PatchGrid bezierPatches(const Handle(Geom_Surface) & surface)
+{
+  const Handle(Geom_BSplineSurface) spline = toBSpline(surface);
+  PatchGrid grid;
+  grid.periodU = spline->IsUPeriodic() ? spline->UPeriod() : 0;
+  grid.periodV = spline->IsVPeriodic() ? spline->VPeriod() : 0;
+  spline->SetUNotPeriodic();
+  spline->SetVNotPeriodic();
+  GeomConvert_BSplineSurfaceToBezierSurface converter(spline);
+  grid.patchesU = converter.NbUPatches();
+  grid.patchesV = converter.NbVPatches();
+  TColStd_Array1OfReal u(1, grid.patchesU + 1);
+  TColStd_Array1OfReal v(1, grid.patchesV + 1);
+  converter.UKnots(u);
+  converter.VKnots(v);
+  for (int i = 1; i <= grid.patchesU; ++i)
+  {
+    for (int j = 1; j <= grid.patchesV; ++j)
+    {
+      BezierPatch patch = toPatch(*converter.Patch(i, j));
+      patch.u0 = u(i);
+      patch.u1 = u(i + 1);
+      patch.v0 = v(j);
+      patch.v1 = v(j + 1);
+      grid.patches.push_back(std::move(patch));
+    }
+  }
+  return grid;
+}
+
+} // namespace cadrefine

@@ -1,0 +1,36 @@
+// Bezier pieces of Open CASCADE's curves and surfaces. Private to geom/cad.
+#pragma once
+
+#include "Bezier.h"
+
+#include <Geom2d_Curve.hxx>
+#include <Geom_Curve.hxx>
+#include <Geom_Surface.hxx>
+
+#include <vector>
+
+namespace cadrefine
+{
+
+/// Pieces of `curve` between its parameters `first` and `last`, in order; the pieces' parameters
+/// are the curve's own.
+std::vector<BezierCurve> bezierPieces(const Handle(Geom_Curve) & curve, double first, double last);
+
+/// Pieces of a curve in a parameter plane, in order.
+std::vector<BezierCurve2> bezierPieces(
+  const Handle(Geom2d_Curve) & curve, double first, double last);
+
+/// A grid of patches as NurbsFace has it, and where the parameters repeat.
+struct PatchGrid
+{
+  std::vector<BezierPatch> patches;
+  int patchesU = 0;
+  int patchesV = 0;
+  double periodU = 0; ///< 0: not periodic.
+  double periodV = 0;
+};
+
+/// The whole of a B-spline surface (or of a trimmed one's basis), one period of a periodic one.
+PatchGrid bezierPatches(const Handle(Geom_Surface) & surface);
+
+} // namespace cadrefine

@@ -1,0 +1,38 @@
+// Open CASCADE's own files, text or binary. They carry no unit.
+
+#include "OccGuard.h"
+#include "ShapeReaders.h"
+
+#include <BRepTools.hxx>
+#include <BRep_Builder.hxx>
+#include <BinTools.hxx>
+
+#include <fstream>
+
+namespace cadrefine
+{
+
+ReadShape readBrep(const std::string& path)
+{
+  ReadShape result;
+  std::ifstream file(path, std::ios::binary);
+  std::string start(30, '\0');
+  file.read(start.data(), static_cast<std::streamsize>(start.size()));
+  file.clear();
+  file.seekg(0);
+  if (start.find("Open CASCADE Topology") != std::string::npos)
+  {
+    BinTools::Read(result.shape, file);
+  }
+  else
+  {
+    BRepTools::Read(result.shape, file, BRep_Builder());
+  }
+  if (result.shape.IsNull())
+  {
+    throw Error(path + ": not a BREP file that can be read");
+  }
+  return result;
+}
+
+} // namespace cadrefine

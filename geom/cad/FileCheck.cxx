@@ -1,0 +1,115 @@
+#include "FileCheck.h"
+
+#include "Error.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <map>
+
+namespace cadrefine
+{
+namespace
+{
+
+CADFormat formatOf(const std::string& path)
+{
+  static const std::map<std::string, CADFormat> formats{ { ".igs", CADFormat::Iges },
+    { ".iges", CADFormat::Iges }, { ".stp", CADFormat::Step }, { ".step", CADFormat::Step },
+    { ".brep", CADFormat::Brep } };
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const auto found = formats.find(extension);
+  if (found == formats.end())
+  {
+    throw Error(path + ": unknown extension '" + extension +
+                "'; CAD files are .igs, .iges, .stp, .step or .brep");
+  }
+  return found->second;
+}
+
+void checkReadable(const std::string& path)
+{
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (status.type() == std::filesystem::file_type::not_found)
+  {
+    throw Error(path + ": no such file");
+  }
+  if (error)
+  {
+    throw Error(path + ": " + error.message());
+  }
+  if (status.type() == std::filesystem::file_type::directory)
+  {
+    throw Error(path + ": is a directory, not a CAD file");
+  }
+  errno = 0;
+  if (!std::ifstream(path, std::ios::binary))
+  {
+    throw Error(path + ": cannot be opened: " + std::strerror(errno));
+  }
+}
+
+std::string beginning(const std::string& path)
+{
+  std::string text(4096, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  return text;
+}
+
+/// An IGES line has 80 columns, the section's letter in the 73rd ('S', 'C' or 'B' at first) and a
+/// number after it.
+bool looksLikeIges(const std::string& text)
+{
+  constexpr std::size_t column = 72;
+  const std::size_t end = text.find_first_of("\r\n");
+  const std::string line = text.substr(0, end);
+  return line.size() > column && std::strchr("SCB", line[column]) != nullptr &&
+         std::all_of(line.begin() + column + 1, line.end(),
+           [](unsigned char c) { return std::isdigit(c) || std::isspace(c); });
+}
+
+bool looksLike(CADFormat format, const std::string& text)
+{
+  switch (format)
+  {
+    case CADFormat::Iges:
+      return looksLikeIges(text);
+    case CADFormat::Step:
+      return text.find("ISO-10303-21") != std::string::npos;
+    default:
+      return text.find("CASCADE Topology V") != std::string::npos;
+  }
+}
+
+std::string nameOf(CADFormat format)
+{
+  return format == CADFormat::Iges ? "IGES" : format == CADFormat::Step ? "STEP" : "BREP";
+}
+
+} // namespace
+
+CADFormat checkFile(const std::string& path)
+{
+  checkReadable(path);
+  const CADFormat format = formatOf(path);
+  const std::string text = beginning(path);
+  if (text.empty())
+  {
+    throw Error(path + ": the file is empty");
+  }
+  if (!looksLike(format, text))
+  {
+    throw Error(path + ": does not begin like a file in " + nameOf(format) + " format");
+  }
+  return format;
+}
+
+} // namespace cadrefine

@@ -1,0 +1,20 @@
+// What can be told of a CAD file before it is read. Private to geom/cad.
+#pragma once
+
+#include <string>
+
+namespace cadrefine
+{
+
+enum class CADFormat
+{
+  Iges,
+  Step,
+  Brep
+};
+
+/// The format of the file, by its extension. Throws Error where it is missing, is no file, may not
+/// be read, is empty, has another extension or does not begin as such a file does.
+CADFormat checkFile(const std::string& path);
+
+} // namespace cadrefine

@@ -1,0 +1,42 @@
+#include "OccGuard.h"
+
+#include <Message.hxx>
+#include <Message_Messenger.hxx>
+#include <Message_Printer.hxx>
+
+#include <sstream>
+
+namespace cadrefine
+{
+
+QuietMessages::QuietMessages()
+{
+  this->printers_ = Message::DefaultMessenger()->Printers();
+  Message::DefaultMessenger()->ChangePrinters().Clear();
+}
+
+QuietMessages::~QuietMessages()
+{
+  Message::DefaultMessenger()->ChangePrinters() = this->printers_;
+}
+
+std::string oneLine(const std::string& text)
+{
+  std::istringstream words(text);
+  std::string line;
+  for (std::string word; words >> word;)
+  {
+    line += (line.empty() ? "" : " ") + word;
+  }
+  return line;
+}
+
+std::string describe(const Standard_Failure& failure)
+{
+  const char* const message = failure.GetMessageString();
+  const std::string text = oneLine(message ? message : "");
+  const std::string type = failure.DynamicType()->Name();
+  return "Open CASCADE failed (" + type + (text.empty() ? "" : ": " + text) + ")";
+}
+
+} // namespace cadrefine

@@ -1,0 +1,37 @@
+// The entities of a shape and their indices. Private to geom/cad.
+#pragma once
+
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TopoDS_Face.hxx>
+#include <TopoDS_Vertex.hxx>
+
+#include <vector>
+
+namespace cadrefine
+{
+
+/// Entities of `shape` in the order in which TopExp::MapShapes meets them, which depends on the
+/// shape alone; degenerated edges are left out (they are only their vertex).
+class ShapeIndex
+{
+public:
+  explicit ShapeIndex(const TopoDS_Shape& shape);
+
+  const std::vector<TopoDS_Face>& faces() const { return this->faces_; }
+  const std::vector<TopoDS_Edge>& edges() const { return this->edges_; }
+  const std::vector<TopoDS_Vertex>& vertices() const { return this->vertices_; }
+
+  /// Index of an edge or vertex whatever its orientation; -1 for one that is not in the model.
+  int edge(const TopoDS_Shape& edge) const;
+  int vertex(const TopoDS_Shape& vertex) const;
+
+private:
+  std::vector<TopoDS_Face> faces_;
+  std::vector<TopoDS_Edge> edges_;
+  std::vector<TopoDS_Vertex> vertices_;
+  TopTools_IndexedMapOfShape edgeMap_;
+  TopTools_IndexedMapOfShape vertexMap_;
+};
+
+} // namespace cadrefine

@@ -1,0 +1,157 @@
+// STEP files, through Open CASCADE's reader.
+//
+// 1. Load the file; find its first length unit, and make it the unit of the transfer, so that
+//    nothing is scaled (parts in other units are scaled to this one).
+// 2. Transfer every root.
+// 3. List the entities that failed, and the faces and roots that gave no shape.
+
+#include "CheckLists.h"
+#include "LengthUnit.h"
+#include "OccGuard.h"
+#include "ShapeReaders.h"
+
+#include <BRep_Builder.hxx>
+#include <STEPConstruct_UnitContext.hxx>
+#include <STEPControl_Reader.hxx>
+#include <StepData_Protocol.hxx>
+#include <StepData_StepModel.hxx>
+#include <StepGeom_GeomRepContextAndGlobUnitAssCtxAndGlobUncertaintyAssCtx.hxx>
+#include <StepGeom_GeometricRepresentationContextAndGlobalUnitAssignedContext.hxx>
+#include <StepRepr_GlobalUnitAssignedContext.hxx>
+#include <StepSelect_StepType.hxx>
+#include <StepShape_FaceSurface.hxx>
+#include <TColStd_SequenceOfAsciiString.hxx>
+#include <TCollection_HAsciiString.hxx>
+#include <TopoDS_Compound.hxx>
+#include <XSControl_WorkSession.hxx>
+
+#include <cstdlib>
+#include <set>
+
+namespace cadrefine
+{
+namespace
+{
+
+Handle(StepRepr_GlobalUnitAssignedContext) unitsOf(const Handle(Standard_Transient) & entity)
+{
+  using WithUncertainty = StepGeom_GeomRepContextAndGlobUnitAssCtxAndGlobUncertaintyAssCtx;
+  using WithoutUncertainty = StepGeom_GeometricRepresentationContextAndGlobalUnitAssignedContext;
+  if (const Handle(WithUncertainty) context = Handle(WithUncertainty)::DownCast(entity))
+  {
+    return context->GlobalUnitAssignedContext();
+  }
+  if (const Handle(WithoutUncertainty) context = Handle(WithoutUncertainty)::DownCast(entity))
+  {
+    return context->GlobalUnitAssignedContext();
+  }
+  return {};
+}
+
+/// Length of the first unit that the file declares, in millimetres; 1 where it declares none.
+double findLengthUnit(STEPControl_Reader& reader)
+{
+  reader.SetSystemLengthUnit(1.0);
+  const Handle(StepData_StepModel) model = reader.StepModel();
+  for (int number = 1; number <= model->NbEntities(); ++number)
+  {
+    const Handle(StepRepr_GlobalUnitAssignedContext) units = unitsOf(model->Value(number));
+    STEPConstruct_UnitContext converter;
+    if (!units.IsNull() && (converter.ComputeFactors(units), converter.LengthDone()))
+    {
+      return converter.LengthFactor();
+    }
+  }
+  return 1;
+}
+
+/// What the file calls its unit, where the length is none of the usual ones.
+std::string unitName(STEPControl_Reader& reader, double millimetres)
+{
+  TColStd_SequenceOfAsciiString lengths, angles, solidAngles;
+  reader.FileUnits(lengths, angles, solidAngles);
+  const std::string name = shortUnitName(millimetres);
+  return lengths.IsEmpty() || !name.empty() ? name : shortUnitName(lengths(1).ToCString());
+}
+
+TopoDS_Shape joinRoots(const STEPControl_Reader& reader)
+{
+  BRep_Builder builder;
+  TopoDS_Compound compound;
+  builder.MakeCompound(compound);
+  for (int i = 1; i <= reader.NbShapes(); ++i)
+  {
+    builder.Add(compound, reader.Shape(i));
+  }
+  return compound;
+}
+
+UnreadEntity makeUnread(
+  const Handle(StepData_StepModel) & model, int number, const std::string& reason)
+{
+  UnreadEntity unread;
+  if (number > 0)
+  {
+    const Handle(Standard_Transient) entity = model->Value(number);
+    StepSelect_StepType typeOf;
+    typeOf.SetProtocol(model->Protocol());
+    const std::string type = typeOf.Value(entity, model);
+    const std::string label = model->StringLabel(entity)->ToCString();
+    unread.entity = label.size() > 1 ? std::atoi(label.c_str() + 1) : number;
+    unread.type = type.empty() ? "STEP" : "STEP " + type;
+  }
+  unread.reason = reason;
+  return unread;
+}
+
+std::vector<UnreadEntity> listUnread(STEPControl_Reader& reader)
+{
+  const Handle(StepData_StepModel) model = reader.StepModel();
+  FailureMap failures = collectFailures(reader.WS());
+  std::set<int> failed;
+  for (const auto& [number, reason] : failures)
+  {
+    failed.insert(number);
+  }
+  const auto addLost = [&](const Handle(Standard_Transient) & entity)
+  {
+    if (!hasShape(reader.WS(), entity) && !refersToAny(reader.WS(), entity, failed))
+    {
+      failures.emplace(model->Number(entity), "gives no shape");
+    }
+  };
+  for (int number = 1; number <= model->NbEntities(); ++number)
+  {
+    if (model->Value(number)->IsKind(STANDARD_TYPE(StepShape_FaceSurface)))
+    {
+      addLost(model->Value(number));
+    }
+  }
+  std::vector<UnreadEntity> unread;
+  for (const auto& [number, reason] : failures)
+  {
+    unread.push_back(makeUnread(model, number, reason));
+  }
+  return unread;
+}
+
+} // namespace
+
+ReadShape readStep(const std::string& path)
+{
+  STEPControl_Reader reader;
+  if (reader.ReadFile(path.c_str()) != IFSelect_RetDone || reader.StepModel().IsNull())
+  {
+    throw Error(path + ": not a STEP file that can be read");
+  }
+  ReadShape result;
+  const double millimetres = findLengthUnit(reader);
+  result.unit = unitName(reader, millimetres);
+  reader.SetSystemLengthUnit(millimetres);
+  reader.TransferRoots();
+  result.shape = joinRoots(reader);
+  result.unread = listUnread(reader);
+  return result;
+}
+
+} // namespace cadrefine

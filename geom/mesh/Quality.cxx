@@ -1,0 +1,33 @@
+#include "Quality.h"
+
+#include <cmath>
+
+namespace cadrefine
+{
+
+double sixfoldVolume(const Point3& a, const Point3& b, const Point3& c, const Point3& d)
+{
+  return dot(d - a, cross(b - a, c - a));
+}
+
+Vector3 twofoldAreaVector(const Point3& a, const Point3& b, const Point3& c)
+{
+  return cross(b - a, c - a);
+}
+
+double meanRatio(const Point3& a, const Point3& b, const Point3& c, const Point3& d)
+{
+  const double lengths = squaredNorm(b - a) + squaredNorm(c - a) + squaredNorm(d - a) +
+                         squaredNorm(c - b) + squaredNorm(d - b) + squaredNorm(d - c);
+  const double threefoldVolume = sixfoldVolume(a, b, c, d) / 2;
+  const double root = std::cbrt(threefoldVolume);
+  return lengths > 0 ? std::copysign(12 * root * root / lengths, threefoldVolume) : 0;
+}
+
+double meanRatio(const Point3& a, const Point3& b, const Point3& c)
+{
+  const double lengths = squaredNorm(b - a) + squaredNorm(c - b) + squaredNorm(a - c);
+  return lengths > 0 ? 2 * std::sqrt(3.0) * norm(twofoldAreaVector(a, b, c)) / lengths : 0;
+}
+
+} // namespace cadrefine

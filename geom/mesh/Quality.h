@@ -1,0 +1,27 @@
+// Volume, area and shape of simplices.
+#pragma once
+
+#include "SimplexMesh.h"
+#include "Vector3.h"
+
+#include <array>
+
+namespace cadrefine
+{
+
+/// Six times the signed volume; positive where vertex 3 lies on the side to which the normal of
+/// (0, 1, 2) points (VTK's order).
+double sixfoldVolume(const Point3& a, const Point3& b, const Point3& c, const Point3& d);
+
+/// Twice the area times the unit normal.
+Vector3 twofoldAreaVector(const Point3& a, const Point3& b, const Point3& c);
+
+/// Mean ratio, signed: 12 (3 V)^(2/3) / sum of squared edge lengths; 1 for the equilateral
+/// tetrahedron, 0 for a flat one, negative for an inverted one. (A. Liu, B. Joe, "Relationship
+/// between tetrahedron shape measures", BIT 34, 1994, eq. 2.4.)
+double meanRatio(const Point3& a, const Point3& b, const Point3& c, const Point3& d);
+
+/// Mean ratio of a triangle: 4 sqrt(3) A / sum of squared edge lengths, never negative.
+double meanRatio(const Point3& a, const Point3& b, const Point3& c);
+
+} // namespace cadrefine

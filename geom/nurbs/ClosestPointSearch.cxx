@@ -1,0 +1,225 @@
+#include "ClosestPointSearch.h"
+
+#include "LeafQuery.h"
+#include "SearchStructure.h"
+
+#include <cmath>
+
+namespace cadrefine
+{
+namespace
+{
+
+/// How an entity takes part in a query.
+enum class Role
+{
+  none,
+  itself,
+  border ///< An edge that is not asked for, but ends a face that is: the answer names the face.
+};
+
+Role roleOf(const SearchEntity& entity, const SearchScope& scope)
+{
+  switch (entity.id.dimension)
+  {
+    case 0:
+      return scope.vertices ? Role::itself : Role::none;
+    case 1:
+      if (scope.edges || (scope.sharpEdges && entity.sharp))
+      {
+        return Role::itself;
+      }
+      return scope.faces && entity.face >= 0 ? Role::border : Role::none;
+    default:
+      return scope.faces ? Role::itself : Role::none;
+  }
+}
+
+void visitTree(const SearchStructure& structure, int root, const Point3& q,
+  const SearchScope& scope, LeafQuery& query)
+{
+  const auto squaredLimit = [&query]()
+  {
+    const double limit = query.candidates().limit();
+    return limit * limit;
+  };
+  structure.tree.visitNear(root, q, squaredLimit,
+    [&](int item)
+    {
+      const SearchLeaf& leaf = structure.leaves[item];
+      const SearchEntity& entity = structure.entities[leaf.entity];
+      const Role role = roleOf(entity, scope);
+      if (role == Role::itself)
+      {
+        query.visit(leaf, entity.id, false);
+      }
+      else if (role == Role::border)
+      {
+        query.visit(leaf, { 2, entity.face }, true);
+      }
+    });
+}
+
+bool isFinite(const Point3& q)
+{
+  return std::isfinite(q[0]) && std::isfinite(q[1]) && std::isfinite(q[2]);
+}
+
+} // namespace
+
+struct ClosestPointSearch::Implementation
+{
+  explicit Implementation(const NurbsModel& model) : structure(model) {}
+
+  ClosestPoint answer(const Point3& q, const LeafQuery& query) const;
+  ClosestPoint onPatch(const Point3& q, const Candidate& candidate) const;
+  ClosestPoint onBorder(const Point3& q, const Candidate& candidate) const;
+  void visitEntity(EntityId id, const Point3& q, LeafQuery& query) const;
+  void visitEdge(int edge, const Point3& q, LeafQuery& query) const;
+
+  SearchStructure structure;
+};
+
+/// The point at the candidate's parameters, evaluated as anyone else would.
+ClosestPoint ClosestPointSearch::Implementation::onPatch(
+  const Point3& q, const Candidate& candidate) const
+{
+  const SearchPatch& patch = structure.patches[candidate.patch];
+  ClosestPoint result;
+  result.entity = candidate.id;
+  result.parameters = patch.parametersAt(candidate.s, candidate.t);
+  const ParameterRectangle& range = patch.range;
+  const double s = range.width() > 0 ? (result.parameters[0] - range.s0) / range.width() : 0.0;
+  const double t = range.height() > 0 ? (result.parameters[1] - range.t0) / range.height() : 0.0;
+  result.point = evaluateLocal(patch.view, s, t);
+  result.distance = distance(result.point, q);
+  return result;
+}
+
+/// The point of the face nearest to the candidate, which is on an edge that bounds the face.
+ClosestPoint ClosestPointSearch::Implementation::onBorder(
+  const Point3& q, const Candidate& candidate) const
+{
+  const Point3 onEdge =
+    evaluateLocal(structure.patches[candidate.patch].view, candidate.s, candidate.t);
+  LeafQuery query(structure, onEdge, std::numeric_limits<double>::infinity());
+  query.ignoreTrim();
+  const SearchEntity& face = structure.entities[structure.entityNumber(candidate.id)];
+  visitTree(structure, face.root, onEdge, {}, query);
+  const Candidate* onFace = query.candidates().winner();
+  if (!onFace)
+  {
+    // Nothing is left of the face within its loops: the edge is all there is.
+    Candidate edge = candidate;
+    edge.id = structure.entities[structure.patches[candidate.patch].entity].id;
+    return onPatch(q, edge);
+  }
+  return onPatch(q, *onFace);
+}
+
+ClosestPoint ClosestPointSearch::Implementation::answer(
+  const Point3& q, const LeafQuery& query) const
+{
+  ClosestPoint result;
+  if (const Candidate* winner = query.candidates().winner())
+  {
+    if (winner->patch < 0)
+    {
+      result.entity = winner->id;
+      result.point = structure.model.vertices[winner->id.index].point;
+      result.parameters.fill(std::numeric_limits<double>::quiet_NaN());
+      result.distance = winner->distance;
+    }
+    else
+    {
+      result = winner->border ? onBorder(q, *winner) : onPatch(q, *winner);
+    }
+  }
+  result.converged = query.converged();
+  return result;
+}
+
+void ClosestPointSearch::Implementation::visitEntity(
+  EntityId id, const Point3& q, LeafQuery& query) const
+{
+  visitTree(structure, structure.entities[structure.entityNumber(id)].root, q, {}, query);
+}
+
+void ClosestPointSearch::Implementation::visitEdge(
+  int index, const Point3& q, LeafQuery& query) const
+{
+  const NurbsEdge& edge = structure.model.edges[index];
+  visitEntity({ 1, index }, q, query);
+  for (const std::int32_t vertex : { edge.firstVertex, edge.lastVertex })
+  {
+    if (vertex >= 0)
+    {
+      visitEntity({ 0, vertex }, q, query);
+    }
+  }
+}
+
+ClosestPointSearch::ClosestPointSearch(const NurbsModel& model)
+  : implementation_(std::make_unique<const Implementation>(model))
+{
+}
+
+ClosestPointSearch::~ClosestPointSearch() = default;
+
+ClosestPoint ClosestPointSearch::nearest(const Point3& point, const SearchScope& scope) const
+{
+  if (!isFinite(point))
+  {
+    return {};
+  }
+  const SearchStructure& structure = implementation_->structure;
+  LeafQuery query(structure, point, scope.maximumDistance);
+  visitTree(structure, structure.root, point, scope, query);
+  return implementation_->answer(point, query);
+}
+
+ClosestPoint ClosestPointSearch::nearestOn(EntityId entity, const Point3& point) const
+{
+  const NurbsModel& model = implementation_->structure.model;
+  if (!isFinite(point) || !entity || entity.dimension > 2 || entity.index < 0 ||
+      entity.index >= model.count(entity.dimension))
+  {
+    return {};
+  }
+  LeafQuery query(implementation_->structure, point, std::numeric_limits<double>::infinity());
+  if (entity.dimension == 1)
+  {
+    implementation_->visitEdge(entity.index, point, query);
+  }
+  else
+  {
+    implementation_->visitEntity(entity, point, query);
+  }
+  if (entity.dimension == 2)
+  {
+    for (const std::int32_t edge : model.faces[entity.index].edges)
+    {
+      implementation_->visitEdge(edge, point, query);
+    }
+  }
+  return implementation_->answer(point, query);
+}
+
+ClosestPoint ClosestPointSearch::nearestOnSurface(int face, const Point3& point) const
+{
+  if (!isFinite(point) || face < 0 || face >= implementation_->structure.model.count(2))
+  {
+    return {};
+  }
+  LeafQuery query(implementation_->structure, point, std::numeric_limits<double>::infinity());
+  query.ignoreTrim();
+  implementation_->visitEntity({ 2, face }, point, query);
+  return implementation_->answer(point, query);
+}
+
+double ClosestPointSearch::modelSize() const
+{
+  return implementation_->structure.size;
+}
+
+} // namespace cadrefine

@@ -1,0 +1,61 @@
+// Interval arithmetic, to first order (no directed rounding). Private to geom/nurbs.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace cadrefine
+{
+
+struct Interval
+{
+  double low = 0;
+  double high = 0;
+
+  static Interval empty()
+  {
+    return { std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity() };
+  }
+  void include(double x)
+  {
+    low = std::min(low, x);
+    high = std::max(high, x);
+  }
+  double magnitude() const { return std::max(std::abs(low), std::abs(high)); }
+  double middle() const { return 0.5 * (low + high); }
+  double radius() const { return 0.5 * (high - low); }
+};
+
+inline Interval operator+(Interval a, Interval b)
+{
+  return { a.low + b.low, a.high + b.high };
+}
+
+inline Interval operator-(Interval a, Interval b)
+{
+  return { a.low - b.high, a.high - b.low };
+}
+
+inline Interval operator*(double s, Interval a)
+{
+  return s >= 0 ? Interval{ s * a.low, s * a.high } : Interval{ s * a.high, s * a.low };
+}
+
+inline Interval operator*(Interval a, Interval b)
+{
+  Interval product = Interval::empty();
+  product.include(a.low * b.low);
+  product.include(a.low * b.high);
+  product.include(a.high * b.low);
+  product.include(a.high * b.high);
+  return product;
+}
+
+/// Quotient by an interval of positive numbers.
+inline Interval operator/(Interval a, Interval positive)
+{
+  return a * Interval{ 1.0 / positive.high, 1.0 / positive.low };
+}
+
+} // namespace cadrefine

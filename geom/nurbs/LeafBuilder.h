@@ -1,0 +1,30 @@
+// Cuts patches and segments into leaves. Private to geom/nurbs.
+#pragma once
+
+#include "BoundingBoxTree.h"
+#include "SearchStructure.h"
+
+#include <vector>
+
+namespace cadrefine
+{
+
+struct LeafLimits
+{
+  double smallestRadius = 0;   ///< Leaves smaller than this are not split, however curved.
+  double largestCutRadius = 0; ///< Leaves larger than this that trim loops cut are split.
+  int mostLeaves = 0;          ///< Of one patch.
+};
+
+struct BuiltLeaf
+{
+  SearchLeaf leaf;
+  BoundingBox box;
+};
+
+/// Splits until the distance to each leaf is convex for points nearer than the leaf's radius, as
+/// far as `limits` allow. What lies outside `trim` (null: untrimmed) is dropped.
+std::vector<BuiltLeaf> buildLeaves(
+  const SearchPatch& patch, const TrimRegion* trim, const LeafLimits& limits);
+
+} // namespace cadrefine

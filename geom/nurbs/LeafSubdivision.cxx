@@ -1,0 +1,199 @@
+#include "LeafSubdivision.h"
+
+#include "BezierSubdivision.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cadrefine
+{
+namespace
+{
+
+/// Multiplications, roughly, that one query may spend on subdivision.
+constexpr double workLimit = 4e7;
+/// Rectangles smaller than this, of the patch, are not split.
+constexpr double smallestWidth = 1e-11;
+
+std::vector<double>& threadScratch(int which)
+{
+  thread_local std::vector<double> scratch[2];
+  return scratch[which];
+}
+
+/// Minimum of g x + a x^2 / 2 over [-1/2, 1/2], for any a.
+double leastOverHalves(double a, double g)
+{
+  const double slope = std::abs(g);
+  return slope < 0.5 * a ? -0.5 * g * g / a : 0.125 * a - 0.5 * slope;
+}
+
+/// Bound of a function over the square from its middle value, gradient and second derivatives.
+double secondOrderBound(const MiddleValue& middle, double ss, double st, double tt)
+{
+  const double ratio = ss > 0 && tt > 0 ? std::sqrt(ss / tt) : 1.0;
+  return middle.value + leastOverHalves(ss - st * ratio, middle.s) +
+         leastOverHalves(tt - st / ratio, middle.t);
+}
+
+} // namespace
+
+bool LeafSubdivision::Curvature::isConvex() const
+{
+  constexpr double margin = 1.0 + 1e-9;
+  const double twist = st.magnitude();
+  return ss.low > 0 && tt.low > 0 && ss.low * tt.low > margin * twist * twist;
+}
+
+LeafSubdivision::LeafSubdivision(LeafQuery& query, const SearchLeaf& leaf)
+  : query_(query), leaf_(leaf), forms_(threadScratch(0)), level_(threadScratch(1))
+{
+  const PatchView& view = query.structure_.patches[leaf.patch].view;
+  degrees_ = { 2 * view.degreeU, 2 * view.degreeV };
+}
+
+double* LeafSubdivision::numerator(int entry) const
+{
+  return forms_.data() + static_cast<std::size_t>(2 * entry) * degrees_.count();
+}
+
+double* LeafSubdivision::denominator(int entry) const
+{
+  return numerator(entry) + degrees_.count();
+}
+
+bool LeafSubdivision::spend(double work)
+{
+  query_.work_ += work;
+  query_.converged_ = query_.converged_ && query_.work_ <= workLimit;
+  return query_.work_ <= workLimit;
+}
+
+void LeafSubdivision::solveIn(const ParameterRectangle& box, const Part& start)
+{
+  query_.solve(leaf_, box, start.rectangle.middleS(), start.rectangle.middleT());
+}
+
+void LeafSubdivision::run()
+{
+  stack_ = { { leaf_.part, query_.trimOf(leaf_) != nullptr } };
+  solveIn(leaf_.part, stack_.front());
+  const PatchView& view = query_.structure_.patches[leaf_.patch].view;
+  const double count = view.count();
+  if (query_.candidates_.nearest() <= query_.tolerance_ || !spend(4.0 * count * count))
+  {
+    return;
+  }
+  const std::vector<ControlPoint> points = restrictPatch(view, leaf_.part);
+  level_.resize(degrees_.count());
+  forms_.resize(std::max<std::size_t>(forms_.size(), 2 * degrees_.count()));
+  squaredDistanceForm(
+    { points.data(), view.degreeU, view.degreeV }, query_.q_, numerator(0), denominator(0));
+  const double cost = degrees_.count() * (degrees_.s + degrees_.t + 12.0);
+  while (!stack_.empty() && spend(cost))
+  {
+    const int last = static_cast<int>(stack_.size()) - 1;
+    if (isDropped(last))
+    {
+      stack_.pop_back();
+    }
+    else
+    {
+      split(last);
+    }
+  }
+}
+
+bool LeafSubdivision::isTrimmedAway(Part& part) const
+{
+  if (!part.cut)
+  {
+    return false;
+  }
+  const SearchPatch& patch = query_.structure_.patches[leaf_.patch];
+  const auto low = patch.parametersAt(part.rectangle.s0, part.rectangle.t0);
+  const auto high = patch.parametersAt(part.rectangle.s1, part.rectangle.t1);
+  const TrimCover cover = query_.trimOf(leaf_)->classify({ low[0], high[0], low[1], high[1] });
+  part.cut = cover == TrimCover::cut;
+  return cover == TrimCover::out;
+}
+
+LeafSubdivision::Curvature LeafSubdivision::curvature(int entry, double level) const
+{
+  const double* top = numerator(entry);
+  const double* bottom = denominator(entry);
+  for (int i = 0; i < degrees_.count(); ++i)
+  {
+    level_[i] = top[i] - level * bottom[i];
+  }
+  Curvature c;
+  c.ss = derivativeRange(degrees_, level_.data(), 2, 0);
+  c.st = derivativeRange(degrees_, level_.data(), 1, 1);
+  c.tt = degrees_.t > 0 ? derivativeRange(degrees_, level_.data(), 0, 2) : Interval{ 1.0, 1.0 };
+  return c;
+}
+
+/// Steps 1 and 2 for the last entry. True where nothing is left to be found in it.
+bool LeafSubdivision::isDropped(int entry)
+{
+  Part& part = stack_[entry];
+  if (isTrimmedAway(part))
+  {
+    return true;
+  }
+  Interval ratio = Interval::empty();
+  const double* top = numerator(entry);
+  const double* bottom = denominator(entry);
+  for (int i = 0; i < degrees_.count(); ++i)
+  {
+    ratio.include(top[i] / bottom[i]);
+  }
+  const double known = query_.candidates_.nearest();
+  const double wanted = known - query_.tolerance_;
+  if (wanted <= 0 || ratio.low >= wanted * wanted)
+  {
+    return true;
+  }
+  const double level = std::min(wanted * wanted, ratio.high);
+  const Curvature c = curvature(entry, level);
+  const MiddleValue middle = middleValue(degrees_, level_.data());
+  if (level < ratio.high && secondOrderBound(middle, c.ss.low, c.st.magnitude(), c.tt.low) >= 0)
+  {
+    return true;
+  }
+  if (c.isConvex() && curvature(entry, std::min(known * known, ratio.high)).isConvex() &&
+      curvature(entry, ratio.low).isConvex())
+  {
+    solveIn(part.rectangle, part);
+    return true;
+  }
+  if (middle.value < 0)
+  {
+    solveIn(leaf_.cut ? part.rectangle : leaf_.part, part);
+  }
+  return part.rectangle.width() < smallestWidth && part.rectangle.height() < smallestWidth;
+}
+
+void LeafSubdivision::split(int entry)
+{
+  const double level = query_.candidates_.nearest() - query_.tolerance_;
+  const Curvature c = curvature(entry, std::isfinite(level) ? level * level : 0.0);
+  const bool acrossS = degrees_.t == 0 || (degrees_.s > 0 && c.ss.magnitude() >= c.tt.magnitude());
+  const MiddleValue middle = middleValue(degrees_, level_.data());
+  forms_.resize(std::max<std::size_t>(
+    forms_.size(), static_cast<std::size_t>(2 * entry + 4) * degrees_.count()));
+  splitForm(degrees_, acrossS, numerator(entry), numerator(entry + 1));
+  splitForm(degrees_, acrossS, denominator(entry), denominator(entry + 1));
+  const Part whole = stack_[entry];
+  Part upper = { whole.rectangle.half(acrossS, true), whole.cut };
+  Part lower = { whole.rectangle.half(acrossS, false), whole.cut };
+  if ((acrossS ? middle.s : middle.t) < 0) // the upper half looks better: it goes on top
+  {
+    std::swap(upper, lower);
+    std::swap_ranges(numerator(entry), numerator(entry + 1), numerator(entry + 1));
+  }
+  stack_[entry] = upper;
+  stack_.push_back(lower);
+}
+
+} // namespace cadrefine

@@ -1,0 +1,54 @@
+// Exact search of a leaf over which the distance need not be convex. Private to geom/nurbs.
+#pragma once
+
+#include "BernsteinForm.h"
+#include "LeafQuery.h"
+
+#include <vector>
+
+namespace cadrefine
+{
+
+/// Branch and bound on the Bernstein forms of |N - q w|^2 and w^2 (the leaf is N / w):
+///  1. a rectangle is dropped where the least ratio of their coefficients, or a second-order lower
+///     bound about its middle, is not below what is known already;
+///  2. where the sublevel sets of the distance are convex it is solved by Newton's method;
+///  3. else it is split, across the direction of larger second derivatives.
+/// Ends because of a limit on the work of the whole query, which then has not converged.
+class LeafSubdivision
+{
+public:
+  LeafSubdivision(LeafQuery& query, const SearchLeaf& leaf);
+  void run();
+
+private:
+  struct Part
+  {
+    ParameterRectangle rectangle;
+    bool cut = false;
+  };
+  /// Second derivatives of the form numerator - level * denominator, enclosed, and its middle.
+  struct Curvature
+  {
+    Interval ss, st, tt;
+    bool isConvex() const;
+  };
+
+  double* numerator(int entry) const;
+  double* denominator(int entry) const;
+  bool spend(double work);
+  bool isDropped(int entry);
+  Curvature curvature(int entry, double level) const;
+  void solveIn(const ParameterRectangle& box, const Part& start);
+  void split(int entry);
+  bool isTrimmedAway(Part& part) const;
+
+  LeafQuery& query_;
+  const SearchLeaf& leaf_;
+  Degrees degrees_;
+  std::vector<double>& forms_; ///< Numerator and denominator of every entry of the stack.
+  std::vector<double>& level_; ///< Scratch: one form.
+  std::vector<Part> stack_;
+};
+
+} // namespace cadrefine

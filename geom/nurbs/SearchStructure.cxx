@@ -1,0 +1,210 @@
+#include "SearchStructure.h"
+
+#include "BernsteinBasis.h"
+#include "Error.h"
+#include "LeafBuilder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace cadrefine
+{
+namespace
+{
+
+constexpr int mostLeavesOfModel = 400000;
+constexpr int fewestLeavesOfPatch = 64;
+
+std::string nameOf(EntityId id)
+{
+  const char* kinds[] = { "vertex ", "edge ", "face " };
+  return kinds[id.dimension] + std::to_string(id.index);
+}
+
+void checkPatch(const PatchView& view, std::size_t points, EntityId id)
+{
+  if (view.degreeU < 0 || view.degreeV < 0 || view.degreeU > maximumDegree ||
+      view.degreeV > maximumDegree)
+  {
+    throw Error(
+      "CAD model: " + nameOf(id) + " has a degree outside 0 to " + std::to_string(maximumDegree));
+  }
+  const bool fits = points == static_cast<std::size_t>(view.count());
+  const auto isGood = [](const ControlPoint& p)
+  {
+    return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]) &&
+           std::isfinite(p[3]) && p[3] > 0;
+  };
+  if (!fits || !std::all_of(view.points, view.points + view.count(), isGood))
+  {
+    throw Error("CAD model: " + nameOf(id) +
+                " has control points that are too few, not finite or "
+                "of a weight that is not positive");
+  }
+}
+
+/// Fills a SearchStructure, entity by entity.
+class StructureBuilder
+{
+public:
+  explicit StructureBuilder(SearchStructure& structure)
+    : structure_(structure), model_(structure.model)
+  {
+  }
+
+  void build()
+  {
+    chooseLimits();
+    structure_.firstEntity = { 0, model_.count(0), model_.count(0) + model_.count(1) };
+    for (int i = 0; i < model_.count(0); ++i)
+    {
+      addVertex(i);
+    }
+    for (int i = 0; i < model_.count(1); ++i)
+    {
+      addEdge(i);
+    }
+    for (int i = 0; i < model_.count(2); ++i)
+    {
+      addFace(i);
+    }
+    structure_.root = structure_.tree.build(roots_);
+    if (structure_.root != BoundingBoxTree::none)
+    {
+      structure_.size = structure_.tree.box(structure_.root).diagonal();
+    }
+  }
+
+private:
+  using Entries = std::vector<BoundingBoxTree::Entry>;
+
+  void chooseLimits()
+  {
+    BoundingBox box;
+    std::size_t patches = 1;
+    const auto includeAll = [&box](const std::vector<ControlPoint>& points)
+    {
+      for (const ControlPoint& p : points)
+      {
+        box.include(toPoint(p));
+      }
+    };
+    for (const NurbsEdge& edge : model_.edges)
+    {
+      patches += edge.segments.size();
+      for (const BezierCurve& segment : edge.segments)
+      {
+        includeAll(segment.points);
+      }
+    }
+    for (const NurbsFace& face : model_.faces)
+    {
+      patches += face.patches.size();
+      for (const BezierPatch& patch : face.patches)
+      {
+        includeAll(patch.points);
+      }
+    }
+    limits_.smallestRadius = 1e-4 * box.diagonal();
+    limits_.largestCutRadius = 0.05 * box.diagonal();
+    limits_.mostLeaves =
+      std::max(fewestLeavesOfPatch, mostLeavesOfModel / static_cast<int>(patches));
+  }
+
+  void addVertex(int index)
+  {
+    const Point3& point = model_.vertices[index].point;
+    SearchLeaf leaf;
+    leaf.entity = addEntity({ 0, index });
+    BoundingBox box;
+    box.include(point);
+    finishEntity({ { box, addLeaf(leaf), BoundingBoxTree::none } });
+  }
+
+  void addEdge(int index)
+  {
+    const NurbsEdge& edge = model_.edges[index];
+    const EntityId id = { 1, index };
+    const int entity = addEntity(id);
+    structure_.entities[entity].sharp = edge.sharp;
+    structure_.entities[entity].face = edge.faces.empty() ? -1 : edge.faces.front();
+    Entries entries;
+    for (const BezierCurve& segment : edge.segments)
+    {
+      const PatchView view = viewOf(segment);
+      checkPatch(view, segment.points.size(), id);
+      addPatch({ view, { segment.t0, segment.t1, 0.0, 0.0 }, entity }, nullptr, entries);
+    }
+    finishEntity(entries);
+  }
+
+  void addFace(int index)
+  {
+    const NurbsFace& face = model_.faces[index];
+    const EntityId id = { 2, index };
+    const int entity = addEntity(id);
+    if (!face.loops.empty())
+    {
+      structure_.entities[entity].trim = std::make_unique<TrimRegion>(face.loops);
+    }
+    Entries entries;
+    for (const BezierPatch& patch : face.patches)
+    {
+      const PatchView view = viewOf(patch);
+      checkPatch(view, patch.points.size(), id);
+      addPatch({ view, { patch.u0, patch.u1, patch.v0, patch.v1 }, entity },
+        structure_.entities[entity].trim.get(), entries);
+    }
+    finishEntity(entries);
+  }
+
+  int addEntity(EntityId id)
+  {
+    structure_.entities.emplace_back();
+    structure_.entities.back().id = id;
+    return static_cast<int>(structure_.entities.size()) - 1;
+  }
+
+  int addLeaf(const SearchLeaf& leaf)
+  {
+    structure_.leaves.push_back(leaf);
+    return static_cast<int>(structure_.leaves.size()) - 1;
+  }
+
+  /// Adds the leaves of one patch of the last entity.
+  void addPatch(const SearchPatch& patch, const TrimRegion* trim, Entries& entries)
+  {
+    structure_.patches.push_back(patch);
+    for (BuiltLeaf& built : buildLeaves(patch, trim, limits_))
+    {
+      built.leaf.patch = static_cast<int>(structure_.patches.size()) - 1;
+      built.leaf.entity = patch.entity;
+      entries.push_back({ built.box, addLeaf(built.leaf), BoundingBoxTree::none });
+    }
+  }
+
+  void finishEntity(const Entries& entries)
+  {
+    const int root = structure_.tree.build(entries);
+    structure_.entities.back().root = root;
+    if (root != BoundingBoxTree::none)
+    {
+      roots_.push_back({ structure_.tree.box(root), -1, root });
+    }
+  }
+
+  SearchStructure& structure_;
+  const NurbsModel& model_;
+  LeafLimits limits_;
+  Entries roots_;
+};
+
+} // namespace
+
+SearchStructure::SearchStructure(const NurbsModel& nurbsModel) : model(nurbsModel)
+{
+  StructureBuilder(*this).build();
+}
+
+} // namespace cadrefine

@@ -1,0 +1,69 @@
+// What closest-point queries run on: the model's pieces and the tree over them. Private to
+// geom/nurbs.
+#pragma once
+
+#include "BoundingBoxTree.h"
+#include "ConvexityBounds.h"
+#include "NurbsModel.h"
+#include "ParameterRectangle.h"
+#include "PatchView.h"
+#include "TrimRegion.h"
+
+#include <memory>
+#include <vector>
+
+namespace cadrefine
+{
+
+/// A patch of a face or a segment of an edge, whole.
+struct SearchPatch
+{
+  PatchView view;
+  ParameterRectangle range; ///< Of the entity's own parameters.
+  int entity = -1;          ///< Number in SearchStructure::entities.
+
+  /// The entity's parameters at local ones; exact at the borders.
+  std::array<double, 2> parametersAt(double s, double t) const
+  {
+    return { (1.0 - s) * range.s0 + s * range.s1, (1.0 - t) * range.t0 + t * range.t1 };
+  }
+};
+
+/// Part of a patch or segment over which the distance is simple for points near it.
+struct SearchLeaf
+{
+  ConvexityBounds bounds;
+  ParameterRectangle part; ///< In the patch's local parameters.
+  int patch = -1;          ///< -1: a vertex.
+  int entity = -1;
+  bool cut = false; ///< Trim loops run through it.
+};
+
+struct SearchEntity
+{
+  EntityId id;
+  int root = BoundingBoxTree::none; ///< Its part of the tree; none where nothing is left of it.
+  bool sharp = false;               ///< Of an edge.
+  int face = -1;                    ///< Of an edge, the first face that it bounds.
+  std::unique_ptr<const TrimRegion> trim; ///< Of a face.
+};
+
+/// Built once for a model; immutable. Memory: about 400 bytes a leaf.
+struct SearchStructure
+{
+  /// Throws Error where a degree is above maximumDegree or the control points do not fit it.
+  explicit SearchStructure(const NurbsModel& model);
+
+  int entityNumber(EntityId id) const { return firstEntity[id.dimension] + id.index; }
+
+  const NurbsModel& model;
+  std::vector<SearchPatch> patches;
+  std::vector<SearchLeaf> leaves;
+  std::vector<SearchEntity> entities; ///< Vertices, edges, faces.
+  std::array<int, 3> firstEntity{};   ///< Number of the first entity of each dimension.
+  BoundingBoxTree tree;
+  int root = BoundingBoxTree::none;
+  double size = 0; ///< Diagonal of the bounding box.
+};
+
+} // namespace cadrefine

@@ -1,0 +1,62 @@
+// The trimmed region of a face in its parameter plane. Private to geom/nurbs.
+#pragma once
+
+#include "NurbsModel.h"
+#include "ParameterRectangle.h"
+
+#include <vector>
+
+namespace cadrefine
+{
+
+/// How a rectangle lies to a trimmed region.
+enum class TrimCover
+{
+  in,
+  out,
+  cut
+};
+
+/// Answers whether points lie inside the loops of a face, by the parity of the crossings of a ray.
+/// The loops are cut into pieces on which u and v are monotone (by their control polygons), and
+/// crossings are solved on the curves themselves. Gaps between consecutive curves are closed with
+/// straight lines. Points within 1e-9 of the region's extent of a loop count as inside. No loops:
+/// everything is inside. Memory: some pieces for each curve; a test looks at those at the same v.
+class TrimRegion
+{
+public:
+  explicit TrimRegion(const std::vector<TrimLoop>& loops);
+
+  bool contains(double u, double v) const;
+  /// `cut` also where it cannot be told cheaply.
+  TrimCover classify(const ParameterRectangle& rectangle) const;
+
+private:
+  /// A curve piece monotone in u and in v, and its bounding rectangle (s is u, t is v).
+  struct Piece
+  {
+    ParameterRectangle box;
+    Point2 first, last;
+    int offset = 0; // of its control points
+    int degree = 1;
+  };
+
+  void addCurve(const BezierCurve2& curve);
+  void addPiece(std::vector<ControlPoint2> points, double smallest, int depth);
+  void addLine(const Point2& from, const Point2& to);
+  void fillBins();
+  int binOf(double v) const;
+  Point2 pointOn(const Piece& piece, double x) const;
+  double otherCoordinate(const Piece& piece, int known, double value) const;
+  bool isNear(const Piece& piece, double u, double v) const;
+
+  std::vector<Piece> pieces_;
+  std::vector<ControlPoint2> points_;
+  std::vector<int> binStart_, binItems_;
+  ParameterRectangle extent_;
+  double bandU_ = 0;
+  double bandV_ = 0;
+  bool unbounded_ = false;
+};
+
+} // namespace cadrefine

@@ -1,0 +1,73 @@
+"""Joins the pieces of a mesh, as they come from the ranks, to one grid without double points."""
+
+import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkIdList, vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkUnstructuredGrid
+from vtkmodules.vtkFiltersCore import vtkAppendFilter
+
+
+def merged_grid(data):
+    """`data` with each global id's point once, points and cells in the order of their global ids: the same grid
+    from any number of ranks. Data without global ids are left in the order that they have."""
+    grid = as_grid(data)
+    point_ids = grid.GetPointData().GetGlobalIds()
+    if point_ids is None:
+        return grid
+    _, kept, new_number = np.unique(vtk_to_numpy(point_ids), return_index=True, return_inverse=True)
+    cell_ids = grid.GetCellData().GetGlobalIds()
+    count = grid.GetNumberOfCells()
+    order = np.unique(vtk_to_numpy(cell_ids), return_index=True)[1] if cell_ids else np.arange(count)
+
+    result = vtkUnstructuredGrid()
+    points = vtkPoints()
+    points.SetData(numpy_to_vtk(vtk_to_numpy(grid.GetPoints().GetData())[kept], deep=True))
+    result.SetPoints(points)
+    set_cells(result, grid, order, new_number)
+    take(grid.GetPointData(), result.GetPointData(), kept)
+    take(grid.GetCellData(), result.GetCellData(), order)
+    result.SetFieldData(grid.GetFieldData())
+    return result
+
+
+def as_grid(data):
+    if data.IsA("vtkUnstructuredGrid"):
+        return data
+    append = vtkAppendFilter()
+    append.SetInputData(data)
+    append.Update()
+    return append.GetOutput()
+
+
+def set_cells(result, grid, order, new_number):
+    """Cells `order` of `grid`, with their points renumbered."""
+    offsets = vtk_to_numpy(grid.GetCells().GetOffsetsArray())
+    corners = vtk_to_numpy(grid.GetCells().GetConnectivityArray())
+    sizes = np.diff(offsets)[order]
+    new_offsets = np.concatenate([[0], np.cumsum(sizes)])
+    within = np.arange(new_offsets[-1]) - np.repeat(new_offsets[:-1], sizes)
+    connectivity = new_number[corners[np.repeat(offsets[:-1][order], sizes) + within]]
+    cells = vtkCellArray()
+    cells.SetData(numpy_to_vtkIdTypeArray(new_offsets.astype(np.int64), deep=True),
+                  numpy_to_vtkIdTypeArray(connectivity.astype(np.int64), deep=True))
+    types = vtk_to_numpy(grid.GetCellTypesArray())[order]
+    result.SetCells(numpy_to_vtk(types, deep=True), cells)
+
+
+def take(source, target, chosen):
+    """Copies the tuples `chosen` of every array, bit for bit."""
+    ids = vtkIdList()
+    ids.SetNumberOfIds(len(chosen))
+    for position, index in enumerate(chosen):
+        ids.SetId(position, int(index))
+    target.CopyAllOn()
+    target.CopyAllocate(source, len(chosen))
+    target.CopyData(source, ids, ids_from_zero(len(chosen)))
+
+
+def ids_from_zero(count):
+    ids = vtkIdList()
+    ids.SetNumberOfIds(count)
+    for index in range(count):
+        ids.SetId(index, index)
+    return ids

@@ -1,0 +1,184 @@
+"""The chain of filters that the driver runs: readers, projection, error, refinement, writer.
+
+Each step adds two filters to the chain, and every filter keeps its output. The memory is therefore that of all
+meshes together: uniform steps cost 1/7 more than the last mesh alone, longest edge steps at most their number
+times the last mesh.
+"""
+
+import os
+import shutil
+import time
+
+from paraview import servermanager, simple
+
+import cadrefine_session as session
+from cadrefine_session import Failure
+
+MARKING = "CADRefineMarking"
+
+
+class Pipeline:
+    def __init__(self):
+        self.mesh = None  # The last filter of the chain.
+        self.cad = None
+        self.values = {}  # Field data of the last mesh: what was counted over all ranks.
+        self.seconds = {}  # Of the last step and of reading.
+        self.mesh_path = ""
+
+    def read_mesh(self, path):
+        self.mesh_path = path
+        self.mesh = self.timed("read_mesh", lambda: open_mesh(path))
+
+    def read_cad(self, path):
+        self.cad = simple.CADReader(FileName=path)
+        self.timed("read_cad", lambda: session.update(self.cad, path))
+
+    def project(self, options):
+        self.seconds.update(project=0.0, error=0.0, refine=0.0)
+        self.mesh = simple.ProjectOntoCAD(Input=self.mesh, CAD=self.cad, MaximumDistance=options.maximum_distance)
+        if options.region:
+            self.mesh.UseRegion = 1
+            self.mesh.Region = options.region
+        self.run("project")
+
+    def measure(self, options):
+        self.mesh = simple.CADGeometricError(Input=self.mesh, CAD=self.cad, RecursionDepth=options.recursion_depth)
+        self.run("error")
+
+    def refine(self, options, method, method_name):
+        self.seconds.update(project=0.0, error=0.0, refine=0.0)
+        marking, threshold = self.marking(options) if method == "longest-edge" else (None, 0.0)
+        self.mesh = simple.RefineWithCAD(Input=self.mesh, CAD=self.cad)
+        self.mesh.Method = method_name
+        self.mesh.ProjectNewVertices = 0 if options.no_cad else 1
+        self.mesh.MarkingArray = ["CELLS", marking or "None"][1:] if os.environ.get("MOCK") else ["CELLS", marking or "None"]
+        self.mesh.Threshold = threshold
+        self.run("refine")
+
+    def marking(self, options):
+        """Name of the cell array that marks the cells, and its threshold; a calculator joins two indicators."""
+        if options.indicator is None:
+            return ("GeometricError" if options.threshold is not None else None), options.threshold or 0.0
+        if options.threshold is None:
+            return options.indicator, options.indicator_threshold
+        self.mesh = simple.Calculator(Input=self.mesh, AttributeType="Cell Data", ResultArrayName=MARKING)
+        self.mesh.Function = (f'if("GeometricError" > {options.threshold!r}, 1, 0) + '
+                              f'if("{options.indicator}" > {options.indicator_threshold!r}, 1, 0)')
+        session.update(self.mesh, self.mesh_path)
+        return MARKING, 0.0
+
+    def marks_anything(self, options):
+        """False where every cell of the last mesh is below the thresholds."""
+        if options.threshold is None and options.indicator is None:
+            return True
+        marked = False
+        for name, threshold in (("GeometricError", options.threshold),
+                                (options.indicator, options.indicator_threshold)):
+            if threshold is not None:
+                array = self.mesh.CellData[name]
+                if array is None:
+                    raise Failure(f"{self.mesh_path}: there is no cell array {name}")
+                marked = marked or array.GetRange(0)[1] > threshold
+        return marked
+
+    def children_per_cell(self):
+        return 4 if self.flat() else 8
+
+    def flat(self):
+        """True for meshes of triangles."""
+        grid = local_output(self.mesh)
+        return grid.GetNumberOfCells() == 0 or grid.GetCell(0).GetCellDimension() < 3
+
+    def run(self, phase):
+        """Runs the last filter, adds its time to `phase` and takes over what it counted."""
+        self.timed(phase, lambda: session.update(self.mesh, self.mesh_path))
+        self.values.update(field_values(local_output(self.mesh)))
+
+    def timed(self, phase, work):
+        started = time.perf_counter()
+        result = work()
+        self.seconds[phase] = self.seconds.get(phase, 0.0) + time.perf_counter() - started
+        return result
+
+    def cad_values(self):
+        return field_values(local_output(self.cad))
+
+    def write(self, path):
+        """Writes the last mesh under another name first, so that no partial file is left behind."""
+        if path.endswith(".pvtu"):
+            write_pieces(self.mesh, path)
+        elif session.ranks() == 1 or session.speaks():
+            write_one_file(self.mesh, path)
+
+
+def open_mesh(path):
+    """The reader of a mesh file, its blocks merged to one grid."""
+    try:
+        reader = simple.OpenDataFile(path)
+    except RuntimeError:
+        session.messages.take()
+        raise Failure(f"{path}: ParaView cannot read this as a mesh") from None
+    if reader is None or isinstance(reader, list):
+        raise Failure(f"{path}: ParaView cannot read this as a mesh")
+    if reader.GetXMLName() == "CADReader":
+        raise Failure(f"{path}: this is a CAD file where a mesh is due")
+    session.raise_errors(path)
+    session.update(reader, path)
+    mesh = reader
+    if local_output(mesh).IsA("vtkCompositeDataSet"):
+        mesh = simple.MergeBlocks(Input=reader)
+        session.update(mesh, path)
+    grid = local_output(mesh)
+    if not (grid.IsA("vtkUnstructuredGrid") or grid.IsA("vtkPolyData")):
+        raise Failure(f"{path}: holds a {grid.GetClassName()}, not a mesh of triangles or tetrahedra")
+    if mesh.GetDataInformation().GetNumberOfCells() == 0:
+        raise Failure(f"{path}: the mesh has no cells")
+    return mesh
+
+
+def local_output(proxy):
+    """This rank's piece of the output: the driver and the pipeline share a process."""
+    return proxy.GetClientSideObject().GetOutputDataObject(0)
+
+
+def field_values(data):
+    """Field data arrays by name: a number, a list of numbers, or a list of strings. Bytes are left out."""
+    values = {}
+    arrays = data.GetFieldData()
+    for index in range(arrays.GetNumberOfArrays()):
+        array = arrays.GetAbstractArray(index)
+        if array.GetDataTypeSize() == 1 and array.GetDataTypeAsString() != "string":
+            continue
+        items = [array.GetValue(i) for i in range(min(array.GetNumberOfValues(), 10000))]
+        single = len(items) == 1 and not isinstance(items[0], str)
+        values[array.GetName()] = items[0] if single else items
+    return values
+
+
+def write_one_file(mesh, path):
+    from cadrefine_merge import merged_grid
+    from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
+
+    writer = vtkXMLUnstructuredGridWriter()
+    writer.SetInputData(merged_grid(servermanager.Fetch(mesh)))
+    writer.SetFileName(path + ".part")
+    writer.SetDataModeToAppended()
+    writer.EncodeAppendedDataOff()
+    if not writer.Write() or session.messages.errors:
+        if os.path.exists(path + ".part"):
+            os.remove(path + ".part")
+        session.raise_errors(path)
+        raise Failure(f"{path}: could not be written")
+    os.replace(path + ".part", path)
+
+
+def write_pieces(mesh, path):
+    try:
+        simple.SaveData(path, proxy=mesh)
+    except RuntimeError as error:
+        session.messages.errors.append(str(error))
+    if session.messages.errors:
+        if os.path.exists(path):
+            os.remove(path)
+        shutil.rmtree(path[: -len(".pvtu")], ignore_errors=True)
+        session.raise_errors(path)

@@ -1,0 +1,185 @@
+"""What the driver tells: the table on standard output, the report and the convergence plot."""
+
+import json
+import math
+import os
+import re
+
+import cadrefine_session as session
+from cadrefine_session import Failure
+
+COLUMNS = (  # Heading, key of the step, format.
+    ("step", "step", "4d"),
+    ("vertices", "vertices", "8d"),
+    ("cells", "cells", "8d"),
+    ("on CAD", "cad_vertices", "8d"),
+    ("projected", "projected_points", "8d"),
+    ("global error", "global_error", "10.4e"),
+    ("largest dist", "maximum_distance", "10.4e"),
+    ("invalid", "invalid_cells", "7d"),
+    ("off CAD", "unprojected_vertices", "7d"),
+    ("min quality", "minimum_quality", "5.3f"),
+)
+
+STEP_VALUES = {  # Key of the step, field data of the mesh.
+    "vertices": "GlobalVertices",
+    "cells": "GlobalCells",
+    "cad_vertices": "CADVertices",
+    "projected_points": "ProjectedPoints",
+    "global_error": "GlobalGeometricError",
+    "maximum_distance": "MaximumGeometricDistance",
+    "invalid_cells": "InvalidCells",
+    "unprojected_vertices": "UnprojectedVertices",
+    "minimum_quality": "MinimumQuality",
+}
+
+UNREAD = re.compile(r"(?:(?:DE|#)\s*(?P<entity>\d+):\s*)?(?P<type>.*?):\s+(?P<reason>.*)")
+
+
+class Report:
+    def __init__(self, options):
+        self.options = options
+        self.input = {}
+        self.steps = []
+        self.stopped = None
+        self.seconds = {}
+        self.flat = False
+
+    def describe_input(self, pipeline):
+        cad = pipeline.cad_values()
+        counts = {name: as_count(cad.get(array)) for name, array in
+                  (("faces", "CADFaceCount"), ("edges", "CADEdgeCount"), ("vertices", "CADVertexCount"))}
+        unread = [parse_unread(line) for line in as_list(cad.get("CADUnread"))]
+        unit = "".join(as_list(cad.get("CADUnit")))
+        self.flat = pipeline.flat()
+        self.input = {"ranks": session.ranks(), "mesh": self.options.mesh,
+                      "cad": {"file": self.options.cad, **counts, "unread": unread, "unit": unit}}
+        self.seconds = {name: pipeline.seconds[name] for name in ("read_cad", "read_mesh")}
+        self.say(f"CAD: {counts['faces']} faces, {counts['edges']} edges, {counts['vertices']} vertices, "
+                 f"unit {unit or 'unknown'}, read in {self.seconds['read_cad']:.2f} s")
+        for item in unread:
+            number = f"entity {item['entity']}, " if item["entity"] else ""
+            self.say(f"CAD: not read: {number}{item['type']}: {item['reason']}")
+        self.say("".join(f"{head:>{column_width(head, style)}}" for head, _, style in COLUMNS) + "  seconds  method")
+
+    def add_step(self, method, pipeline):
+        step = {"step": len(self.steps), "method": method}
+        for key, array in STEP_VALUES.items():
+            if array not in pipeline.values:
+                raise Failure(f"{self.options.mesh}: the filters left no field data {array}")
+            step[key] = pipeline.values[array]
+        step["seconds"] = {name: pipeline.seconds[name] for name in ("project", "error", "refine")}
+        self.steps.append(step)
+        cells = "".join(f"{step[key]:{column_width(head, style)}{style.lstrip('0123456789')}}"
+                        for head, key, style in COLUMNS)
+        self.say(f"{cells}{sum(step['seconds'].values()):9.2f}  {method}")
+
+    def finish(self, pipeline, total):
+        self.seconds["total"] = total
+        if self.stopped:
+            self.say(f"Stopped after step {self.steps[-1]['step']}: {self.stopped}")
+
+    def say(self, line):
+        if not self.options.quiet and session.speaks():
+            print(line, flush=True)
+
+    def write(self):
+        if not session.speaks():
+            return
+        report = {**self.input, "no_cad": self.options.no_cad, "steps": self.steps, "stopped": self.stopped,
+                  "seconds": self.seconds}
+        if self.options.report:
+            write_whole(self.options.report, json.dumps(finite(report), indent=2) + "\n")
+        if self.options.plot:
+            plot(report, self.options, self.flat)
+
+
+def column_width(heading, style):
+    width = int(re.match(r"\d+", style).group())
+    return max(width, len(heading)) + 2
+
+
+def as_list(value):
+    return value if isinstance(value, list) else [] if value is None else [value]
+
+
+def as_count(value):
+    return int(value) if value is not None and not isinstance(value, list) else 0
+
+
+def parse_unread(line):
+    """'DE 15: IGES 128 (rational B-spline surface): reason' as an object; entity 0 is the file itself."""
+    match = UNREAD.fullmatch(line.strip())
+    if not match:
+        return {"entity": 0, "type": "", "reason": line.strip()}
+    return {"entity": int(match["entity"] or 0), "type": match["type"], "reason": match["reason"]}
+
+
+def finite(value):
+    """JSON knows no NaN and no infinity: null stands for both."""
+    if isinstance(value, dict):
+        return {key: finite(item) for key, item in value.items()}
+    if isinstance(value, list):
+        return [finite(item) for item in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def write_whole(path, text):
+    with open(path + ".part", "w", encoding="utf-8") as file:
+        file.write(text)
+    os.replace(path + ".part", path)
+
+
+def load_report(path):
+    try:
+        with open(path, encoding="utf-8") as file:
+            report = json.load(file)
+        report["steps"][0]["vertices"], report["steps"][0]["global_error"]
+        return report
+    except (ValueError, KeyError, IndexError, TypeError):
+        raise Failure(f"{path}: is no report of this driver") from None
+
+
+def plot(report, options, flat):
+    """Global error over the number of vertices, with the slope of second order."""
+    import matplotlib
+
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+
+    runs = [report] + ([load_report(options.compare_report)] if options.compare_report else [])
+    figure, axes = pyplot.subplots(figsize=(7.2, 5.0), layout="constrained")
+    for run, color in zip(runs, ("tab:blue", "tab:orange")):
+        label = "new vertices stay off the CAD" if run.get("no_cad") else "new vertices on the CAD"
+        draw_run(axes, run["steps"], color, label)
+    draw_slope(axes, report["steps"], -1.0 if flat else -2.0 / 3.0)
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.set_xlabel("vertices of the mesh")
+    axes.set_ylabel("area between mesh and CAD" if flat else "volume between mesh and CAD")
+    axes.set_title(f"{os.path.basename(report['mesh'])} on {os.path.basename(report['cad']['file'])}")
+    axes.grid(True, which="both", linewidth=0.3)
+    axes.legend()
+    figure.savefig(options.plot + ".part", format="png", dpi=150)
+    pyplot.close(figure)
+    os.replace(options.plot + ".part", options.plot)
+
+
+def draw_run(axes, steps, color, label):
+    """The run's line, its steps marked by their method."""
+    shown = [step for step in steps if step["global_error"] and step["global_error"] > 0]
+    axes.plot([s["vertices"] for s in shown], [s["global_error"] for s in shown], color=color, label=label)
+    for method, marker in (("projection", "D"), ("uniform", "s"), ("longest-edge", "o")):
+        chosen = [s for s in shown if s.get("method") == method]
+        axes.plot([s["vertices"] for s in chosen], [s["global_error"] for s in chosen], marker, color=color,
+                  markersize=5, label=None)
+
+
+def draw_slope(axes, steps, exponent):
+    """What second order would do from the first step on."""
+    first, last = steps[0], steps[-1]
+    if not first["global_error"] or first["vertices"] == last["vertices"]:
+        return
+    vertices = [first["vertices"], last["vertices"]]
+    errors = [first["global_error"], first["global_error"] * (vertices[1] / vertices[0]) ** exponent]
+    axes.plot(vertices, errors, "k:", linewidth=1, label="second order")

@@ -1,0 +1,169 @@
+// Shapes whose closest points are known in closed form.
+#include "Reference.h"
+#include "Shapes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace cadrefine
+{
+namespace
+{
+
+using reference::expectConsistent;
+
+constexpr double tolerance = 1e-9; // of the model's size
+
+TEST(ClosedForms, SphereFromEverywhere)
+{
+  const NurbsModel model = shapes::modelOf(shapes::sphere(2.0));
+  const ClosestPointSearch search(model);
+  EXPECT_NEAR(search.modelSize(), 4.0 * std::sqrt(3.0), 0.4);
+  shapes::Random random(1);
+  for (int i = 0; i < 3000; ++i)
+  {
+    const Point3 q = random.point(i % 3 == 0 ? 20.0 : i % 3 == 1 ? 2.5 : 0.1);
+    const ClosestPoint answer = search.nearest(q);
+    expectConsistent(model, search.modelSize(), q, answer);
+    EXPECT_NEAR(answer.distance, std::abs(norm(q) - 2.0), tolerance * search.modelSize());
+    EXPECT_TRUE(answer.converged);
+  }
+}
+
+TEST(ClosedForms, CentreOfSphere)
+{
+  const NurbsModel model = shapes::modelOf(shapes::sphere(2.0));
+  const ClosestPointSearch search(model);
+  for (const double offset : { 0.0, 1e-15, 1e-12, 1e-9, 1e-7, 1e-5, 1e-3 })
+  {
+    const Point3 q = { offset, -0.3 * offset, 0.7 * offset };
+    const ClosestPoint answer = search.nearest(q);
+    EXPECT_NEAR(answer.distance, 2.0 - norm(q), tolerance * search.modelSize()) << offset;
+    EXPECT_TRUE(answer.converged) << offset;
+  }
+}
+
+TEST(ClosedForms, PolesOfSphere)
+{
+  const NurbsModel model = shapes::modelOf(shapes::sphere(2.0));
+  const ClosestPointSearch search(model);
+  for (const double offset : { 0.0, 1e-14, 1e-10, 1e-6, 1e-3, 0.05 })
+  {
+    for (const double z : { -5.0, -2.0, -1.9, 0.01, 1.9, 2.0, 2.1, 7.0 })
+    {
+      const Point3 q = { 0.6 * offset, -0.8 * offset, z };
+      const ClosestPoint answer = search.nearest(q);
+      EXPECT_NEAR(answer.distance, std::abs(norm(q) - 2.0), tolerance * search.modelSize())
+        << offset << ' ' << z;
+      EXPECT_TRUE(answer.converged) << offset << ' ' << z;
+    }
+  }
+}
+
+TEST(ClosedForms, AxisOfCylinder)
+{
+  NurbsModel model = shapes::modelOf(shapes::cylinder(1.0, 0.0, 3.0));
+  model.edges = { shapes::circle(1.0, 0.0), shapes::circle(1.0, 3.0) };
+  model.edges[0].faces = model.edges[1].faces = { 0 };
+  model.faces[0].edges = { 0, 1 };
+  const ClosestPointSearch search(model);
+  for (const double z : { 0.3, 1.0, 1.5, 2.123456789 })
+  {
+    for (const double x : { 0.0, 1e-13, 1e-9, 1e-6, 1e-3, 0.1 })
+    {
+      const ClosestPoint answer = search.nearest({ x, 0.5 * x, z });
+      const double exact = 1.0 - std::hypot(x, 0.5 * x);
+      EXPECT_NEAR(answer.distance, exact, tolerance * search.modelSize()) << x << ' ' << z;
+      EXPECT_EQ(answer.entity, (EntityId{ 2, 0 }));
+      EXPECT_TRUE(answer.converged) << x << ' ' << z;
+    }
+  }
+  const ClosestPoint onRim = search.nearest({ 0.0, 0.0, 0.0 });
+  EXPECT_EQ(onRim.entity, (EntityId{ 1, 0 }));
+  const ClosestPoint below = search.nearest({ 0.0, 0.0, -1.0 });
+  EXPECT_NEAR(below.distance, std::sqrt(2.0), tolerance * search.modelSize());
+  EXPECT_EQ(below.entity, (EntityId{ 1, 0 }));
+}
+
+TEST(ClosedForms, Torus)
+{
+  const NurbsModel model = shapes::modelOf(shapes::torus(3.0, 1.0));
+  const ClosestPointSearch search(model);
+  shapes::Random random(2);
+  for (int i = 0; i < 2000; ++i)
+  {
+    const Point3 q = random.point(5.0);
+    const double exact = std::abs(std::hypot(std::hypot(q[0], q[1]) - 3.0, q[2]) - 1.0);
+    const ClosestPoint answer = search.nearest(q);
+    expectConsistent(model, search.modelSize(), q, answer);
+    EXPECT_NEAR(answer.distance, exact, tolerance * search.modelSize());
+  }
+  for (int i = 0; i < 8; ++i) // on the circle of centres, where a whole circle is nearest
+  {
+    const ClosestPoint answer = search.nearest({ 3.0 * std::cos(i), 3.0 * std::sin(i), 0.0 });
+    EXPECT_NEAR(answer.distance, 1.0, tolerance * search.modelSize());
+    EXPECT_TRUE(answer.converged);
+  }
+  for (const double z : { 0.0, 0.5, 2.0 }) // and on the axis
+  {
+    const ClosestPoint answer = search.nearest({ 0.0, 0.0, z });
+    EXPECT_NEAR(answer.distance, std::hypot(3.0, z) - 1.0, tolerance * search.modelSize());
+    EXPECT_TRUE(answer.converged);
+  }
+}
+
+TEST(ClosedForms, CircleAlone)
+{
+  NurbsModel model;
+  model.edges.push_back(shapes::circle(2.0, 0.5));
+  const ClosestPointSearch search(model);
+  shapes::Random random(3);
+  for (int i = 0; i < 3000; ++i)
+  {
+    const Point3 q = random.point(3.0);
+    const ClosestPoint answer = search.nearest(q);
+    expectConsistent(model, search.modelSize(), q, answer);
+    const double exact = std::hypot(std::hypot(q[0], q[1]) - 2.0, q[2] - 0.5);
+    EXPECT_NEAR(answer.distance, exact, tolerance * search.modelSize());
+    EXPECT_EQ(answer.entity, (EntityId{ 1, 0 }));
+    EXPECT_EQ(answer.parameters[1], 0.0);
+  }
+  const ClosestPoint centre = search.nearest({ 0.0, 0.0, 0.5 });
+  EXPECT_NEAR(centre.distance, 2.0, tolerance * search.modelSize());
+  EXPECT_TRUE(centre.converged);
+}
+
+/// Distance to the square [-2, 2]^2 at z = 0 with a hole of radius 1, and the dimension of the
+/// nearest entity.
+std::pair<double, int> plateDistance(const Point3& q)
+{
+  const double r = std::hypot(q[0], q[1]);
+  if (r < 1.0)
+  {
+    return { std::hypot(1.0 - r, q[2]), 1 };
+  }
+  const double dx = std::max(std::abs(q[0]) - 2.0, 0.0);
+  const double dy = std::max(std::abs(q[1]) - 2.0, 0.0);
+  return { std::hypot(std::hypot(dx, dy), q[2]), dx > 0 && dy > 0 ? 0 : dx > 0 || dy > 0 ? 1 : 2 };
+}
+
+TEST(ClosedForms, PlateWithHole)
+{
+  const NurbsModel model = shapes::plateWithHole();
+  const ClosestPointSearch search(model);
+  shapes::Random random(4);
+  for (int i = 0; i < 5000; ++i)
+  {
+    Point3 q = random.point(3.0);
+    q[2] *= i % 4 == 0 ? 0.0 : i % 4 == 1 ? 1e-3 : 1.0;
+    const ClosestPoint answer = search.nearest(q);
+    expectConsistent(model, search.modelSize(), q, answer);
+    const auto [exact, dimension] = plateDistance(q);
+    EXPECT_NEAR(answer.distance, exact, tolerance * search.modelSize());
+    EXPECT_EQ(answer.entity.dimension, dimension);
+  }
+}
+
+} // namespace
+} // namespace cadrefine

@@ -1,0 +1,213 @@
+// Ties, masks, limits, purity and the errors of the closest-point search.
+#include "Error.h"
+#include "Reference.h"
+#include "Shapes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <thread>
+
+namespace cadrefine
+{
+namespace
+{
+
+bool sameBits(const ClosestPoint& a, const ClosestPoint& b)
+{
+  return a.entity == b.entity && std::memcmp(&a.point, &b.point, sizeof a.point) == 0 &&
+         std::memcmp(&a.parameters, &b.parameters, sizeof a.parameters) == 0 &&
+         std::memcmp(&a.distance, &b.distance, sizeof a.distance) == 0 &&
+         a.converged == b.converged;
+}
+
+TEST(Ties, BorderNamesEdgeAndEndNamesVertex)
+{
+  const NurbsModel model = shapes::plateWithHole();
+  const ClosestPointSearch search(model);
+  EXPECT_EQ(search.nearest({ 0.3, -2.0, 0.0 }).entity, (EntityId{ 1, 0 }));
+  EXPECT_EQ(search.nearest({ 0.3, -2.0, 0.7 }).entity, (EntityId{ 1, 0 }));
+  EXPECT_EQ(search.nearest({ 2.0, 2.0, 0.0 }).entity, (EntityId{ 0, 2 }));
+  EXPECT_EQ(search.nearest({ 2.0, 2.0, -3.0 }).entity, (EntityId{ 0, 2 }));
+  EXPECT_EQ(search.nearest({ 1.0, 0.0, 0.0 }).entity, (EntityId{ 1, 4 }));
+  EXPECT_EQ(search.nearest({ 0.6, 0.8, 0.0 }).entity, (EntityId{ 1, 4 }));
+  EXPECT_EQ(search.nearest({ 1.5, 0.0, 0.0 }).entity, (EntityId{ 2, 0 }));
+  const ClosestPoint corner = search.nearest({ 3.0, 3.0, 0.0 });
+  EXPECT_TRUE(std::isnan(corner.parameters[0]) && std::isnan(corner.parameters[1]));
+}
+
+TEST(Ties, SmallestIndexAmongFaces)
+{
+  // Two equal plates, one above the other: in the middle both are equally near.
+  NurbsModel model;
+  for (const double z : { 1.0, -1.0 })
+  {
+    NurbsFace face;
+    face.patchesU = face.patchesV = 1;
+    face.patches = { { 1, 1, 0, 1, 0, 1,
+      { { 0, 0, z, 1 }, { 0, 1, z, 1 }, { 1, 0, z, 1 }, { 1, 1, z, 1 } } } };
+    model.faces.push_back(face);
+  }
+  const ClosestPointSearch search(model);
+  for (const double z : { 0.0, 1e-14, -1e-14 })
+  {
+    EXPECT_EQ(search.nearest({ 0.3, 0.4, z }).entity, (EntityId{ 2, 0 }));
+  }
+  EXPECT_EQ(search.nearest({ 0.3, 0.4, -1e-9 }).entity, (EntityId{ 2, 1 }));
+}
+
+TEST(Masks, ChooseDimensions)
+{
+  const NurbsModel model = shapes::plateWithHole();
+  const ClosestPointSearch search(model);
+  SearchScope scope;
+  scope.vertices = false;
+  EXPECT_EQ(search.nearest({ 3, 3, 0 }, scope).entity.dimension, 1);
+  scope = {};
+  scope.faces = false;
+  EXPECT_EQ(search.nearest({ 1.4, 0.1, 0.2 }, scope).entity, (EntityId{ 1, 4 }));
+  scope.edges = scope.sharpEdges = false;
+  EXPECT_EQ(search.nearest({ 1.4, 1.3, 0.2 }, scope).entity, (EntityId{ 0, 2 }));
+  scope.vertices = false;
+  EXPECT_FALSE(static_cast<bool>(search.nearest({ 1.4, 1.3, 0.2 }, scope).entity));
+}
+
+TEST(Masks, BorderBelongsToFaceWithoutEdges)
+{
+  const NurbsModel model = shapes::plateWithHole();
+  const ClosestPointSearch search(model);
+  SearchScope scope;
+  scope.edges = scope.sharpEdges = scope.vertices = false;
+  const Point3 q = { 0.3, 0.4, 0.6 };
+  const ClosestPoint answer = search.nearest(q, scope);
+  EXPECT_EQ(answer.entity, (EntityId{ 2, 0 }));
+  EXPECT_NEAR(answer.distance, std::hypot(0.5, 0.6), 1e-9);
+  EXPECT_NEAR(answer.parameters[0], 0.6, 1e-9);
+  EXPECT_NEAR(answer.parameters[1], 0.8, 1e-9);
+}
+
+TEST(Masks, OnlySharpEdges)
+{
+  NurbsModel model = shapes::plateWithHole();
+  model.edges[4].sharp = false;
+  const ClosestPointSearch search(model);
+  SearchScope scope;
+  scope.edges = false;
+  EXPECT_EQ(search.nearest({ 0.3, 0.4, 0.0 }, scope).entity, (EntityId{ 2, 0 }));
+  EXPECT_EQ(search.nearest({ 2.5, 0.4, 0.0 }, scope).entity, (EntityId{ 1, 1 }));
+  scope.faces = false;
+  EXPECT_EQ(search.nearest({ 0.3, 0.4, 0.0 }, scope).entity, (EntityId{ 1, 2 }));
+}
+
+TEST(Limits, MaximumDistance)
+{
+  const NurbsModel model = shapes::modelOf(shapes::sphere(2.0));
+  const ClosestPointSearch search(model);
+  SearchScope scope;
+  scope.maximumDistance = 0.5;
+  EXPECT_FALSE(static_cast<bool>(search.nearest({ 0.0, 0.1, 0.2 }, scope).entity));
+  EXPECT_FALSE(static_cast<bool>(search.nearest({ 3.0, 0.1, 0.2 }, scope).entity));
+  const ClosestPoint near = search.nearest({ 2.3, 0.0, 0.0 }, scope);
+  EXPECT_EQ(near.entity, (EntityId{ 2, 0 }));
+  EXPECT_NEAR(near.distance, 0.3, 1e-12);
+}
+
+TEST(NearestOn, StaysOnTheEntity)
+{
+  const NurbsModel model = shapes::plateWithHole();
+  const ClosestPointSearch search(model);
+  EXPECT_EQ(search.nearestOn({ 1, 4 }, { 1.9, 0.1, 0.0 }).entity, (EntityId{ 1, 4 }));
+  EXPECT_EQ(search.nearestOn({ 1, 0 }, { 9.0, 0.1, 0.0 }).entity, (EntityId{ 0, 1 }));
+  EXPECT_EQ(search.nearestOn({ 0, 3 }, { 9.0, 0.1, 0.0 }).entity, (EntityId{ 0, 3 }));
+  EXPECT_EQ(search.nearestOn({ 2, 0 }, { 0.2, 0.1, 0.0 }).entity, (EntityId{ 1, 4 }));
+  EXPECT_EQ(search.nearestOn({ 2, 0 }, { 3.0, 3.0, 1.0 }).entity, (EntityId{ 0, 2 }));
+  EXPECT_EQ(search.nearestOn({ 2, 0 }, { 1.2, 1.0, 1.0 }).entity, (EntityId{ 2, 0 }));
+  EXPECT_FALSE(static_cast<bool>(search.nearestOn({ 2, 1 }, { 0, 0, 0 }).entity));
+  EXPECT_FALSE(static_cast<bool>(search.nearestOn({}, { 0, 0, 0 }).entity));
+}
+
+TEST(Purity, SameBitsInAnyOrderAndOnAnyThread)
+{
+  NurbsModel model = shapes::modelOf(shapes::bumpyFace(3, 0.6, 5));
+  model.faces.push_back(shapes::sphere(1.0));
+  const ClosestPointSearch search(model);
+  constexpr int count = 400;
+  std::vector<Point3> points;
+  shapes::Random random(6);
+  for (int i = 0; i < count; ++i)
+  {
+    points.push_back(random.point(3.0));
+  }
+  points[7] = { 0.0, 0.0, 0.0 };
+  std::vector<ClosestPoint> forward(count);
+  std::vector<ClosestPoint> backward(count);
+  std::thread first(
+    [&]
+    {
+      for (int i = 0; i < count; ++i)
+      {
+        forward[i] = search.nearest(points[i]);
+      }
+    });
+  std::thread second(
+    [&]
+    {
+      for (int i = count - 1; i >= 0; --i)
+      {
+        backward[i] = search.nearest(points[i]);
+      }
+    });
+  first.join();
+  second.join();
+  const ClosestPointSearch again(model);
+  for (int i = 0; i < count; ++i)
+  {
+    EXPECT_TRUE(sameBits(forward[i], backward[i]));
+    EXPECT_TRUE(sameBits(forward[i], again.nearest(points[i])));
+  }
+}
+
+TEST(BadInput, IsReported)
+{
+  NurbsModel model = shapes::modelOf(shapes::sphere(1.0));
+  model.faces[0].patches[3].points.pop_back();
+  EXPECT_THROW(ClosestPointSearch search(model), Error);
+  model = shapes::modelOf(shapes::sphere(1.0));
+  model.faces[0].patches[3].points[1][3] = 0.0;
+  EXPECT_THROW(ClosestPointSearch search(model), Error);
+  NurbsModel high;
+  NurbsEdge edge;
+  edge.segments = { { 0, 1, std::vector<ControlPoint>(27, ControlPoint{ 0, 0, 0, 1 }) } };
+  high.edges.push_back(edge);
+  EXPECT_THROW(ClosestPointSearch search(high), Error);
+}
+
+TEST(BadInput, NothingToFind)
+{
+  const NurbsModel empty;
+  const ClosestPointSearch search(empty);
+  EXPECT_FALSE(static_cast<bool>(search.nearest({ 0, 0, 0 }).entity));
+  EXPECT_EQ(search.modelSize(), 0.0);
+  const NurbsModel model = shapes::plateWithHole();
+  const ClosestPointSearch plate(model);
+  EXPECT_FALSE(static_cast<bool>(plate.nearest({ std::nan(""), 0, 0 }).entity));
+}
+
+TEST(Degenerate, ZeroLengthEdgeAndCollapsedPatch)
+{
+  NurbsModel model;
+  model.vertices = { { { 1, 0, 0 }, {}, 0 }, { { 1, 0, 0 }, {}, 0 } };
+  shapes::addLine(model, 0, 1);
+  NurbsFace face; // all of it in one point
+  face.patchesU = face.patchesV = 1;
+  face.patches = { { 1, 1, 0, 1, 0, 1, std::vector<ControlPoint>(4, { 0, 0, 0, 1 }) } };
+  model.faces.push_back(face);
+  const ClosestPointSearch search(model);
+  EXPECT_EQ(search.nearest({ 2, 1, 0 }).entity, (EntityId{ 0, 0 }));
+  EXPECT_EQ(search.nearest({ -1, 0, 0 }).entity, (EntityId{ 2, 0 }));
+  EXPECT_NEAR(search.nearest({ -1, 0, 0 }).distance, 1.0, 1e-12);
+}
+
+} // namespace
+} // namespace cadrefine

@@ -1,0 +1,65 @@
+"""Runs plugin/cadrefine.py for the tests, as people do: under mpirun and pvbatch, or in pvpython."""
+
+import json
+import os
+import subprocess
+import tempfile
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+DRIVER = os.path.join(ROOT, "plugin", "cadrefine.py")
+DATA = os.path.join(ROOT, "data")
+TIMEOUT = 240  # Seconds after which a run counts as hanging.
+
+ENVIRONMENT = {
+    "OMPI_ALLOW_RUN_AS_ROOT": "1",
+    "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+    "OMPI_MCA_rmaps_base_oversubscribe": "1",
+    "OMPI_MCA_btl_vader_single_copy_mechanism": "none",
+    "PRTE_MCA_rmaps_default_mapping_policy": ":oversubscribe",
+}
+
+
+def data(name):
+    return os.path.join(DATA, name)
+
+
+class Run:
+    """One run of the driver: exit statuses of all ranks, standard output and the lines of standard error."""
+
+    def __init__(self, ranks, *arguments, without=()):
+        """`ranks` 0 stands for pvpython; variables named in `without` are taken out of the environment."""
+        environment = {**os.environ, **ENVIRONMENT}
+        for name in without:
+            environment.pop(name, None)
+        with tempfile.TemporaryDirectory() as folder:
+            result = subprocess.run(self.command(ranks, folder, arguments), env=environment, capture_output=True,
+                                    text=True, timeout=TIMEOUT, stdin=subprocess.DEVNULL, check=False)
+            self.statuses = [read_status(os.path.join(folder, name)) for name in sorted(os.listdir(folder))]
+        self.status = result.returncode
+        self.output = result.stdout
+        self.errors = [line for line in result.stderr.splitlines() if line.strip()]
+
+    @staticmethod
+    def command(ranks, folder, arguments):
+        arguments = [DRIVER, *map(str, arguments)]
+        if ranks == 0:
+            return ["pvpython", *arguments]
+        # Each rank leaves its exit status in a file; mpirun sees 0, and so ends none of them early.
+        script = 'pvbatch "$@"; echo $? > "$0/$OMPI_COMM_WORLD_RANK"'
+        return ["mpirun", "-np", str(ranks), "sh", "-c", script, folder, *arguments]
+
+
+def read_status(path):
+    with open(path, encoding="ascii") as file:
+        return int(file.read())
+
+
+def report_of(ranks, *arguments):
+    """Report of a run that must succeed without a word on standard error."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "report.json")
+        run = Run(ranks, *arguments, "--report", path)
+        assert run.status == 0 and not any(run.statuses), (run.status, run.statuses, run.errors, run.output)
+        assert not run.errors, run.errors
+        with open(path, encoding="utf-8") as file:
+            return json.load(file)

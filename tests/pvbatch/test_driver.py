@@ -1,0 +1,104 @@
+#!/usr/bin/python3
+"""The driver on the bundled cases: what the report says, what the files hold."""
+
+import os
+import sys
+import tempfile
+import unittest
+
+import driver
+import meshio
+import numpy as np
+
+RANKS = int(sys.argv.pop()) if sys.argv[-1].isdigit() else 1
+WING = (driver.data("naca0012_coarse.vtu"), driver.data("naca0012_sharp.igs"))
+ARCS = (driver.data("three_arcs_coarse.vtu"), driver.data("three_arcs.igs"))
+
+STEP_KEYS = {"step", "vertices", "cells", "cad_vertices", "projected_points", "global_error", "maximum_distance",
+             "invalid_cells", "unprojected_vertices", "minimum_quality", "seconds"}
+
+
+class Driver(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def test_report(self):
+        report = driver.report_of(RANKS, *WING, "--method", "uniform", "--steps", "1")
+        self.assertEqual(report["ranks"], max(RANKS, 1))
+        self.assertEqual(report["mesh"], WING[0])
+        self.assertLessEqual({"read_cad", "read_mesh", "total"}, set(report["seconds"]))
+        cad = report["cad"]
+        self.assertEqual((cad["faces"], cad["edges"], cad["vertices"]), (38, 95, 57))
+        self.assertEqual((cad["unread"], cad["unit"]), ([], "m"))
+        self.assertEqual([step["step"] for step in report["steps"]], [0, 1])
+        for step in report["steps"]:
+            self.assertLessEqual(STEP_KEYS, set(step))
+            self.assertEqual(set(step["seconds"]), {"project", "error", "refine"})
+            self.assertEqual(step["invalid_cells"], 0)
+            self.assertGreater(step["minimum_quality"], 0.0)
+        first, second = report["steps"]
+        self.assertEqual((first["vertices"], first["cells"], first["cad_vertices"]), (96, 228, 66))
+        self.assertEqual((second["vertices"], second["cells"]), (510, 8 * 228))
+        self.assertLess(second["global_error"], first["global_error"])
+
+    def test_output_agrees_with_report(self):
+        output = self.path("out.vtu")
+        report = driver.report_of(RANKS, *WING, "--uniform-steps", "1", "--steps", "1", "--threshold", "1e-5",
+                                  "--output", output)
+        mesh = meshio.read(output)
+        cells = mesh.cells_dict["tetra"]
+        self.assertEqual(len(mesh.points), report["steps"][-1]["vertices"])
+        self.assertEqual(len(cells), report["steps"][-1]["cells"])
+        self.assertEqual(len(np.unique(mesh.points, axis=0)), len(mesh.points))
+        volumes = np.linalg.det(mesh.points[cells[:, 1:]] - mesh.points[cells[:, :1]])
+        self.assertGreater(volumes.min(), 0.0)
+        error = mesh.cell_data_dict["GeometricError"]["tetra"]
+        self.assertAlmostEqual(error.sum() / report["steps"][-1]["global_error"], 1.0, places=9)
+
+    def test_pieces(self):
+        output = self.path("out.pvtu")
+        driver.report_of(RANKS, *ARCS, "--steps", "1", "--output", output)
+        self.assertTrue(os.path.isfile(output))
+        self.assertEqual(driver.report_of(RANKS, output, ARCS[1], "--steps", "0")["steps"][0]["invalid_cells"], 0)
+
+    def test_curves_in_the_plane(self):
+        report = driver.report_of(RANKS, *ARCS, "--steps", "4", "--method", "uniform")
+        cad = report["cad"]
+        self.assertEqual((cad["faces"], cad["edges"], cad["vertices"]), (0, 3, 3))
+        errors = [step["global_error"] for step in report["steps"]]
+        for coarse, fine in zip(errors[1:], errors[2:]):
+            self.assertTrue(3.6 < coarse / fine < 4.4, errors)
+
+    def test_without_cad_the_error_stays(self):
+        report = driver.report_of(RANKS, *WING, "--no-cad", "--method", "uniform", "--steps", "2")
+        first, last = report["steps"][0], report["steps"][-1]
+        self.assertGreater(last["global_error"], 0.5 * first["global_error"])
+
+    def test_stops(self):
+        many = driver.report_of(RANKS, *WING, "--method", "uniform", "--maximum-cells", "2000", "--steps", "5")
+        self.assertEqual(many["steps"][-1]["cells"], 8 * 228)
+        self.assertIn("2000 cells", many["stopped"])
+        marked = driver.report_of(RANKS, *WING, "--threshold", "1e9")
+        self.assertEqual(len(marked["steps"]), 1)
+        target = driver.report_of(RANKS, *WING, "--target-error", "1e9")
+        self.assertEqual(len(target["steps"]), 1)
+
+    def test_plot_and_table(self):
+        report, plot = self.path("straight.json"), self.path("plot.png")
+        driver.Run(RANKS, *ARCS, "--steps", "2", "--no-cad", "--report", report)
+        run = driver.Run(RANKS, *ARCS, "--steps", "2", "--plot", plot, "--compare-report", report)
+        self.assertEqual((run.status, run.errors), (0, []))
+        with open(plot, "rb") as file:
+            self.assertEqual(file.read(8), b"\x89PNG\r\n\x1a\n")
+        rows = [line.split() for line in run.output.splitlines() if line.strip()[:1].isdigit()]
+        self.assertEqual([row[0] for row in rows], ["0", "1", "2"])
+        self.assertEqual(driver.Run(RANKS, *ARCS, "--steps", "1", "--quiet").output, "")
+
+
+if __name__ == "__main__":
+    unittest.main()

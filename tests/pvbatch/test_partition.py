@@ -1,0 +1,46 @@
+#!/usr/bin/python3
+"""The result does not depend on the number of ranks: same cells, same coordinates to the last bit."""
+
+import os
+import tempfile
+import unittest
+
+import driver
+import meshio
+
+CASES = {
+    "wing": (driver.data("naca0012_coarse.vtu"), driver.data("naca0012_sharp.igs"), "--threshold", "1e-6"),
+    "blunt wing": (driver.data("naca0012_blunt_coarse.vtu"), driver.data("naca0012_blunt.igs"),
+                   "--threshold", "1e-6"),
+    "arcs": (driver.data("three_arcs_coarse.vtu"), driver.data("three_arcs.igs"), "--threshold", "1e-4"),
+}
+COUNTED = ("vertices", "cells", "cad_vertices", "projected_points", "global_error", "maximum_distance",
+           "invalid_cells", "unprojected_vertices", "minimum_quality")
+
+
+class Partition(unittest.TestCase):
+    def result(self, ranks, arguments):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "out.vtu")
+            report = driver.report_of(ranks, *arguments, "--uniform-steps", "1", "--steps", "3", "--output", path)
+            mesh = meshio.read(path)
+        arrays = {**mesh.point_data, **{name: values[0] for name, values in mesh.cell_data.items()}}
+        return mesh.points, mesh.cells[0].data, arrays, [[s[key] for key in COUNTED] for s in report["steps"]]
+
+    def test_same_on_any_number_of_ranks(self):
+        for name, arguments in CASES.items():
+            points, cells, arrays, counted = self.result(1, arguments)
+            for ranks in (2, 3, 4):
+                with self.subTest(case=name, ranks=ranks):
+                    other_points, other_cells, other_arrays, other_counted = self.result(ranks, arguments)
+                    self.assertEqual(counted, other_counted)
+                    self.assertEqual(points.tobytes(), other_points.tobytes())
+                    self.assertEqual(cells.tolist(), other_cells.tolist())
+                    self.assertEqual(set(arrays), set(other_arrays))
+                    for array, values in arrays.items():
+                        if array not in ("vtkProcessId", "vtkGhostType"):
+                            self.assertEqual(values.tobytes(), other_arrays[array].tobytes(), array)
+
+
+if __name__ == "__main__":
+    unittest.main()
