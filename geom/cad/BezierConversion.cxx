@@ -12,7 +12,6 @@
 #include <Geom_BSplineSurface.hxx>
 #include <Geom_BezierCurve.hxx>
 #include <Geom_BezierSurface.hxx>
-#include <Geom_RectangularTrimmedSurface.hxx>
 #include <Geom_TrimmedCurve.hxx>
 #include <TColGeom_Array2OfBezierSurface.hxx>
 #include <TColStd_Array1OfReal.hxx>
@@ -40,18 +39,6 @@ BezierPatch toPatch(const Geom_BezierSurface& surface)
     }
   }
   return patch;
-}
-
-Handle(Geom_BSplineSurface) toBSpline(Handle(Geom_Surface) surface)
-{
-  Handle(Geom_Surface) basis = surface;
-  while (const auto trimmed = Handle(Geom_RectangularTrimmedSurface)::DownCast(basis))
-  {
-    basis = trimmed->BasisSurface();
-  }
-  const auto spline = Handle(Geom_BSplineSurface)::DownCast(basis);
-  return spline.IsNull() ? GeomConvert::SurfaceToBSplineSurface(surface)
-                         : Handle(Geom_BSplineSurface)::DownCast(spline->Copy());
 }
 
 } // namespace
@@ -100,9 +87,24 @@ std::vector<BezierCurve2> bezierPieces(
   return pieces;
 }
 
+void transform(const gp_Trsf& trsf, std::vector<ControlPoint>& points)
+{
+  if (trsf.Form() == gp_Identity)
+  {
+    return;
+  }
+  for (ControlPoint& c : points)
+  {
+    gp_XYZ p(c[0] / c[3], c[1] / c[3], c[2] / c[3]);
+    trsf.Transforms(p);
+    c = homogeneous(p, c[3]);
+  }
+}
+
 PatchGrid bezierPatches(const Handle(Geom_Surface) & surface)
 {
-  const Handle(Geom_BSplineSurface) spline = toBSpline(surface);
+  const Handle(Geom_BSplineSurface) spline =
+    Handle(Geom_BSplineSurface)::DownCast(GeomConvert::SurfaceToBSplineSurface(surface)->Copy());
   PatchGrid grid;
   grid.periodU = spline->IsUPeriodic() ? spline->UPeriod() : 0;
   grid.periodV = spline->IsVPeriodic() ? spline->VPeriod() : 0;

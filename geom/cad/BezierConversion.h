@@ -6,6 +6,7 @@
 #include <Geom2d_Curve.hxx>
 #include <Geom_Curve.hxx>
 #include <Geom_Surface.hxx>
+#include <gp_Trsf.hxx>
 
 #include <vector>
 
@@ -20,6 +21,9 @@ std::vector<BezierCurve> bezierPieces(const Handle(Geom_Curve) & curve, double f
 std::vector<BezierCurve2> bezierPieces(
   const Handle(Geom2d_Curve) & curve, double first, double last);
 
+/// Applies a similarity to homogeneous control points.
+void transform(const gp_Trsf& trsf, std::vector<ControlPoint>& points);
+
 /// A grid of patches as NurbsFace has it, and where the parameters repeat.
 struct PatchGrid
 {
@@ -30,7 +34,7 @@ struct PatchGrid
   double periodV = 0;
 };
 
-/// The whole of a B-spline surface (or of a trimmed one's basis), one period of a periodic one.
+/// The whole of a B-spline or Bezier surface, one period of a periodic one.
 PatchGrid bezierPatches(const Handle(Geom_Surface) & surface);
 
 } // namespace cadrefine

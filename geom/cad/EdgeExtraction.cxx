@@ -3,6 +3,7 @@
 #include "NurbsExtraction.h"
 
 #include <BRep_Tool.hxx>
+#include <TopLoc_Location.hxx>
 
 namespace cadrefine
 {
@@ -11,13 +12,18 @@ NurbsEdge extractEdge(const TopoDS_Edge& edge)
 {
   double first = 0;
   double last = 0;
-  const Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, first, last);
+  TopLoc_Location location;
+  const Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, location, first, last);
   if (curve.IsNull())
   {
     throw Error("an edge has no curve in space");
   }
   NurbsEdge result;
   result.segments = bezierPieces(curve, first, last);
+  for (BezierCurve& segment : result.segments)
+  {
+    transform(location.Transformation(), segment.points);
+  }
   result.tolerance = BRep_Tool::Tolerance(edge);
   return result;
 }

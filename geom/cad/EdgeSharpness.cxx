@@ -7,6 +7,7 @@
 #include <BRep_Tool.hxx>
 #include <Geom2d_Curve.hxx>
 #include <Geom_Surface.hxx>
+#include <TopLoc_Location.hxx>
 #include <gp_Pnt.hxx>
 #include <gp_Vec.hxx>
 
@@ -22,6 +23,7 @@ struct Side
 {
   Handle(Geom2d_Curve) curve;
   Handle(Geom_Surface) surface;
+  TopLoc_Location location;
   double first = 0;
   double last = 0;
   double sign = 1;
@@ -33,7 +35,7 @@ Side makeSide(const EdgeUse& use)
 {
   Side side;
   side.curve = BRep_Tool::CurveOnSurface(use.edge, use.face, side.first, side.last);
-  side.surface = BRep_Tool::Surface(use.face);
+  side.surface = BRep_Tool::Surface(use.face, side.location);
   side.sign = use.face.Orientation() == TopAbs_REVERSED ? -1 : 1;
   return side;
 }
@@ -45,9 +47,10 @@ Vector3 normalAt(const Side& side, double t)
   gp_Pnt point;
   gp_Vec du, dv;
   side.surface->D1(uv.X(), uv.Y(), point, du, dv);
-  const gp_Vec n = side.sign * du.Crossed(dv);
+  const gp_Vec n = side.sign * du.Crossed(dv).Transformed(side.location.Transformation());
   const double scale = du.Magnitude() * dv.Magnitude();
-  return n.Magnitude() > 1e-9 * scale ? normalized({ n.X(), n.Y(), n.Z() }) : Vector3{};
+  return du.Crossed(dv).Magnitude() > 1e-9 * scale ? normalized({ n.X(), n.Y(), n.Z() })
+                                                   : Vector3{};
 }
 
 bool normalsDiffer(const Side& a, const Side& b)

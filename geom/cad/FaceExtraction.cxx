@@ -1,16 +1,19 @@
-// 1. Split the face's B-spline surface into Bezier patches (one period of a periodic one).
-// 2. Take the trim loops, and lay the patches over the parameters they span, repeating them by
-//    whole periods; cut the outermost ones where the loops end.
-// 3. Forget the loops where they only run round the patches.
+// 1. Take the trim loops; their extent is the window of the surface that is of interest.
+// 2. Convert the surface to Bezier patches; lay those of a spline over the window, repeating them
+//    by whole periods, and cut the outermost ones where it ends.
+// 3. Map the loops to the parameters of the patches, and forget them where they only run round
+//    these.
 
 #include "NurbsExtraction.h"
 
 #include "BezierConversion.h"
 #include "BezierSubdivision.h"
 #include "Error.h"
+#include "SurfaceConversion.h"
 #include "TrimLoops.h"
 
 #include <BRep_Tool.hxx>
+#include <TopLoc_Location.hxx>
 
 #include <algorithm>
 #include <cmath>
@@ -117,6 +120,21 @@ void layPatches(const PatchGrid& grid, const ParameterBox& box, NurbsFace& face)
   }
 }
 
+ParameterBox boundsOf(const Geom_Surface& surface)
+{
+  ParameterBox box;
+  surface.Bounds(box.u0, box.u1, box.v0, box.v1);
+  return box;
+}
+
+void transformPatches(const gp_Trsf& trsf, std::vector<BezierPatch>& patches)
+{
+  for (BezierPatch& patch : patches)
+  {
+    transform(trsf, patch.points);
+  }
+}
+
 ParameterBox boxOf(const std::vector<BezierPatch>& patches)
 {
   return { patches.front().u0, patches.back().u1, patches.front().v0, patches.back().v1 };
@@ -129,13 +147,20 @@ NurbsFace extractFace(const TopoDS_Face& face)
   NurbsFace result;
   result.reversed = face.Orientation() == TopAbs_REVERSED;
   result.tolerance = BRep_Tool::Tolerance(face);
-  const PatchGrid grid = bezierPatches(BRep_Tool::Surface(face));
-  result.loops = extractLoops(face, grid.periodU, grid.periodV);
-  layPatches(grid, result.loops.empty() ? boxOf(grid.patches) : hullOf(result.loops), result);
+  TopLoc_Location location;
+  const Handle(Geom_Surface) surface = BRep_Tool::Surface(face, location);
+  const double periodU = surface->IsUPeriodic() ? surface->UPeriod() : 0;
+  const double periodV = surface->IsVPeriodic() ? surface->VPeriod() : 0;
+  const std::vector<TrimLoop> loops = extractLoops(face, periodU, periodV);
+  const ParameterBox window = loops.empty() ? boundsOf(*surface) : hullOf(loops);
+  const ConvertedSurface converted = convertSurface(surface, window);
+  layPatches(converted.grid, window, result);
   if (result.patches.empty())
   {
     throw Error("a face's trim curves lie outside of its surface");
   }
+  transformPatches(location.Transformation(), result.patches);
+  result.loops = mapLoops(loops, converted.mapU, converted.mapV);
   if (followsBorder(result.loops, boxOf(result.patches)))
   {
     result.loops.clear();

@@ -2,12 +2,11 @@
 // 2. Sew the free faces, with the smallest tolerance after which the fewest edges stay open.
 // 3. Heal what Open CASCADE's own checker finds broken; make solids of closed shells, which turns
 //    them outward.
-// 4. Convert to B-splines and see that every edge has its curve in space.
+// 4. See that every edge has its curve in space.
 
 #include "ShapePreparation.h"
 
 #include <BRepBndLib.hxx>
-#include <BRepBuilderAPI_NurbsConvert.hxx>
 #include <BRepBuilderAPI_Sewing.hxx>
 #include <BRepCheck_Analyzer.hxx>
 #include <BRepLib.hxx>
@@ -152,14 +151,6 @@ TopoDS_Shape orientShells(const TopoDS_Shape& shape)
   return compoundOf(parts);
 }
 
-TopoDS_Shape convertToNurbs(const TopoDS_Shape& shape)
-{
-  BRepBuilderAPI_NurbsConvert convert(shape, true);
-  const TopoDS_Shape converted = convert.Shape();
-  BRepLib::BuildCurves3d(converted);
-  return converted;
-}
-
 /// The solids, shells and faces of `shape`, the free ones sewn.
 std::vector<TopoDS_Shape> collectSurfaces(const TopoDS_Shape& shape)
 {
@@ -200,9 +191,8 @@ TopoDS_Shape prepareShape(const TopoDS_Shape& shape)
     parts.push_back(joinCurves(compoundOf(curves)));
   }
   const TopoDS_Compound all = compoundOf(parts);
-  return TopExp_Explorer(all, TopAbs_EDGE).More() || TopExp_Explorer(all, TopAbs_FACE).More()
-           ? convertToNurbs(all)
-           : TopoDS_Shape();
+  BRepLib::BuildCurves3d(all);
+  return TopExp_Explorer(all, TopAbs_EDGE).More() ? TopoDS_Shape(all) : TopoDS_Shape();
 }
 
 } // namespace cadrefine

@@ -1,4 +1,4 @@
-// From the shapes of a file to one sewn, healed model of B-splines. Private to geom/cad.
+// From the shapes of a file to one sewn, healed model. Private to geom/cad.
 #pragma once
 
 #include <TopoDS_Shape.hxx>
@@ -7,8 +7,7 @@ namespace cadrefine
 {
 
 /// The model made of `shape`: free faces sewn, broken ones healed, closed shells turned outward,
-/// free curves joined at their ends, all geometry converted to B-splines. Null where `shape`
-/// holds neither face nor curve.
+/// free curves joined at their ends. Null where `shape` holds neither face nor curve.
 TopoDS_Shape prepareShape(const TopoDS_Shape& shape);
 
 /// Free curves that end in common vertices, where their ends lie within a tolerance of each other

@@ -1,0 +1,25 @@
+// Poly data that shows a CAD model.
+#pragma once
+
+#include "CADModel.h"
+
+#include <vtkSmartPointer.h>
+
+class vtkPolyData;
+
+namespace cadrefine
+{
+
+/// Which entities one rank draws, and how finely.
+struct DrawingShare
+{
+  int rank = 0;
+  int size = 1;
+  double tolerance = 1e-3; ///< Deflection as a part of the model's size.
+};
+
+/// This rank's share of the entities of a dimension (indices rank, rank + size, ...) as vertices,
+/// lines or triangles with the cell array CADEntity.
+vtkSmartPointer<vtkPolyData> draw(const CADModel& model, int dimension, const DrawingShare& share);
+
+} // namespace cadrefine

@@ -1,0 +1,79 @@
+/**
+ * @class vtkCADReader
+ * @brief reads IGES, STEP and BREP files
+ *
+ * Output: a vtkPartitionedDataSetCollection of the partitioned data sets Faces, Edges and Vertices
+ * (poly data to look at, with the cell array CADEntity; each rank tessellates its share), with the
+ * exact model as field data (see vtkCADModelCache), which every rank holds. The field array CADUnit
+ * names the file's unit of length; CADUnread lists what could not be read, a line each.
+ *
+ * Rank 0 alone reads the file and broadcasts the model. A file that cannot be read is an error on
+ * all ranks, reported by rank 0; entities that could not be read give a warning.
+ */
+#ifndef vtkCADReader_h
+#define vtkCADReader_h
+
+#include "CADRefineFiltersModule.h"
+#include "vtkPartitionedDataSetCollectionAlgorithm.h"
+
+#include <memory>
+
+namespace cadrefine
+{
+class CADModel;
+class RankExchange;
+} // namespace cadrefine
+class vtkMultiProcessController;
+
+class CADREFINEFILTERS_EXPORT vtkCADReader : public vtkPartitionedDataSetCollectionAlgorithm
+{
+public:
+  static vtkCADReader* New();
+  vtkTypeMacro(vtkCADReader, vtkPartitionedDataSetCollectionAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * The file: .igs, .iges, .stp, .step or .brep.
+   */
+  vtkSetFilePathMacro(FileName);
+  vtkGetFilePathMacro(FileName);
+  ///@}
+
+  ///@{
+  /**
+   * How far the drawing may lie off the model, as a part of the model's size. Default 0.001.
+   */
+  vtkSetClampMacro(TessellationTolerance, double, 1e-6, 0.1);
+  vtkGetMacro(TessellationTolerance, double);
+  ///@}
+
+  ///@{
+  /**
+   * The ranks. Default: the global controller.
+   */
+  virtual void SetController(vtkMultiProcessController*);
+  vtkMultiProcessController* GetController() { return this->Controller; }
+  ///@}
+
+protected:
+  vtkCADReader();
+  ~vtkCADReader() override;
+
+  int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+
+private:
+  vtkCADReader(const vtkCADReader&) = delete;
+  void operator=(const vtkCADReader&) = delete;
+
+  std::shared_ptr<const cadrefine::CADModel> ReadModel(
+    cadrefine::RankExchange& exchange, vtkPartitionedDataSetCollection* output);
+  void WarnOfUnread(const cadrefine::CADModel& model);
+
+  char* FileName = nullptr;
+  double TessellationTolerance = 0.001;
+  vtkMultiProcessController* Controller = nullptr;
+};
+
+#endif
