@@ -74,11 +74,37 @@ private:
     {
       records.push_back(
         makeRecord(projector_, classifiedFacet(mesh_.mesh(), entities, facet, boundary_.kind)));
+      records.back().onCAD = records.back().onCAD && keepsItsShape(facet);
       const auto end = facet.vertices.begin() + boundary_.facetCorners();
       records.back().free = std::any_of(facet.vertices.begin(), end,
         [&](Index vertex) { return !inRegion(options_, mesh_.mesh().points[vertex]); });
     }
     return records;
+  }
+
+  /// Whether the facet looks alike on the CAD: no edge shorter than half of it or longer than twice,
+  /// no corner farther away than half of the longest edge. Facets of walls and of the far field
+  /// collapse when their corners are projected.
+  bool keepsItsShape(const Facet& facet) const
+  {
+    const auto& points = mesh_.mesh().points;
+    const int corners = boundary_.facetCorners();
+    double longest = 0;
+    double farthest = 0;
+    for (int k = 0; k < corners; ++k)
+    {
+      const Index a = facet.vertices[k];
+      const Index b = facet.vertices[(k + 1) % corners];
+      const double before = distance(points[a], points[b]);
+      const double after = distance(hits_[a].point, hits_[b].point);
+      if (after < 0.5 * before || after > 2 * before)
+      {
+        return false;
+      }
+      longest = std::max(longest, before);
+      farthest = std::max(farthest, hits_[a].distance);
+    }
+    return farthest <= 0.5 * longest;
   }
 
   void classifyFacets()

@@ -31,8 +31,8 @@ struct ProjectionResult
 /// Moves the boundary vertices of the mesh onto the CAD (S. Strunk, KTH 2013, Algorithm 4.1):
 ///   1. each boundary vertex in the region finds its nearest point on the trimmed model, within its
 ///      limit;
-///   2. a facet is on the CAD if its corners found one and its normal fits; vertices without such a
-///      facet are left out (walls that meet the CAD, far field);
+///   2. a facet is on the CAD if its corners found one, its normal fits, and it looks alike there;
+///      vertices without such a facet are left out (walls that meet the CAD, far field);
 ///   3. mesh edges along the rim of these facets, or with a dihedral angle, that run along a crease
 ///      of the CAD put their ends onto that crease;
 ///   4. each corner of the CAD takes the nearest of these vertices that is within half of its

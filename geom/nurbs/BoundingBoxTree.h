@@ -54,8 +54,9 @@ public:
   int build(std::vector<Entry> entries);
   const BoundingBox& box(int root) const { return nodes_[root].box; }
 
-  /// Calls `visit(item)` for every item below `root` whose box may be within the square root of
-  /// `limit()` of q, nearer boxes first; `limit` is asked again after every visit.
+  /// Calls `visit(item, squaredDistance of its box)` for every item below `root` whose box may be
+  /// within the square root of `limit()` of q, nearer boxes first; `limit` is asked again after
+  /// every visit.
   template<typename Limit, typename Visit>
   void visitNear(int root, const Point3& q, const Limit& limit, const Visit& visit) const;
 
@@ -91,29 +92,22 @@ void BoundingBoxTree::visitNear(
   }
   while (size > 0)
   {
-    const Waiting here = stack[--size];
-    if (here.squaredDistance > limit())
+    Waiting here = stack[--size];
+    while (here.squaredDistance <= limit())
     {
-      continue;
-    }
-    int node = here.node;
-    while (node != none && nodes_[node].left != none)
-    {
-      Waiting near = { nodes_[node].left, nodes_[nodes_[node].left].box.squaredDistance(q) };
-      Waiting far = { nodes_[node].right, nodes_[nodes_[node].right].box.squaredDistance(q) };
-      if (far.squaredDistance < near.squaredDistance)
+      const Node& node = nodes_[here.node];
+      if (node.left == none)
       {
-        std::swap(near, far);
+        visit(node.item, here.squaredDistance);
+        break;
       }
-      if (far.squaredDistance <= limit())
+      Waiting far = { node.right, nodes_[node.right].box.squaredDistance(q) };
+      here = { node.left, nodes_[node.left].box.squaredDistance(q) };
+      if (far.squaredDistance < here.squaredDistance)
       {
-        stack[size++] = far;
+        std::swap(here, far);
       }
-      node = near.squaredDistance <= limit() ? near.node : none;
-    }
-    if (node != none)
-    {
-      visit(nodes_[node].item);
+      stack[size++] = far;
     }
   }
 }

@@ -44,18 +44,18 @@ void visitTree(const SearchStructure& structure, int root, const Point3& q,
     return limit * limit;
   };
   structure.tree.visitNear(root, q, squaredLimit,
-    [&](int item)
+    [&](int item, double squaredDistance)
     {
       const SearchLeaf& leaf = structure.leaves[item];
       const SearchEntity& entity = structure.entities[leaf.entity];
       const Role role = roleOf(entity, scope);
       if (role == Role::itself)
       {
-        query.visit(leaf, entity.id, false);
+        query.visit(leaf, entity.id, false, squaredDistance);
       }
       else if (role == Role::border)
       {
-        query.visit(leaf, { 2, entity.face }, true);
+        query.visit(leaf, { 2, entity.face }, true, squaredDistance);
       }
     });
 }
@@ -106,6 +106,7 @@ ClosestPoint ClosestPointSearch::Implementation::onBorder(
   query.ignoreTrim();
   const SearchEntity& face = structure.entities[structure.entityNumber(candidate.id)];
   visitTree(structure, face.root, onEdge, {}, query);
+  query.finish();
   const Candidate* onFace = query.candidates().winner();
   if (!onFace)
   {
@@ -175,6 +176,7 @@ ClosestPoint ClosestPointSearch::nearest(const Point3& point, const SearchScope&
   const SearchStructure& structure = implementation_->structure;
   LeafQuery query(structure, point, scope.maximumDistance);
   visitTree(structure, structure.root, point, scope, query);
+  query.finish();
   return implementation_->answer(point, query);
 }
 
@@ -214,6 +216,7 @@ ClosestPoint ClosestPointSearch::nearestOnSurface(int face, const Point3& point)
   LeafQuery query(implementation_->structure, point, std::numeric_limits<double>::infinity());
   query.ignoreTrim();
   implementation_->visitEntity({ 2, face }, point, query);
+  query.finish();
   return implementation_->answer(point, query);
 }
 

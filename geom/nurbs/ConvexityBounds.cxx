@@ -24,7 +24,7 @@ struct IntervalVector
   }
 };
 
-/// Minimum of g x + a x^2 / 2 over [-1/2, 1/2], a >= 0.
+/// Minimum of g x + a x^2 / 2 over [-1/2, 1/2], for any a.
 double leastOverHalves(double a, double g)
 {
   const double slope = std::abs(g);
@@ -169,16 +169,16 @@ ConvexityBounds::Answer ConvexityBounds::ask(const Point3& q) const
   const double b = (ownST_ + rangeST).magnitude();
   Answer answer;
   answer.convex = a > 0 && d > 0 && a * d > margin * b * b;
+  // a x^2 - 2 b |x y| + d y^2 >= (a - b r) x^2 + (d - b / r) y^2 for any r > 0.
+  const double gradientS = dot(k, tangentS_);
+  const double gradientT = dot(k, tangentT_);
+  const double r = answer.convex ? std::sqrt(a / d) : 1.0;
+  answer.squaredDistanceBound = squaredNorm(k) + 2.0 * (leastOverHalves(a - b * r, gradientS) +
+                                                         leastOverHalves(d - b / r, gradientT));
   if (!answer.convex)
   {
     return answer;
   }
-  // a x^2 - 2 b |x y| + d y^2 >= (a - b r) x^2 + (d - b / r) y^2 for any r > 0.
-  const double gradientS = dot(k, tangentS_);
-  const double gradientT = dot(k, tangentT_);
-  const double r = std::sqrt(a / d);
-  answer.squaredDistanceBound = squaredNorm(k) + 2.0 * (leastOverHalves(a - b * r, gradientS) +
-                                                         leastOverHalves(d - b / r, gradientT));
   const QuadraticModel model = { gradientS, gradientT, ownSS_.middle() + rangeSS.middle(),
     ownST_.middle() + rangeST.middle(), ownTT_.middle() + rangeTT.middle() };
   const Point2 step = minimizeOverBox(model, { -0.5, 0.5, -0.5, 0.5 });

@@ -13,8 +13,8 @@ namespace cadrefine
 /// Bounds on the second derivatives of f = |S - q|^2 / 2 over the unit square of a patch, for any
 /// q. With c the patch's middle point, Hess f = Hess |S - c|^2 / 2 + (c - q) . Hess S: the first
 /// term is enclosed once, and Hess S too, component by component. So convexity is proved, or not,
-/// in a few operations for each query, and then gives a lower bound on f that knows the patch's
-/// direction and curvature.
+/// in a few operations for each query, and f is bounded from below by a bound that knows the
+/// patch's direction and curvature.
 class ConvexityBounds
 {
 public:
@@ -26,8 +26,8 @@ public:
   struct Answer
   {
     bool convex = false;             ///< f is strictly convex over the square.
-    double squaredDistanceBound = 0; ///< 2 f is nowhere smaller, where convex.
-    double s = 0.5;                  ///< Guess of the minimiser, where convex.
+    double squaredDistanceBound = 0; ///< 2 f is nowhere smaller.
+    double s = 0.5;                  ///< Guess of the minimiser; the middle where not convex.
     double t = 0.5;
   };
   Answer ask(const Point3& q) const;

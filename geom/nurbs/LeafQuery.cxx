@@ -3,6 +3,7 @@
 #include "LeafSubdivision.h"
 #include "SquareMinimum.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace cadrefine
@@ -36,51 +37,93 @@ void LeafQuery::visitVertex(const SearchLeaf& leaf)
   candidates_.offer(candidate);
 }
 
-void LeafQuery::solve(const SearchLeaf& leaf, const ParameterRectangle& part, double s, double t)
+bool LeafQuery::isWithinLimit(double squaredDistance) const
 {
-  const SearchPatch& patch = structure_.patches[leaf.patch];
-  const SquareMinimum foot = minimizeDistance(patch.view, q_, part, s, t, leaf.bounds.radius());
-  Candidate candidate = { id_, border_, std::sqrt(foot.squaredDistance), leaf.patch, foot.s,
-    foot.t };
-  if (!(candidate.distance <= candidates_.limit()))
+  const double limit = candidates_.limit();
+  return squaredDistance <= limit * limit;
+}
+
+void LeafQuery::offer(const SearchLeaf& leaf, double s, double t, double distance)
+{
+  if (!(distance <= candidates_.limit()))
   {
     return;
   }
   if (const TrimRegion* trim = trimOf(leaf))
   {
-    const auto uv = patch.parametersAt(foot.s, foot.t);
+    const auto uv = structure_.patches[leaf.patch].parametersAt(s, t);
     if (!trim->contains(uv[0], uv[1]))
     {
       return;
     }
   }
-  candidates_.offer(candidate);
+  candidates_.offer({ id_, border_, distance, leaf.patch, s, t });
 }
 
-void LeafQuery::visit(const SearchLeaf& leaf, EntityId id, bool border)
+void LeafQuery::solve(
+  const SearchLeaf& leaf, const ParameterRectangle& part, double s, double t, double squaredLimit)
+{
+  const SquareMinimum foot = minimizeDistance(
+    structure_.patches[leaf.patch].view, q_, part, s, t, leaf.bounds.radius(), squaredLimit);
+  offer(leaf, foot.s, foot.t, std::sqrt(foot.squaredDistance));
+}
+
+void LeafQuery::visit(const SearchLeaf& leaf, EntityId id, bool border, double squaredBound)
 {
   if (leaf.patch < 0)
   {
     visitVertex(leaf);
     return;
   }
+  const ConvexityBounds::Answer answer = leaf.bounds.ask(q_);
+  const double bound = std::max(squaredBound, answer.squaredDistanceBound);
+  if (!isWithinLimit(bound))
+  {
+    return;
+  }
+  if (waitingCount_ == mostWaiting)
+  {
+    finish();
+  }
+  const ParameterRectangle& part = leaf.part;
+  const Waiting waiting = { &leaf, id, border, answer.convex, bound,
+    part.s0 + answer.s * part.width(), part.t0 + answer.t * part.height() };
+  waiting_[waitingCount_++] = waiting;
   id_ = id;
   border_ = border;
-  const ConvexityBounds::Answer answer = leaf.bounds.ask(q_);
-  if (!answer.convex)
+  const Point3 start = answer.convex
+                         ? evaluateLocal(structure_.patches[leaf.patch].view, waiting.s, waiting.t)
+                         : leaf.bounds.middle();
+  offer(leaf, waiting.s, waiting.t, distance(start, q_));
+}
+
+void LeafQuery::finish()
+{
+  const auto earlier = [](const Waiting& a, const Waiting& b)
+  { return a.convex != b.convex ? a.convex : a.squaredBound < b.squaredBound; };
+  std::stable_sort(waiting_.begin(), waiting_.begin() + waitingCount_, earlier);
+  for (int i = 0; i < waitingCount_; ++i)
   {
-    LeafSubdivision(*this, leaf).run();
-    return;
+    const Waiting& waiting = waiting_[i];
+    if (!isWithinLimit(waiting.squaredBound))
+    {
+      continue;
+    }
+    id_ = waiting.id;
+    border_ = waiting.border;
+    if (waiting.convex)
+    {
+      // The minimum is unique. Where it is trimmed away, that over what is left of the leaf is on
+      // the trim border, which the edges cover.
+      const double limit = candidates_.limit();
+      solve(*waiting.leaf, waiting.leaf->part, waiting.s, waiting.t, limit * limit);
+    }
+    else
+    {
+      LeafSubdivision(*this, *waiting.leaf).run();
+    }
   }
-  const double limit = candidates_.limit();
-  if (answer.squaredDistanceBound > limit * limit)
-  {
-    return;
-  }
-  // Over a convex leaf the minimum is unique. Where it is trimmed away, that over what is left of
-  // the leaf is on the trim border, which the edges cover.
-  const ParameterRectangle& part = leaf.part;
-  solve(leaf, part, part.s0 + answer.s * part.width(), part.t0 + answer.t * part.height());
+  waitingCount_ = 0;
 }
 
 } // namespace cadrefine

@@ -7,7 +7,10 @@
 namespace cadrefine
 {
 
-/// State of one query while it runs over the leaves.
+/// State of one query while it runs over the leaves, in two steps: while leaves are visited, a
+/// cheap point of each brings the limit down; those that remain within it are then solved, the most
+/// promising first. Leaves over which the distance is convex are solved by Newton's method, the
+/// others are subdivided.
 class LeafQuery
 {
 public:
@@ -16,9 +19,11 @@ public:
   /// Leaves outside the trim loops count too: for points known to be on the border.
   void ignoreTrim() { ignoreTrim_ = true; }
 
-  /// Offers the nearest point of a leaf under the name `id`. Leaves over which the distance is
-  /// convex are solved by Newton's method, the others are subdivided.
-  void visit(const SearchLeaf& leaf, EntityId id, bool border);
+  /// Takes a leaf into account under the name `id`. No point of it is nearer than the square root
+  /// of `squaredBound`.
+  void visit(const SearchLeaf& leaf, EntityId id, bool border, double squaredBound);
+  /// Must follow the last visit.
+  void finish();
 
   const CandidateSet& candidates() const { return candidates_; }
   bool converged() const { return converged_; }
@@ -26,9 +31,25 @@ public:
 private:
   friend class LeafSubdivision;
 
+  /// A leaf that may hold the nearest point.
+  struct Waiting
+  {
+    const SearchLeaf* leaf;
+    EntityId id;
+    bool border;
+    bool convex;
+    double squaredBound;
+    double s, t; // of the patch, where to start
+  };
+
   void visitVertex(const SearchLeaf& leaf);
-  /// Solves within `part` and offers the result, unless it is trimmed away.
-  void solve(const SearchLeaf& leaf, const ParameterRectangle& part, double s, double t);
+  /// Offers a point of the leaf at work, unless it is trimmed away.
+  void offer(const SearchLeaf& leaf, double s, double t, double distance);
+  bool isWithinLimit(double squaredDistance) const;
+  /// Solves within `part` and offers the result. May give up where the distance is convex over it
+  /// and not within the square root of `squaredLimit`.
+  void solve(const SearchLeaf& leaf, const ParameterRectangle& part, double s, double t,
+    double squaredLimit = std::numeric_limits<double>::infinity());
   const TrimRegion* trimOf(const SearchLeaf& leaf) const;
 
   const SearchStructure& structure_;
@@ -38,7 +59,10 @@ private:
   bool ignoreTrim_ = false;
   bool converged_ = true;
   double work_ = 0;
-  EntityId id_;
+  static constexpr int mostWaiting = 64;
+  std::array<Waiting, mostWaiting> waiting_;
+  int waitingCount_ = 0;
+  EntityId id_; // of the leaf at work
   bool border_ = false;
 };
 

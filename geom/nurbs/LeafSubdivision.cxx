@@ -74,23 +74,49 @@ void LeafSubdivision::solveIn(const ParameterRectangle& box, const Part& start)
   query_.solve(leaf_, box, start.rectangle.middleS(), start.rectangle.middleT());
 }
 
-void LeafSubdivision::run()
+/// Range of the ratio of the coefficients, which encloses that of the squared distance.
+Interval LeafSubdivision::ratioRange(int entry) const
 {
-  stack_ = { { leaf_.part, query_.trimOf(leaf_) != nullptr } };
-  solveIn(leaf_.part, stack_.front());
-  const PatchView& view = query_.structure_.patches[leaf_.patch].view;
-  const double count = view.count();
-  if (query_.candidates_.nearest() <= query_.tolerance_ || !spend(4.0 * count * count))
+  Interval ratio = Interval::empty();
+  const double* top = numerator(entry);
+  const double* bottom = denominator(entry);
+  for (int i = 0; i < degrees_.count(); ++i)
   {
-    return;
+    ratio.include(top[i] / bottom[i]);
   }
+  return ratio;
+}
+
+void LeafSubdivision::fillForms()
+{
+  const PatchView& view = query_.structure_.patches[leaf_.patch].view;
   const std::vector<ControlPoint> points = restrictPatch(view, leaf_.part);
   level_.resize(degrees_.count());
   forms_.resize(std::max<std::size_t>(forms_.size(), 2 * degrees_.count()));
   squaredDistanceForm(
     { points.data(), view.degreeU, view.degreeV }, query_.q_, numerator(0), denominator(0));
-  const double cost = degrees_.count() * (degrees_.s + degrees_.t + 12.0);
-  while (!stack_.empty() && spend(cost))
+}
+
+void LeafSubdivision::run()
+{
+  const auto isFound = [this] { return query_.candidates_.nearest() <= query_.tolerance_; };
+  const double count = degrees_.count();
+  if (!isFound())
+  {
+    if (!spend(count * count))
+    {
+      return;
+    }
+    fillForms();
+    if (!query_.isWithinLimit(ratioRange(0).low))
+    {
+      return;
+    }
+  }
+  stack_ = { { leaf_.part, query_.trimOf(leaf_) != nullptr } };
+  solveIn(leaf_.part, stack_.front()); // even then: an entity of a smaller id may be as near
+  const double cost = count * (degrees_.s + degrees_.t + 12.0);
+  while (!stack_.empty() && !isFound() && spend(cost))
   {
     const int last = static_cast<int>(stack_.size()) - 1;
     if (isDropped(last))
@@ -141,13 +167,7 @@ bool LeafSubdivision::isDropped(int entry)
   {
     return true;
   }
-  Interval ratio = Interval::empty();
-  const double* top = numerator(entry);
-  const double* bottom = denominator(entry);
-  for (int i = 0; i < degrees_.count(); ++i)
-  {
-    ratio.include(top[i] / bottom[i]);
-  }
+  const Interval ratio = ratioRange(entry);
   const double known = query_.candidates_.nearest();
   const double wanted = known - query_.tolerance_;
   if (wanted <= 0 || ratio.low >= wanted * wanted)

@@ -37,6 +37,8 @@ private:
   double* numerator(int entry) const;
   double* denominator(int entry) const;
   bool spend(double work);
+  void fillForms();
+  Interval ratioRange(int entry) const;
   bool isDropped(int entry);
   Curvature curvature(int entry, double level) const;
   void solveIn(const ParameterRectangle& box, const Part& start);

@@ -69,6 +69,16 @@ bool makePositiveDefinite(DistanceModel& m)
   return true;
 }
 
+/// Least value over the box of the tangent plane to half the squared distance: a lower bound of
+/// that where it is convex.
+double tangentBound(const DistanceModel& m, const ParameterRectangle& box, double s, double t)
+{
+  const double gradientS = m.quadratic.gradientS;
+  const double gradientT = m.quadratic.gradientT;
+  return m.half + gradientS * ((gradientS > 0 ? box.s0 : box.s1) - s) +
+         gradientT * ((gradientT > 0 ? box.t0 : box.t1) - t);
+}
+
 double squaredLength(const DistanceModel& m, const Point2& step)
 {
   return m.lengthS * step[0] * step[0] + 2.0 * m.lengthST * step[0] * step[1] +
@@ -110,7 +120,7 @@ Point2 minimizeOverBox(const QuadraticModel& m, const ParameterRectangle& box)
 }
 
 SquareMinimum minimizeDistance(const PatchView& patch, const Point3& q,
-  const ParameterRectangle& box, double startS, double startT, double scale)
+  const ParameterRectangle& box, double startS, double startT, double scale, double squaredLimit)
 {
   constexpr int maximumSteps = 50;
   double s = startS;
@@ -118,6 +128,10 @@ SquareMinimum minimizeDistance(const PatchView& patch, const Point3& q,
   DistanceModel here = distanceModel(patch, q, s, t);
   for (int step = 0; step < maximumSteps; ++step)
   {
+    if (2.0 * tangentBound(here, box, s, t) > squaredLimit)
+    {
+      return { s, t, std::numeric_limits<double>::infinity() };
+    }
     const bool modified = makePositiveDefinite(here);
     const ParameterRectangle reach = { box.s0 - s, box.s1 - s, box.t0 - t, box.t1 - t };
     const Point2 move = minimizeOverBox(here.quadratic, reach);

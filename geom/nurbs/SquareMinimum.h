@@ -5,6 +5,8 @@
 #include "PatchView.h"
 #include "Vector3.h"
 
+#include <limits>
+
 namespace cadrefine
 {
 
@@ -34,7 +36,10 @@ struct SquareMinimum
 /// Global where the distance is convex over the box. Converges quadratically; ends after
 /// 50 steps at worst, and then with the best point seen. `scale` is a length over which the patch
 /// is smooth: it decides when a further step no longer matters.
+/// Where the distance is convex over the box, gives up once nothing can be within the square root
+/// of `squaredLimit`, with an infinite distance.
 SquareMinimum minimizeDistance(const PatchView& patch, const Point3& q,
-  const ParameterRectangle& box, double startS, double startT, double scale);
+  const ParameterRectangle& box, double startS, double startT, double scale,
+  double squaredLimit = std::numeric_limits<double>::infinity());
 
 } // namespace cadrefine
