@@ -17,6 +17,7 @@ def real(value):
 
 def hollerith(text):
     return f"{len(text)}H{text}"
+GEOMETRY, CONSTRUCTION = 0, 6  # Entity use flags: part of the model, or an aid beside it.
 
 
 class IgesFile:
@@ -28,13 +29,13 @@ class IgesFile:
         self.entities = []
         self.largest = 0.0  # Largest absolute coordinate, for the global section.
 
-    def add(self, entity_type, parameters, points, form=0):
+    def add(self, entity_type, parameters, points, use=GEOMETRY):
         """Adds an independent entity. Integers among `parameters` are written as such, floats as reals;
         `points` are its coordinates, of which only the largest matters here."""
-        self.entities.append((entity_type, form, parameters))
+        self.entities.append((entity_type, use, parameters))
         self.largest = max([self.largest] + [abs(float(c)) for point in points for c in point])
 
-    def curve(self, degree, knots, poles, planar_normal=None, rational_weights=None):
+    def curve(self, degree, knots, poles, planar_normal=None, rational_weights=None, use=GEOMETRY):
         """Entity 126, a (rational) B-spline curve."""
         weights = rational_weights or [1.0] * len(poles)
         closed = int(poles[0] == poles[-1])
@@ -42,7 +43,7 @@ class IgesFile:
         head = [len(poles) - 1, degree, planar, closed, int(rational_weights is None), 0]
         body = [float(k) for k in knots] + [float(w) for w in weights] + flat(poles)
         tail = [float(knots[0]), float(knots[-1])] + [float(c) for c in planar_normal or (0, 0, 0)]
-        self.add(126, head + body + tail, poles)
+        self.add(126, head + body + tail, poles, use)
 
     def surface(self, degrees, knots_u, knots_v, poles):
         """Entity 128, a polynomial B-spline surface; `poles[j][i]`, i along u, j along v."""
@@ -56,13 +57,13 @@ class IgesFile:
         start = lines([self.title], 72)
         glob = lines([field + "," for field in self.global_fields()[:-1]] + [self.global_fields()[-1] + ";"], 72)
         directory, parameters = [], []
-        for entity_type, form, values in self.entities:
+        for entity_type, use, values in self.entities:
             pointer = len(directory) + 1
             fields = [str(entity_type)] + [real(v) if isinstance(v, float) else str(v) for v in values]
             body = lines([field + "," for field in fields[:-1]] + [fields[-1] + ";"], DATA_COLUMNS)
             first = [entity_type, len(parameters) + 1, 0, 0, 0, 0, 0, 0]
-            directory.append("".join(f"{value:8d}" for value in first) + "00000000")
-            second = [entity_type, 0, 0, len(body), form]
+            directory.append("".join(f"{value:8d}" for value in first) + f"0000{use:02d}00")
+            second = [entity_type, 0, 0, len(body), 0]
             directory.append("".join(f"{value:8d}" for value in second) + " " * 24 + f"{0:8d}")
             parameters += [f"{line:<{DATA_COLUMNS}} {pointer:7d}" for line in body]
         with open(path, "w", encoding="ascii", newline="\n") as file:

@@ -12,14 +12,15 @@ with the same tangent and curvature.
 
 Patches: sharp trailing edge: 10 above, 9 below, twice along the span. Blunt (-0.1015 for -0.1036, 0.00252 thick):
 9 above, 9 below and the base, twice along the span. Normals (dS/du x dS/dv) point out of the wing.
-Each border is written once, as a curve of its own.
+Each border is written once, as a curve of its own, flagged as construction geometry: it is no part of the model
+beside the surfaces.
 """
 
 import argparse
 from fractions import Fraction
 from math import comb
 
-from iges import IgesFile
+from iges import CONSTRUCTION, IgesFile
 
 DEGREE = 8
 SPAN = 2.0
@@ -88,10 +89,11 @@ def write(path, trailing_edge, span):
             file.surface((degree, 1), clamped(degree), clamped(1), [lifted(curve, y0), lifted(curve, y1)])
     for y in stations:
         for curve in curves:
-            file.curve(len(curve) - 1, clamped(len(curve) - 1), lifted(curve, y), planar_normal=(0, 1, 0))
+            file.curve(len(curve) - 1, clamped(len(curve) - 1), lifted(curve, y), planar_normal=(0, 1, 0),
+                       use=CONSTRUCTION)
     for y0, y1 in zip(stations, stations[1:]):
         for curve in curves:
-            file.curve(1, clamped(1), lifted(curve[:1], y0) + lifted(curve[:1], y1))
+            file.curve(1, clamped(1), lifted(curve[:1], y0) + lifted(curve[:1], y1), use=CONSTRUCTION)
     file.write(path)
 
 

@@ -1,20 +1,30 @@
-"""Pictures of a mesh: what lies on the CAD, coloured by its local geometric error."""
+"""Pictures of a mesh: what lies on the CAD, coloured by its local geometric error.
+
+The boundary triangles are gathered on rank 0, which draws them alone. (Drawing on all ranks would want a display on
+each of them, and ParaView 5.11 was seen to hang there when a rank has nothing to draw.)
+"""
 
 import ctypes
 import ctypes.util
 import os
 
-from paraview import simple
+from paraview import servermanager, simple
+from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
+from vtkmodules.vtkIOImage import vtkPNGWriter
+from vtkmodules.vtkRenderingCore import (vtkActor, vtkColorTransferFunction, vtkDataSetMapper, vtkRenderer,
+                                         vtkRenderWindow, vtkWindowToImageFilter)
 
 import cadrefine_session as session
 from cadrefine_session import Failure
 
 SIZE = (1400, 900)
 DECADES = 4  # Of the colour scale, downwards from the largest error.
+VIRIDIS = ((0.267, 0.005, 0.329), (0.231, 0.318, 0.545), (0.129, 0.569, 0.549), (0.369, 0.788, 0.384),
+           (0.993, 0.906, 0.144))
 
 
 def check_display():
-    """A picture needs an X server, which VTK does not do without gracefully."""
+    """A picture needs an X server, and VTK crashes without one."""
     if not os.environ.get("DISPLAY"):
         raise Failure("a screenshot needs a display, and DISPLAY is not set; run it under xvfb-run")
     name = ctypes.util.find_library("X11")
@@ -29,32 +39,17 @@ def check_display():
 
 def screenshot(mesh, path, focus=None):
     """Writes a picture of `mesh`, whose cells have the array GeometricError."""
-    shown = cells_on_cad(mesh)
-    view = simple.CreateView("RenderView")
-    view.ViewSize = SIZE
-    view.OrientationAxesVisibility = 1
-    view.UseColorPaletteForBackground = 0
-    view.Background = (1.0, 1.0, 1.0)
-    view.OrientationAxesLabelColor = (0.0, 0.0, 0.0)
-    display = simple.Show(shown, view)
-    display.SetRepresentationType("Surface With Edges")
-    display.EdgeColor = (0.15, 0.15, 0.15)
-    display.Ambient = 0.3
-    colour_by_error(mesh, display, view)
-    simple.Render(view)  # The first rendering sets a camera of its own.
-    look_at(view, shown, focus)
-    simple.SaveScreenshot(path, view, ImageResolution=SIZE)
-    simple.Delete(view)
-    if not os.path.exists(path):
-        session.raise_errors(path)
-        raise Failure(f"{path}: could not be written")
+    largest = mesh.CellData["GeometricError"].GetRange(0)[1]
+    shown = servermanager.Fetch(cells_on_cad(mesh))
+    if session.speaks():
+        draw(shown, largest, path, focus)
 
 
 def cells_on_cad(mesh):
     """The boundary triangles whose corners all lie on the CAD; of a mesh of triangles all of them."""
     surface = simple.ExtractSurface(Input=mesh)
     surface.UpdatePipeline()
-    if flat(mesh):
+    if flat(mesh.GetDataInformation().GetBounds()):
         return surface
     chosen = simple.Threshold(Input=surface)
     chosen.Scalars = ["POINTS", "CADDimension"]
@@ -64,36 +59,98 @@ def cells_on_cad(mesh):
     return chosen if chosen.GetDataInformation().GetNumberOfCells() else surface
 
 
-def flat(mesh):
-    bounds = mesh.GetDataInformation().GetBounds()
+def flat(bounds):
     return bounds[4] == bounds[5]
 
 
-def colour_by_error(mesh, display, view):
-    simple.ColorBy(display, ("CELLS", "GeometricError"))
-    array = mesh.CellData["GeometricError"]
-    largest = array.GetRange(0)[1] if array else 0.0
-    colours = simple.GetColorTransferFunction("GeometricError")
-    colours.ApplyPreset("Viridis (matplotlib)", True)
-    if largest > 0:
-        colours.RescaleTransferFunction(largest * 10.0**-DECADES, largest)
-        colours.MapControlPointsToLogSpace()
-        colours.UseLogScale = 1
-    bar = simple.GetScalarBar(colours, view)
-    bar.Title = "local geometric error"
-    bar.ComponentTitle = ""
-    bar.TitleColor = bar.LabelColor = (0.0, 0.0, 0.0)
-    display.SetScalarBarVisibility(view, True)
+def draw(shown, largest, path, focus):
+    import vtkmodules.vtkRenderingFreeType  # noqa: F401  (these two make drawing work at all)
+    import vtkmodules.vtkRenderingOpenGL2  # noqa: F401
+
+    colours = error_colours(largest)
+    renderer = vtkRenderer()
+    renderer.SetBackground(1.0, 1.0, 1.0)
+    renderer.AddActor(surface_actor(shown, colours))
+    renderer.AddActor2D(colour_bar(colours))
+    look_at(renderer, focus or shown.GetBounds())
+    window = vtkRenderWindow()
+    window.SetOffScreenRendering(1)
+    window.SetMultiSamples(8)
+    window.SetSize(*SIZE)
+    window.AddRenderer(renderer)
+    window.Render()
+    picture = vtkWindowToImageFilter()
+    picture.SetInput(window)
+    picture.ReadFrontBufferOff()
+    writer = vtkPNGWriter()
+    writer.SetFileName(path + ".part")
+    writer.SetInputConnection(picture.GetOutputPort())
+    writer.Write()
+    window.Finalize()
+    session.raise_errors(path)
+    os.replace(path + ".part", path)
 
 
-def look_at(view, shown, focus):
+def error_colours(largest):
+    """Logarithmic colours over the last DECADES decades; smaller errors have the first colour."""
+    colours = vtkColorTransferFunction()
+    colours.SetScaleToLog10()
+    top = largest if largest > 0 else 1.0
+    for index, colour in enumerate(VIRIDIS):
+        share = index / (len(VIRIDIS) - 1)
+        colours.AddRGBPoint(top * 10.0 ** (DECADES * (share - 1.0)), *colour)
+    return colours
+
+
+def surface_actor(shown, colours):
+    surface = vtkDataSetSurfaceFilter()
+    surface.SetInputData(shown)
+    mapper = vtkDataSetMapper()
+    mapper.SetInputConnection(surface.GetOutputPort())
+    mapper.SetScalarModeToUseCellFieldData()
+    mapper.SelectColorArray("GeometricError")
+    mapper.SetLookupTable(colours)
+    mapper.UseLookupTableScalarRangeOn()
+    actor = vtkActor()
+    actor.SetMapper(mapper)
+    actor.GetProperty().EdgeVisibilityOn()
+    actor.GetProperty().SetEdgeColor(0.15, 0.15, 0.15)
+    actor.GetProperty().SetInterpolationToFlat()
+    actor.GetProperty().SetAmbient(0.35)
+    actor.GetProperty().SetDiffuse(0.65)
+    return actor
+
+
+def colour_bar(colours):
+    from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
+
+    bar = vtkScalarBarActor()
+    bar.SetLookupTable(colours)
+    bar.SetTitle("local geometric error")
+    bar.SetNumberOfLabels(DECADES + 1)
+    bar.SetLabelFormat("%.0e")
+    bar.SetUnconstrainedFontSize(True)
+    for text, size in ((bar.GetTitleTextProperty(), 20), (bar.GetLabelTextProperty(), 18)):
+        text.SetColor(0.0, 0.0, 0.0)
+        text.SetFontSize(size)
+        text.ItalicOff()
+        text.BoldOff()
+        text.ShadowOff()
+    bar.SetPosition(0.82, 0.05)
+    bar.SetWidth(0.16)
+    bar.SetHeight(0.45)
+    return bar
+
+
+def look_at(renderer, bounds):
     """From ahead, the side and above onto a body; straight down on a mesh in the plane."""
-    bounds = focus or shown.GetDataInformation().GetBounds()
+    direction, up = ((0.0, 0.0, 1.0), (0.0, 1.0, 0.0)) if flat(bounds) else ((-0.6, -0.64, 0.48), (0.0, 0.0, 1.0))
     centre = [(bounds[2 * i] + bounds[2 * i + 1]) / 2 for i in range(3)]
     size = max(sum((bounds[2 * i + 1] - bounds[2 * i]) ** 2 for i in range(3)) ** 0.5, 1e-300)
-    direction, up = ((0.0, 0.0, 1.0), (0.0, 1.0, 0.0)) if bounds[4] == bounds[5] else ((-0.6, -0.64, 0.48), (0, 0, 1))
-    view.CameraParallelProjection = 1
-    view.CameraFocalPoint = centre
-    view.CameraPosition = [c + 3 * size * d for c, d in zip(centre, direction)]
-    view.CameraViewUp = up
-    view.CameraParallelScale = size / 2
+    camera = renderer.GetActiveCamera()
+    camera.ParallelProjectionOn()
+    camera.SetFocalPoint(*centre)
+    camera.SetPosition(*[c + 3 * size * d for c, d in zip(centre, direction)])
+    camera.SetViewUp(*up)
+    camera.SetParallelScale(0.45 * size)
+    renderer.ResetCameraClippingRange()

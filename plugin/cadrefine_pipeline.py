@@ -16,6 +16,8 @@ from cadrefine_session import Failure
 
 MARKING = "CADRefineMarking"
 
+# paraview.simple names the filters after their labels: ProjectOntoCAD, "Project onto CAD", is ProjectontoCAD there.
+
 
 class Pipeline:
     def __init__(self):
@@ -35,7 +37,7 @@ class Pipeline:
 
     def project(self, options):
         self.seconds.update(project=0.0, error=0.0, refine=0.0)
-        self.mesh = simple.ProjectOntoCAD(Input=self.mesh, CAD=self.cad, MaximumDistance=options.maximum_distance)
+        self.mesh = simple.ProjectontoCAD(Input=self.mesh, CAD=self.cad, MaximumDistance=options.maximum_distance)
         if options.region:
             self.mesh.UseRegion = 1
             self.mesh.Region = options.region
@@ -48,10 +50,10 @@ class Pipeline:
     def refine(self, options, method, method_name):
         self.seconds.update(project=0.0, error=0.0, refine=0.0)
         marking, threshold = self.marking(options) if method == "longest-edge" else (None, 0.0)
-        self.mesh = simple.RefineWithCAD(Input=self.mesh, CAD=self.cad)
+        self.mesh = simple.RefinewithCAD(Input=self.mesh, CAD=self.cad)
         self.mesh.Method = method_name
         self.mesh.ProjectNewVertices = 0 if options.no_cad else 1
-        self.mesh.MarkingArray = ["CELLS", marking or "None"][1:] if os.environ.get("MOCK") else ["CELLS", marking or "None"]
+        self.mesh.MarkingArray = marking or "None"
         self.mesh.Threshold = threshold
         self.run("refine")
 
@@ -102,6 +104,12 @@ class Pipeline:
 
     def cad_values(self):
         return field_values(local_output(self.cad))
+
+    def count_cad(self, part):
+        """Number of CAD entities drawn in this part of the reader's output, over all ranks."""
+        information = self.cad.SMProxy.GetOutputPort(0).GetSubsetDataInformation("/Root/" + part, "Hierarchy")
+        array = information.GetCellDataInformation().GetArrayInformation("CADEntity")
+        return int(array.GetComponentRange(0)[1]) + 1 if array and information.GetNumberOfCells() else 0
 
     def write(self, path):
         """Writes the last mesh under another name first, so that no partial file is left behind."""

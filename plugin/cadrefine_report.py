@@ -47,8 +47,7 @@ class Report:
 
     def describe_input(self, pipeline):
         cad = pipeline.cad_values()
-        counts = {name: as_count(cad.get(array)) for name, array in
-                  (("faces", "CADFaceCount"), ("edges", "CADEdgeCount"), ("vertices", "CADVertexCount"))}
+        counts = {name: pipeline.count_cad(name.capitalize()) for name in ("faces", "edges", "vertices")}
         unread = [parse_unread(line) for line in as_list(cad.get("CADUnread"))]
         unit = "".join(as_list(cad.get("CADUnit")))
         self.flat = pipeline.flat()
@@ -101,10 +100,6 @@ def column_width(heading, style):
 
 def as_list(value):
     return value if isinstance(value, list) else [] if value is None else [value]
-
-
-def as_count(value):
-    return int(value) if value is not None and not isinstance(value, list) else 0
 
 
 def parse_unread(line):

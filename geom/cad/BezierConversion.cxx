@@ -47,8 +47,12 @@ std::vector<BezierCurve> bezierPieces(const Handle(Geom_Curve) & curve, double f
 {
   const Handle(Geom_BSplineCurve) spline =
     GeomConvert::CurveToBSplineCurve(new Geom_TrimmedCurve(curve, first, last));
-  // A range beyond the seam of a periodic curve may come back one period off.
-  const double shift = first - spline->FirstParameter();
+  // A range beyond the seam of a periodic curve may come back one period off, and a part of a
+  // Bezier curve over [0, 1].
+  const double start = spline->FirstParameter();
+  const double scale = (last - first) / (spline->LastParameter() - start);
+  const auto own = [&](double knot)
+  { return scale == 1 && start == first ? knot : first + scale * (knot - start); };
   GeomConvert_BSplineCurveToBezierCurve converter(spline);
   TColStd_Array1OfReal knots(1, converter.NbArcs() + 1);
   converter.Knots(knots);
@@ -57,8 +61,8 @@ std::vector<BezierCurve> bezierPieces(const Handle(Geom_Curve) & curve, double f
   {
     const Handle(Geom_BezierCurve) arc = converter.Arc(k);
     BezierCurve& piece = pieces[k - 1];
-    piece.t0 = knots(k) + shift;
-    piece.t1 = knots(k + 1) + shift;
+    piece.t0 = own(knots(k));
+    piece.t1 = own(knots(k + 1));
     for (int i = 1; i <= arc->NbPoles(); ++i)
     {
       piece.points.push_back(homogeneous(arc->Pole(i), arc->Weight(i)));

@@ -71,7 +71,7 @@ struct ClosestPointSearch::Implementation
 {
   explicit Implementation(const NurbsModel& model) : structure(model) {}
 
-  ClosestPoint answer(const Point3& q, const LeafQuery& query) const;
+  ClosestPoint answer(const Point3& q, LeafQuery& query) const;
   ClosestPoint onPatch(const Point3& q, const Candidate& candidate) const;
   ClosestPoint onBorder(const Point3& q, const Candidate& candidate) const;
   void visitEntity(EntityId id, const Point3& q, LeafQuery& query) const;
@@ -118,9 +118,10 @@ ClosestPoint ClosestPointSearch::Implementation::onBorder(
   return onPatch(q, *onFace);
 }
 
-ClosestPoint ClosestPointSearch::Implementation::answer(
-  const Point3& q, const LeafQuery& query) const
+/// Finishes the query.
+ClosestPoint ClosestPointSearch::Implementation::answer(const Point3& q, LeafQuery& query) const
 {
+  query.finish();
   ClosestPoint result;
   if (const Candidate* winner = query.candidates().winner())
   {
@@ -176,7 +177,6 @@ ClosestPoint ClosestPointSearch::nearest(const Point3& point, const SearchScope&
   const SearchStructure& structure = implementation_->structure;
   LeafQuery query(structure, point, scope.maximumDistance);
   visitTree(structure, structure.root, point, scope, query);
-  query.finish();
   return implementation_->answer(point, query);
 }
 
@@ -216,7 +216,6 @@ ClosestPoint ClosestPointSearch::nearestOnSurface(int face, const Point3& point)
   LeafQuery query(implementation_->structure, point, std::numeric_limits<double>::infinity());
   query.ignoreTrim();
   implementation_->visitEntity({ 2, face }, point, query);
-  query.finish();
   return implementation_->answer(point, query);
 }
 

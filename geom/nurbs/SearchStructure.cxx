@@ -92,7 +92,6 @@ private:
     };
     for (const NurbsEdge& edge : model_.edges)
     {
-      patches += edge.segments.size();
       for (const BezierCurve& segment : edge.segments)
       {
         includeAll(segment.points);

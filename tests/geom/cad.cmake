@@ -1,0 +1,20 @@
+if (OpenCASCADE_VERSION VERSION_GREATER_EQUAL 7.8)
+  set(data_exchange TKDEIGES TKDESTEP)
+else ()
+  set(data_exchange TKIGES TKSTEP)
+endif ()
+
+cadrefine_geom_test(cad_tests
+  SOURCES
+    cad/AnalyticShapesTest.cxx
+    cad/CurveModelTest.cxx
+    cad/FileErrorsTest.cxx
+    cad/ModelBytesTest.cxx
+    cad/RealFilesTest.cxx
+    cad/SurfaceConversionTest.cxx
+    cad/TessellationTest.cxx
+    cad/TestFiles.cxx
+    cad/UnitsTest.cxx
+    cad/UnreadTest.cxx
+  LINKS CADRefineCad ${data_exchange} TKXSBase TKPrim TKBO TKTopAlgo TKBRep)
+target_include_directories(cad_tests SYSTEM PRIVATE ${OpenCASCADE_INCLUDE_DIR})

@@ -127,6 +127,31 @@ TEST(NearestOn, StaysOnTheEntity)
   EXPECT_FALSE(static_cast<bool>(search.nearestOn({}, { 0, 0, 0 }).entity));
 }
 
+TEST(NearestOn, NearestOfAllEntitiesIsNearestOfTheModel)
+{
+  NurbsModel model = shapes::plateWithHole();
+  model.faces.push_back(shapes::bumpyFace(2, 0.8, 31));
+  model.faces.push_back(shapes::torus(3.0, 1.0));
+  const ClosestPointSearch search(model);
+  shapes::Random random(32);
+  for (int i = 0; i < 300; ++i)
+  {
+    const Point3 q = random.point(4.0);
+    ClosestPoint best;
+    for (int dimension = 0; dimension < 3; ++dimension)
+    {
+      for (int index = 0; index < model.count(dimension); ++index)
+      {
+        const EntityId id = { static_cast<std::int8_t>(dimension), index };
+        const ClosestPoint on = search.nearestOn(id, q);
+        reference::expectConsistent(model, search.modelSize(), q, on);
+        best = on.distance < best.distance ? on : best;
+      }
+    }
+    EXPECT_NEAR(search.nearest(q).distance, best.distance, 1e-9 * search.modelSize());
+  }
+}
+
 TEST(Purity, SameBitsInAnyOrderAndOnAnyThread)
 {
   NurbsModel model = shapes::modelOf(shapes::bumpyFace(3, 0.6, 5));

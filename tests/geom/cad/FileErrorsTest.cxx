@@ -1,0 +1,110 @@
+// Every error is one line that names the file and the reason.
+
+#include "TestFiles.h"
+
+#include <BRepPrimAPI_MakeBox.hxx>
+#include <BRep_Builder.hxx>
+#include <TopoDS_Compound.hxx>
+
+#include <gtest/gtest.h>
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace
+{
+
+void expectError(const std::string& path, const std::string& reason)
+{
+  const std::string error = cadtest::errorOfReading(path);
+  EXPECT_EQ(error.compare(0, path.size(), path), 0) << error;
+  EXPECT_NE(error.find(reason), std::string::npos) << error;
+  EXPECT_EQ(error.find('\n'), std::string::npos) << error;
+}
+
+class FileErrors : public testing::Test
+{
+protected:
+  cadtest::TemporaryFolder folder;
+};
+
+TEST_F(FileErrors, NoSuchFile)
+{
+  expectError(this->folder.file("missing.igs"), "no such file");
+}
+
+TEST_F(FileErrors, Directory)
+{
+  std::filesystem::create_directory(this->folder.file("folder.igs"));
+  expectError(this->folder.file("folder.igs"), "directory");
+}
+
+TEST_F(FileErrors, NoPermission)
+{
+  const std::string path = this->folder.write("secret.igs", "text");
+  ASSERT_EQ(chmod(path.c_str(), 0), 0);
+  ASSERT_EQ(chmod(std::filesystem::path(path).parent_path().c_str(), 0755), 0);
+  // The superuser may read everything: be nobody for a moment.
+  constexpr uid_t nobody = 65534;
+  const bool root = geteuid() == 0;
+  ASSERT_TRUE(!root || seteuid(nobody) == 0);
+  const std::string error = cadtest::errorOfReading(path);
+  ASSERT_TRUE(!root || seteuid(0) == 0);
+  EXPECT_NE(error.find("Permission denied"), std::string::npos) << error;
+}
+
+TEST_F(FileErrors, EmptyFile)
+{
+  for (const char* name : { "a.igs", "a.iges", "a.stp", "a.step", "a.brep", "A.IGS" })
+  {
+    expectError(this->folder.write(name, ""), "empty");
+  }
+}
+
+TEST_F(FileErrors, UnknownExtension)
+{
+  expectError(this->folder.write("a.stl", "solid"), "extension '.stl'");
+  expectError(this->folder.write("a", "solid"), "extension ''");
+}
+
+TEST_F(FileErrors, TextThatIsNoCAD)
+{
+  const std::string text(500, 'x');
+  expectError(this->folder.write("a.igs", text), "IGES");
+  expectError(this->folder.write("a.step", text), "STEP");
+  expectError(this->folder.write("a.brep", text), "BREP");
+  expectError(this->folder.write("b.igs", "Once upon a time\nthere was no CAD.\n"), "IGES");
+}
+
+TEST_F(FileErrors, FilesThatOnlyBeginWell)
+{
+  expectError(this->folder.write("a.step", "ISO-10303-21;\nHEADER;\nnonsense"), "STEP");
+  expectError(
+    this->folder.write("a.brep", "DBRep_DrawableShape\n\nCASCADE Topology V1\nLocations 7\n"), "");
+  const std::string start = "Nothing follows" + std::string(57, ' ') + "S      1\n";
+  expectError(this->folder.write("a.igs", start), "");
+}
+
+TEST_F(FileErrors, CutShort)
+{
+  for (const char* extension : { ".igs", ".step", ".brep" })
+  {
+    const std::string path = this->folder.file(std::string("box") + extension);
+    cadtest::writeShape(BRepPrimAPI_MakeBox(1, 2, 3).Shape(), path);
+    const auto size = std::filesystem::file_size(path);
+    std::filesystem::resize_file(path, size / 2);
+    const std::string error = cadtest::errorOfReading(path);
+    EXPECT_TRUE(error.empty() || error.find(path) == 0) << error;
+  }
+}
+
+TEST_F(FileErrors, NothingInside)
+{
+  TopoDS_Compound nothing;
+  BRep_Builder().MakeCompound(nothing);
+  const std::string path = this->folder.file("nothing.brep");
+  cadtest::writeShape(nothing, path);
+  expectError(path, "no face and no curve");
+}
+
+} // namespace
