@@ -7,6 +7,10 @@ from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkUnstructuredGrid
 from vtkmodules.vtkFiltersCore import vtkAppendFilter
 
 
+# What ParaView adds where a rank reads its part of a file.
+ADDED_BY_READERS = {"vtkOriginalCellIds", "vtkOriginalPointIds"}
+
+
 def merged_grid(data):
     """`data` with each global id's point once, points and cells in the order of their global ids: the same grid
     from any number of ranks. Data without global ids are left in the order that they have."""
@@ -55,19 +59,19 @@ def set_cells(result, grid, order, new_number):
 
 
 def take(source, target, chosen):
-    """Copies the tuples `chosen` of every array, bit for bit."""
-    ids = vtkIdList()
-    ids.SetNumberOfIds(len(chosen))
-    for position, index in enumerate(chosen):
-        ids.SetId(position, int(index))
-    target.CopyAllOn()
-    target.CopyAllocate(source, len(chosen))
-    target.CopyData(source, ids, ids_from_zero(len(chosen)))
-
-
-def ids_from_zero(count):
-    ids = vtkIdList()
-    ids.SetNumberOfIds(count)
-    for index in range(count):
-        ids.SetId(index, index)
-    return ids
+    """Copies the tuples `chosen` of every array bit for bit, the arrays in the order of their names."""
+    origin, goal = vtkIdList(), vtkIdList()
+    for ids, values in ((origin, chosen), (goal, range(len(chosen)))):
+        ids.SetNumberOfIds(len(chosen))
+        for position, value in enumerate(values):
+            ids.SetId(position, int(value))
+    names = {source.GetArrayName(index) for index in range(source.GetNumberOfArrays())}
+    for name in sorted(names - ADDED_BY_READERS):
+        array = source.GetAbstractArray(name)
+        copy = array.NewInstance()
+        copy.SetName(name)
+        copy.SetNumberOfComponents(array.GetNumberOfComponents())
+        copy.SetNumberOfTuples(len(chosen))
+        copy.InsertTuples(goal, origin, array)
+        target.AddArray(copy)
+    target.SetActiveGlobalIds(source.GetGlobalIds().GetName() if source.GetGlobalIds() else None)

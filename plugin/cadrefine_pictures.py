@@ -8,13 +8,15 @@ import ctypes
 import ctypes.util
 import os
 
-from paraview import servermanager, simple
+from paraview import simple
+from vtkmodules.vtkCommonCore import vtkLookupTable
 from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
 from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkRenderingCore import (vtkActor, vtkColorTransferFunction, vtkDataSetMapper, vtkRenderer,
                                          vtkRenderWindow, vtkWindowToImageFilter)
 
 import cadrefine_session as session
+from cadrefine_pipeline import gathered
 from cadrefine_session import Failure
 
 SIZE = (1400, 900)
@@ -40,7 +42,7 @@ def check_display():
 def screenshot(mesh, path, focus=None):
     """Writes a picture of `mesh`, whose cells have the array GeometricError."""
     largest = mesh.CellData["GeometricError"].GetRange(0)[1]
-    shown = servermanager.Fetch(cells_on_cad(mesh))
+    shown = gathered(cells_on_cad(mesh))
     if session.speaks():
         draw(shown, largest, path, focus)
 
@@ -93,12 +95,16 @@ def draw(shown, largest, path, focus):
 
 def error_colours(largest):
     """Logarithmic colours over the last DECADES decades; smaller errors have the first colour."""
-    colours = vtkColorTransferFunction()
-    colours.SetScaleToLog10()
-    top = largest if largest > 0 else 1.0
+    ramp = vtkColorTransferFunction()
     for index, colour in enumerate(VIRIDIS):
-        share = index / (len(VIRIDIS) - 1)
-        colours.AddRGBPoint(top * 10.0 ** (DECADES * (share - 1.0)), *colour)
+        ramp.AddRGBPoint(index / (len(VIRIDIS) - 1), *colour)
+    colours = vtkLookupTable()
+    colours.SetNumberOfTableValues(256)
+    for index in range(256):
+        colours.SetTableValue(index, *ramp.GetColor(index / 255), 1.0)
+    top = largest if largest > 0 else 1.0
+    colours.SetTableRange(top * 10.0**-DECADES, top)
+    colours.SetScaleToLog10()
     return colours
 
 
@@ -128,7 +134,7 @@ def colour_bar(colours):
     bar.SetLookupTable(colours)
     bar.SetTitle("local geometric error")
     bar.SetNumberOfLabels(DECADES + 1)
-    bar.SetLabelFormat("%.0e")
+    bar.SetLabelFormat("%.1e")
     bar.SetUnconstrainedFontSize(True)
     for text, size in ((bar.GetTitleTextProperty(), 20), (bar.GetLabelTextProperty(), 18)):
         text.SetColor(0.0, 0.0, 0.0)

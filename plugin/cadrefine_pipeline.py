@@ -12,6 +12,7 @@ import time
 from paraview import servermanager, simple
 
 import cadrefine_session as session
+from cadrefine_merge import merged_grid
 from cadrefine_session import Failure
 
 MARKING = "CADRefineMarking"
@@ -115,8 +116,10 @@ class Pipeline:
         """Writes the last mesh under another name first, so that no partial file is left behind."""
         if path.endswith(".pvtu"):
             write_pieces(self.mesh, path)
-        elif session.ranks() == 1 or session.speaks():
-            write_one_file(self.mesh, path)
+            return
+        grid = gathered(self.mesh)
+        if session.speaks():
+            write_one_file(grid, path)
 
 
 def open_mesh(path):
@@ -163,12 +166,24 @@ def field_values(data):
     return values
 
 
-def write_one_file(mesh, path):
-    from cadrefine_merge import merged_grid
+def gathered(proxy):
+    """All pieces of the output, appended, on rank 0; the other ranks get nothing of use. (servermanager.Fetch would
+    do, but ParaView 5.11 cuts what it gathered into pieces again and returns the first.)"""
+    reducer = servermanager.filters.ReductionFilter(Input=proxy)
+    reducer.PostGatherHelperName = "vtkAppendFilter"
+    reducer.UpdatePipeline()
+    data = local_output(reducer)
+    result = data.NewInstance()
+    result.ShallowCopy(data)
+    simple.Delete(reducer)
+    return result
+
+
+def write_one_file(grid, path):
     from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
     writer = vtkXMLUnstructuredGridWriter()
-    writer.SetInputData(merged_grid(servermanager.Fetch(mesh)))
+    writer.SetInputData(merged_grid(grid))
     writer.SetFileName(path + ".part")
     writer.SetDataModeToAppended()
     writer.EncodeAppendedDataOff()

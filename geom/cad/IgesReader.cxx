@@ -1,5 +1,6 @@
 // IGES files, through Open CASCADE's reader.
 //
+// 0. Set broken entities aside and repair what can be repaired (IgesRepair).
 // 1. Load the file; take its unit's name and declare the numbers to be millimetres, so that the
 //    transfer scales nothing.
 // 2. Transfer every root entity; keep the shapes with faces, and free curves that are meant as
@@ -7,6 +8,7 @@
 // 3. List the entities that failed and the top-level geometry that gave no shape.
 
 #include "CheckLists.h"
+#include "IgesRepair.h"
 #include "IgesTypes.h"
 #include "OccGuard.h"
 #include "ShapeReaders.h"
@@ -25,6 +27,7 @@
 #include <XSControl_TransferReader.hxx>
 #include <XSControl_WorkSession.hxx>
 
+#include <algorithm>
 #include <set>
 
 namespace cadrefine
@@ -49,7 +52,9 @@ std::string takeUnit(const Handle(IGESData_IGESModel) & model)
 bool isModelCurve(const Handle(IGESData_IGESEntity) & entity)
 {
   constexpr int useGeometry = 0;
-  return entity->UseFlag() == useGeometry && entity->BlankStatus() == 0;
+  constexpr int independent = 0;
+  return entity->UseFlag() == useGeometry && entity->BlankStatus() == 0 &&
+         entity->SubordinateStatus() == independent;
 }
 
 struct RootShapes
@@ -79,10 +84,10 @@ RootShapes sortRoots(IGESControl_Reader& reader)
   return roots;
 }
 
-/// Curves that serve only as an aid are taken where the file holds nothing else.
-TopoDS_Shape joinRoots(const RootShapes& roots)
+/// Curves that serve only as an aid are taken where the file has nothing else.
+TopoDS_Shape joinRoots(const RootShapes& roots, bool holdsSurfaces)
 {
-  const bool onlyAids = roots.withFaces.empty() && roots.modelCurves.empty();
+  const bool onlyAids = !holdsSurfaces && roots.modelCurves.empty();
   BRep_Builder builder;
   TopoDS_Compound compound;
   builder.MakeCompound(compound);
@@ -116,6 +121,11 @@ bool isTopLevel(
   return true;
 }
 
+int directoryEntry(int number)
+{
+  return 2 * number - 1;
+}
+
 UnreadEntity makeUnread(
   const Handle(IGESData_IGESModel) & model, int number, const std::string& reason)
 {
@@ -123,14 +133,32 @@ UnreadEntity makeUnread(
   if (number > 0)
   {
     const Handle(IGESData_IGESEntity) entity = model->Entity(number);
-    unread.entity = 2 * number - 1;
+    unread.entity = directoryEntry(number);
     unread.type = igesTypeName(entity->IGESType().Type());
   }
   unread.reason = reason;
   return unread;
 }
 
-std::vector<UnreadEntity> listUnread(IGESControl_Reader& reader)
+/// Numbers in the model of the top-level geometry that gave no shape.
+std::set<int> findLost(IGESControl_Reader& reader)
+{
+  std::set<int> lost;
+  const Handle(IGESData_IGESModel) model = reader.IGESModel();
+  for (int number = 1; number <= model->NbEntities(); ++number)
+  {
+    const Handle(IGESData_IGESEntity) entity = model->Entity(number);
+    if (isIgesGeometry(entity->IGESType().Type(), entity->IGESType().Form()) &&
+        isTopLevel(reader.WS(), entity) && !hasShape(reader.WS(), entity))
+    {
+      lost.insert(number);
+    }
+  }
+  return lost;
+}
+
+/// Causes only: what is lost because it refers to a broken entity is not listed again.
+std::vector<UnreadEntity> listUnread(IGESControl_Reader& reader, const RepairedIges& file)
 {
   const Handle(IGESData_IGESModel) model = reader.IGESModel();
   FailureMap failures = collectFailures(reader.WS());
@@ -139,21 +167,23 @@ std::vector<UnreadEntity> listUnread(IGESControl_Reader& reader)
   {
     failed.insert(number);
   }
-  for (int number = 1; number <= model->NbEntities(); ++number)
+  for (const int number : findLost(reader))
   {
-    const Handle(IGESData_IGESEntity) entity = model->Entity(number);
-    if (isIgesGeometry(entity->IGESType().Type(), entity->IGESType().Form()) &&
-        isTopLevel(reader.WS(), entity) && !hasShape(reader.WS(), entity) &&
-        !refersToAny(reader.WS(), entity, failed))
+    if (!refersToAny(reader.WS(), model->Entity(number), failed))
     {
       failures.emplace(number, "gives no shape");
     }
   }
-  std::vector<UnreadEntity> unread;
+  std::vector<UnreadEntity> unread = file.unread();
   for (const auto& [number, reason] : failures)
   {
-    unread.push_back(makeUnread(model, number, reason));
+    if (!file.dependsOnBroken(directoryEntry(number)))
+    {
+      unread.push_back(makeUnread(model, number, reason));
+    }
   }
+  std::sort(unread.begin(), unread.end(),
+    [](const UnreadEntity& a, const UnreadEntity& b) { return a.entity < b.entity; });
   return unread;
 }
 
@@ -161,16 +191,17 @@ std::vector<UnreadEntity> listUnread(IGESControl_Reader& reader)
 
 ReadShape readIges(const std::string& path)
 {
+  const RepairedIges file(path);
   IGESControl_Reader reader;
-  if (reader.ReadFile(path.c_str()) != IFSelect_RetDone || reader.IGESModel().IsNull())
+  if (reader.ReadFile(file.path().c_str()) != IFSelect_RetDone || reader.IGESModel().IsNull())
   {
     throw Error(path + ": not an IGES file that can be read");
   }
   ReadShape result;
   result.unit = takeUnit(reader.IGESModel());
   reader.TransferRoots();
-  result.shape = joinRoots(sortRoots(reader));
-  result.unread = listUnread(reader);
+  result.shape = joinRoots(sortRoots(reader), file.holdsSurfaces());
+  result.unread = listUnread(reader, file);
   return result;
 }
 

@@ -69,6 +69,25 @@ bool isIgesGeometry(int type, int form)
   }
 }
 
+bool isIgesSurface(int type)
+{
+  switch (type)
+  {
+    case 114:
+    case 118:
+    case 120:
+    case 122:
+    case 128:
+    case 140:
+    case 143:
+    case 144:
+    case 510:
+      return true;
+    default:
+      return type >= 150 && type <= 198;
+  }
+}
+
 bool isIgesGroup(int type)
 {
   return type == 402 || type == 308 || type == 408 || type == 184;

@@ -12,6 +12,9 @@ std::string igesTypeName(int type);
 /// True for entities that stand for a curve, a surface or a solid of the model by themselves.
 bool isIgesGeometry(int type, int form);
 
+/// True for surfaces, faces and solids.
+bool isIgesSurface(int type);
+
 /// True for entities that only gather others.
 bool isIgesGroup(int type);
 

@@ -144,7 +144,8 @@ bool LeafSubdivision::isTrimmedAway(Part& part) const
   return cover == TrimCover::out;
 }
 
-LeafSubdivision::Curvature LeafSubdivision::curvature(int entry, double level) const
+/// Scratch becomes the form numerator - level * denominator.
+void LeafSubdivision::fillLevel(int entry, double level) const
 {
   const double* top = numerator(entry);
   const double* bottom = denominator(entry);
@@ -152,6 +153,11 @@ LeafSubdivision::Curvature LeafSubdivision::curvature(int entry, double level) c
   {
     level_[i] = top[i] - level * bottom[i];
   }
+}
+
+LeafSubdivision::Curvature LeafSubdivision::curvature(int entry, double level) const
+{
+  fillLevel(entry, level);
   Curvature c;
   c.ss = derivativeRange(degrees_, level_.data(), 2, 0);
   c.st = derivativeRange(degrees_, level_.data(), 1, 1);
@@ -159,7 +165,34 @@ LeafSubdivision::Curvature LeafSubdivision::curvature(int entry, double level) c
   return c;
 }
 
-/// Steps 1 and 2 for the last entry. True where nothing is left to be found in it.
+/// Step 3, for distances with squares from `lowest` to `highest`. The sign of the derivative of the
+/// squared distance, where it is m, is that of numerator - m * denominator, which is linear in m.
+bool LeafSubdivision::isMonotone(int entry, double lowest, double highest) const
+{
+  const Part& part = stack_[entry];
+  const auto& joined = query_.structure_.patches[leaf_.patch].joined;
+  // Across the low side of s, the high one, then t: does anything that is looked at lie beyond?
+  const auto isOpen = [&](int side, bool inside) { return inside || (part.cut && !joined[side]); };
+  const bool open[4] = { isOpen(0, part.rectangle.s0 > 0), isOpen(1, part.rectangle.s1 < 1),
+    isOpen(2, part.rectangle.t0 > 0), isOpen(3, part.rectangle.t1 < 1) };
+  bool rises[2] = { true, true };
+  bool falls[2] = { true, true };
+  for (const double level : { lowest, highest })
+  {
+    fillLevel(entry, level);
+    for (int direction = 0; direction < 2; ++direction)
+    {
+      const Interval slope = derivativeRange(degrees_, level_.data(), 1 - direction, direction);
+      const double rounding = 1e-9 * slope.magnitude();
+      rises[direction] = rises[direction] && slope.low > rounding;
+      falls[direction] = falls[direction] && slope.high < -rounding;
+    }
+  }
+  return (rises[0] && open[0]) || (falls[0] && open[1]) || (rises[1] && open[2]) ||
+         (falls[1] && open[3]);
+}
+
+/// Steps 1 to 3 for the last entry. True where nothing is left to be found in it.
 bool LeafSubdivision::isDropped(int entry)
 {
   Part& part = stack_[entry];
@@ -185,6 +218,10 @@ bool LeafSubdivision::isDropped(int entry)
       curvature(entry, ratio.low).isConvex())
   {
     solveIn(part.rectangle, part);
+    return true;
+  }
+  if (isMonotone(entry, ratio.low, std::min(known * known, ratio.high)))
+  {
     return true;
   }
   if (middle.value < 0)

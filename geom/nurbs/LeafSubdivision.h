@@ -13,7 +13,10 @@ namespace cadrefine
 ///  1. a rectangle is dropped where the least ratio of their coefficients, or a second-order lower
 ///     bound about its middle, is not below what is known already;
 ///  2. where the sublevel sets of the distance are convex it is solved by Newton's method;
-///  3. else it is split, across the direction of larger second derivatives.
+///  3. where the distance falls all the way towards a side, beyond which the surface goes on or its
+///     edges lie, nothing is to be found either: what matters is on the other side, or on the
+///     border;
+///  4. else it is split, across the direction of larger second derivatives.
 /// Ends because of a limit on the work of the whole query, which then has not converged.
 class LeafSubdivision
 {
@@ -40,7 +43,9 @@ private:
   void fillForms();
   Interval ratioRange(int entry) const;
   bool isDropped(int entry);
+  void fillLevel(int entry, double level) const;
   Curvature curvature(int entry, double level) const;
+  bool isMonotone(int entry, double lowest, double highest) const;
   void solveIn(const ParameterRectangle& box, const Part& start);
   void split(int entry);
   bool isTrimmedAway(Part& part) const;

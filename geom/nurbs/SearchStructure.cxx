@@ -133,7 +133,7 @@ private:
     {
       const PatchView view = viewOf(segment);
       checkPatch(view, segment.points.size(), id);
-      addPatch({ view, { segment.t0, segment.t1, 0.0, 0.0 }, entity }, nullptr, entries);
+      addPatch({ view, { segment.t0, segment.t1, 0.0, 0.0 }, entity, {} }, nullptr, entries);
     }
     finishEntity(entries);
   }
@@ -148,11 +148,16 @@ private:
       structure_.entities[entity].trim = std::make_unique<TrimRegion>(face.loops);
     }
     Entries entries;
-    for (const BezierPatch& patch : face.patches)
+    for (std::size_t i = 0; i < face.patches.size(); ++i)
     {
+      const BezierPatch& patch = face.patches[i];
       const PatchView view = viewOf(patch);
       checkPatch(view, patch.points.size(), id);
-      addPatch({ view, { patch.u0, patch.u1, patch.v0, patch.v1 }, entity },
+      const int columns = std::max(face.patchesV, 1);
+      const int row = static_cast<int>(i) / columns;
+      const int column = static_cast<int>(i) % columns;
+      addPatch({ view, { patch.u0, patch.u1, patch.v0, patch.v1 }, entity,
+                 { row > 0, row + 1 < face.patchesU, column > 0, column + 1 < columns } },
         structure_.entities[entity].trim.get(), entries);
     }
     finishEntity(entries);

@@ -21,6 +21,8 @@ struct SearchPatch
   PatchView view;
   ParameterRectangle range; ///< Of the entity's own parameters.
   int entity = -1;          ///< Number in SearchStructure::entities.
+  /// Which of the sides s = 0, s = 1, t = 0, t = 1 are shared with another patch of the face.
+  std::array<bool, 4> joined{ false, false, false, false };
 
   /// The entity's parameters at local ones; exact at the borders.
   std::array<double, 2> parametersAt(double s, double t) const

@@ -109,6 +109,127 @@ TEST_F(Unread, AFileWithNothingLeftIsAnErrorThatNamesTheEntities)
   EXPECT_NE(error.find(entity + " IGES 128"), std::string::npos) << error;
 }
 
+TEST_F(Unread, EveryKindOfBrokenSplineIsFoundBeforeItDoesHarm)
+{
+  // Parameters of a bilinear surface: type, K1, K2, M1, M2, five flags, 4 + 4 knots, 4 weights, ...
+  const auto withParameter = [this](std::size_t at, const std::string& value)
+  {
+    std::vector<std::string> broken = this->lines;
+    std::string& line = broken[entitiesOf(broken, "128")[0]];
+    std::size_t from = 0;
+    for (std::size_t k = 0; k < at; ++k)
+    {
+      from = line.find(',', from) + 1;
+    }
+    std::string data = line.substr(0, dataColumns);
+    data.replace(from, data.find(',', from) - from, value);
+    data.resize(dataColumns, ' ');
+    line = data + line.substr(dataColumns);
+    cadtest::writeLines(this->path, broken);
+    const auto model = cadrefine::readCADFile(this->path);
+    EXPECT_EQ(model->count(2), 5) << at << " " << value;
+    return model->unread().size() == 1 ? model->unread()[0].reason : "";
+  };
+  EXPECT_NE(withParameter(1, "7").find("needs"), std::string::npos);
+  EXPECT_NE(withParameter(1, "-1").find("control points"), std::string::npos);
+  EXPECT_NE(withParameter(1, "999999999"), "");
+  EXPECT_NE(withParameter(3, "0").find("degree"), std::string::npos);
+  EXPECT_NE(withParameter(3, "99").find("degree"), std::string::npos);
+  EXPECT_NE(withParameter(10, "1E9").find("knots"), std::string::npos);
+  EXPECT_NE(withParameter(0, "126").find("type"), std::string::npos);
+}
+
+/// Parameters of each entity in one string, with the field that names its directory entry.
+struct Parameters
+{
+  std::string data;
+  std::string entry;
+};
+
+std::vector<Parameters> joinParameters(const std::vector<std::string>& lines)
+{
+  std::vector<Parameters> all;
+  for (const std::string& line : lines)
+  {
+    if (!isParameterLine(line))
+    {
+      continue;
+    }
+    const std::string entry = line.substr(dataColumns, 8);
+    if (all.empty() || all.back().entry != entry)
+    {
+      all.push_back({ "", entry });
+    }
+    const std::string data = line.substr(0, dataColumns);
+    all.back().data += data.substr(0, data.find_last_not_of(' ') + 1);
+  }
+  return all;
+}
+
+std::string numberField(const char* format, std::size_t number)
+{
+  char field[16];
+  std::snprintf(field, sizeof(field), format, static_cast<int>(number));
+  return field;
+}
+
+/// The file with its parameters in 65 columns, as some programs write them: the next field loses
+/// its first column, or, shifted, moves on by one.
+std::vector<std::string> widen(const std::vector<std::string>& lines, bool shifted)
+{
+  std::vector<std::string> wide;
+  std::vector<std::size_t> counts;
+  for (const Parameters& p : joinParameters(lines))
+  {
+    const std::size_t before = wide.size();
+    for (std::size_t at = 0; at < p.data.size(); at += dataColumns + 1)
+    {
+      std::string line = p.data.substr(at, dataColumns + 1);
+      const bool moved = shifted && line.size() > dataColumns;
+      line.resize(dataColumns + (moved || !shifted ? 1 : 0), ' ');
+      line += shifted ? p.entry : p.entry.substr(1);
+      wide.push_back(line + numberField("P%7d", wide.size() + 1));
+    }
+    counts.push_back(wide.size() - before);
+  }
+  std::vector<std::string> result;
+  std::size_t pointer = 1;
+  std::size_t directory = 0;
+  for (std::string line : lines)
+  {
+    if (line[72] == 'D')
+    {
+      const std::size_t count = counts[directory / 2];
+      const bool first = directory++ % 2 == 0;
+      line.replace(first ? 8 : 24, 8, numberField("%8d", first ? pointer : count));
+      pointer += first ? 0 : count;
+    }
+    if (line[72] == 'T')
+    {
+      result.insert(result.end(), wide.begin(), wide.end());
+    }
+    if (line[72] != 'P')
+    {
+      result.push_back(line);
+    }
+  }
+  return result;
+}
+
+TEST_F(Unread, LinesThatRunOneColumnTooFarAreRepaired)
+{
+  for (const bool shifted : { false, true })
+  {
+    cadtest::writeLines(this->path, widen(this->lines, shifted));
+    const auto model = cadrefine::readCADFile(this->path);
+    EXPECT_EQ(model->count(2), 6) << shifted;
+    EXPECT_EQ(model->count(0), 8) << shifted;
+    ASSERT_EQ(model->unread().size(), 1u) << shifted;
+    EXPECT_EQ(model->unread()[0].entity, 0);
+    EXPECT_NE(model->unread()[0].reason.find("repaired"), std::string::npos);
+  }
+}
+
 TEST(UnreadStep, ABrokenFaceIsListedByItsNumber)
 {
   const cadtest::TemporaryFolder folder;
