@@ -92,6 +92,13 @@ void measureVertices(
   combineShared(exchange, mesh.shared, boundary.longestEdge, larger);
 }
 
+bool isClassified(const ClassifiedFacet& facet, BoundaryKind kind)
+{
+  const auto end = facet.entities.begin() + (kind == BoundaryKind::Triangles ? 3 : 2);
+  return std::all_of(
+    facet.entities.begin(), end, [](EntityId entity) { return static_cast<bool>(entity); });
+}
+
 /// A record on its way to the rank that has the edge too.
 struct SentRecord
 {
@@ -117,6 +124,7 @@ DistributedBoundary findBoundary(
   else
   {
     boundary.facets = facetsOfSurface(piece);
+    boundary.ofSurface = true;
   }
   listEdges(piece, boundary);
   boundary.sharedEdges = findSharedEdges(exchange, mesh.shared, piece.ids, boundary.edges.edges());
@@ -180,10 +188,7 @@ FacetRecord makeRecord(const BoundaryProjector& projector, const ClassifiedFacet
   FacetRecord record;
   record.normal =
     triangle ? normalized(twofoldAreaVector(p[0], p[1], p[2])) : normalized(p[1] - p[0]);
-  const auto end = facet.entities.begin() + (triangle ? 3 : 2);
-  const bool classified = std::all_of(
-    facet.entities.begin(), end, [](EntityId entity) { return static_cast<bool>(entity); });
-  record.onCAD = classified && projector.isOnCAD(facet) ? 1 : 0;
+  record.onCAD = isClassified(facet, projector.kind()) && projector.isOnCAD(facet) ? 1 : 0;
   return record;
 }
 
@@ -198,8 +203,12 @@ BoundaryClasses classifyBoundary(RankExchange& exchange, const SimplexMesh& mesh
     {
       for (const Facet& facet : boundary.facets)
       {
-        records.push_back(
-          makeRecord(projector, classifiedFacet(mesh, entities, facet, boundary.kind)));
+        const ClassifiedFacet classified = classifiedFacet(mesh, entities, facet, boundary.kind);
+      records.push_back(makeRecord(projector, classified));
+      if (boundary.ofSurface)
+      {
+        records.back().onCAD = isClassified(classified, boundary.kind);
+      }
         classes.facetOnCAD.push_back(records.back().onCAD);
       }
     });

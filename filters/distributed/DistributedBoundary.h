@@ -18,6 +18,8 @@ namespace cadrefine
 struct DistributedBoundary
 {
   BoundaryKind kind = BoundaryKind::Triangles;
+  /// The facets are the cells of a mesh of triangles in space.
+  bool ofSurface = false;
   std::vector<Facet> facets;
   /// Edges of facets; of a triangle edge k joins corners k and k + 1, a segment is its own edge 0.
   EdgeList edges;
@@ -51,7 +53,9 @@ ClassifiedFacet classifiedFacet(const SimplexMesh& mesh, const std::vector<Entit
 /// there (BoundaryProjector::isOnCAD).
 FacetRecord makeRecord(const BoundaryProjector& projector, const ClassifiedFacet& facet);
 
-/// Classes of all boundary edges of a classified mesh, and which facets are on the CAD. Collective.
+/// Classes of all boundary edges of a classified mesh, and which facets are on the CAD. Of a mesh of
+/// triangles in space, every facet with classified corners is: there is no inside that a wall could
+/// bound. Collective.
 struct BoundaryClasses
 {
   std::vector<EdgeClass> ofEdges;

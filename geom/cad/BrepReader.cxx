@@ -26,7 +26,16 @@ ReadShape readBrep(const std::string& path)
   }
   else
   {
-    BRepTools::Read(result.shape, file, BRep_Builder());
+    // Open CASCADE goes on for ever where the text ends too early.
+    file.exceptions(std::ios::failbit | std::ios::badbit);
+    try
+    {
+      BRepTools::Read(result.shape, file, BRep_Builder());
+    }
+    catch (const std::ios::failure&)
+    {
+      throw Error(path + ": the file is damaged: its text cannot be read to the end");
+    }
   }
   if (result.shape.IsNull())
   {

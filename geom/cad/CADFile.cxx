@@ -1,11 +1,13 @@
 // 1. See that the file is there, can be read and begins as its kind of file does.
-// 2. Read it, sew and heal what it holds, convert it to NURBS.
-// 3. Write the model's bytes and build the model from them: so it is the same on every rank.
+// 2. In a process of its own (Open CASCADE crashes or loops on many damaged files): read it, sew
+//    and heal what it holds, and turn it into the model's bytes.
+// 3. Build the model from the bytes: so it is the same on every rank.
 
 #include "CADFile.h"
 
 #include "CADModelBuilder.h"
 #include "FileCheck.h"
+#include "IsolatedRun.h"
 #include "ModelBytes.h"
 #include "OccGuard.h"
 #include "ShapePreparation.h"
@@ -16,7 +18,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
+#include <filesystem>
 
 namespace cadrefine
 {
@@ -64,9 +66,6 @@ std::string listOf(const std::vector<UnreadEntity>& unread)
 
 ModelContent readContent(const std::string& path, CADFormat format)
 {
-  static std::mutex readersAreNotReentrant;
-  const std::lock_guard<std::mutex> lock(readersAreNotReentrant);
-  const QuietMessages quiet;
   ReadShape read = readShape(path, format);
   ModelContent content;
   content.shape = prepareShape(read.shape);
@@ -80,20 +79,36 @@ ModelContent readContent(const std::string& path, CADFormat format)
   return content;
 }
 
-} // namespace
-
-std::shared_ptr<const CADModel> readCADFile(const std::string& path)
+/// The model is built once here, to see that this works where a crash does no harm.
+std::vector<char> readBytes(const std::string& path, CADFormat format)
 {
-  const CADFormat format = checkFile(path);
-  const ModelContent content = guardOcc(path, [&] { return readContent(path, format); });
+  std::vector<char> bytes = encodeModel(guardOcc(path, [&] { return readContent(path, format); }));
   try
   {
-    return CADModelBuilder::build(encodeModel(content));
+    CADModelBuilder::build(bytes);
   }
   catch (const Error& error)
   {
     throw Error(path + ": " + error.what());
   }
+  return bytes;
+}
+
+/// Far more than reading takes; a minute for each megabyte.
+int secondsFor(const std::string& path)
+{
+  constexpr double most = 86400;
+  const double megabytes = 1e-6 * static_cast<double>(std::filesystem::file_size(path));
+  return static_cast<int>(std::min(most, 60 + 60 * megabytes));
+}
+
+} // namespace
+
+std::shared_ptr<const CADModel> readCADFile(const std::string& path)
+{
+  const CADFormat format = checkFile(path);
+  return CADModelBuilder::build(
+    runIsolated(path, secondsFor(path), [&] { return readBytes(path, format); }));
 }
 
 } // namespace cadrefine

@@ -76,6 +76,16 @@ bool looksLikeIges(const std::string& text)
            [](unsigned char c) { return std::isdigit(c) || std::isspace(c); });
 }
 
+/// The version line is checked whole: Open CASCADE would write to the console about others.
+bool looksLikeBrep(const std::string& text)
+{
+  const std::size_t at = text.find("CASCADE Topology V");
+  const std::string line =
+    at == std::string::npos ? "" : text.substr(at, text.find_first_of("\r\n", at) - at);
+  return line.find(", (c)") != std::string::npos || text.find("Open CASCADE Topology") == 0 ||
+         text.find("\nOpen CASCADE Topology") != std::string::npos;
+}
+
 bool looksLike(CADFormat format, const std::string& text)
 {
   switch (format)
@@ -85,7 +95,7 @@ bool looksLike(CADFormat format, const std::string& text)
     case CADFormat::Step:
       return text.find("ISO-10303-21") != std::string::npos;
     default:
-      return text.find("CASCADE Topology V") != std::string::npos;
+      return looksLikeBrep(text);
   }
 }
 

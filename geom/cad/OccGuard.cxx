@@ -1,24 +1,9 @@
 #include "OccGuard.h"
 
-#include <Message.hxx>
-#include <Message_Messenger.hxx>
-#include <Message_Printer.hxx>
-
 #include <sstream>
 
 namespace cadrefine
 {
-
-QuietMessages::QuietMessages()
-{
-  this->printers_ = Message::DefaultMessenger()->Printers();
-  Message::DefaultMessenger()->ChangePrinters().Clear();
-}
-
-QuietMessages::~QuietMessages()
-{
-  Message::DefaultMessenger()->ChangePrinters() = this->printers_;
-}
 
 std::string oneLine(const std::string& text)
 {

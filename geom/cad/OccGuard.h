@@ -1,30 +1,14 @@
-// The border to Open CASCADE: its exceptions become errors of our own, its messages stay silent.
-// Private to geom/cad.
+// The border to Open CASCADE: its exceptions become errors of our own. Private to geom/cad.
 #pragma once
 
 #include "Error.h"
 
-#include <Message_SequenceOfPrinters.hxx>
 #include <Standard_Failure.hxx>
 
 #include <string>
 
 namespace cadrefine
 {
-
-/// Keeps Open CASCADE's default messenger from printing while it lives. Not for concurrent use:
-/// the readers hold a lock.
-class QuietMessages
-{
-public:
-  QuietMessages();
-  ~QuietMessages();
-  QuietMessages(const QuietMessages&) = delete;
-  QuietMessages& operator=(const QuietMessages&) = delete;
-
-private:
-  Message_SequenceOfPrinters printers_;
-};
 
 /// One line that tells what `failure` says.
 std::string describe(const Standard_Failure& failure);

@@ -19,8 +19,8 @@ struct ReadShape
   std::vector<UnreadEntity> unread;
 };
 
-/// Each throws Error where the file as a whole cannot be read. Not for concurrent use: Open
-/// CASCADE's readers keep their settings in global variables.
+/// Each throws Error where the file as a whole cannot be read. Open CASCADE prints, and keeps
+/// settings in global variables: to be run in a process of its own (IsolatedRun.h).
 ReadShape readIges(const std::string& path);
 ReadShape readStep(const std::string& path);
 ReadShape readBrep(const std::string& path);

@@ -37,10 +37,22 @@ struct SearchScope
 
 /// Search structure over one model, built once. Queries are const, free of hidden state and safe
 /// from many threads at once; the answer is a pure function of the model and the point.
+///
+/// Patches and segments are cut into leaves over which the distance is convex for points close by,
+/// under one tree of bounding boxes. A query descends to the leaves that may hold the nearest point
+/// and solves those that are convex for it by Newton's method; the others by branch and bound on
+/// the Bernstein form of the squared distance (after Johnson & Cohen, "Distance extrema for spline
+/// models using tangent cones", 2005), which also settles centres of curvature and poles.
+/// Cost: about 10 microseconds of build and 500 bytes a leaf, some ten to thousand leaves a patch;
+/// 2 to 15 microseconds a query close to the surface, up to a millisecond far from it, and a work
+/// limit of about a tenth of a second.
+/// Points equally near to within 1e-12 of the model's size are a tie. A point within 1e-9 of a trim
+/// loop, relative to the loops' extent in the parameter plane, counts as inside it.
 class ClosestPointSearch
 {
 public:
-  /// Keeps a reference to `model`, which must outlive the search.
+  /// Keeps a reference to `model`, which must outlive the search. Throws Error where a degree is
+  /// above 25, or control points are too few, not finite or of a weight that is not positive.
   explicit ClosestPointSearch(const NurbsModel& model);
   ~ClosestPointSearch();
   ClosestPointSearch(const ClosestPointSearch&) = delete;
@@ -48,7 +60,9 @@ public:
 
   /// Nearest point of the trimmed model: never farther than the true one by more than 1e-9 of the
   /// model's size. Of entities equally near, the smallest (dimension, index) wins: on the border of
-  /// a face the answer is its edge, at the end of an edge its vertex.
+  /// a face the answer is its edge, at the end of an edge its vertex. Where `scope` leaves edges
+  /// out, the border of a face is part of the face, and the answer names the face that comes first.
+  /// No entity is named where the point is not finite or nothing is within the limit.
   ClosestPoint nearest(const Point3& point, const SearchScope& scope = {}) const;
 
   /// Nearest point of one entity and its closure: for a face also its edges and vertices, for an

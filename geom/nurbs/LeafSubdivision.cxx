@@ -12,8 +12,9 @@ namespace
 
 /// Multiplications, roughly, that one query may spend on subdivision.
 constexpr double workLimit = 4e7;
-/// Rectangles smaller than this, of the patch, are not split.
-constexpr double smallestWidth = 1e-11;
+/// Rectangles shorter than this part of the search tolerance are not split that way: the distance
+/// varies less over them than matters, and where loops cut them an edge is as near.
+constexpr double smallestLength = 0.25;
 
 std::vector<double>& threadScratch(int which)
 {
@@ -228,15 +229,42 @@ bool LeafSubdivision::isDropped(int entry)
   {
     solveIn(leaf_.cut ? part.rectangle : leaf_.part, part);
   }
-  return part.rectangle.width() < smallestWidth && part.rectangle.height() < smallestWidth;
+  return !canSplit(part, true) && !canSplit(part, false);
+}
+
+bool LeafSubdivision::canSplit(const Part& part, bool acrossS) const
+{
+  const double shortest = smallestLength * query_.tolerance_;
+  const ConvexityBounds& bounds = leaf_.bounds;
+  return acrossS ? degrees_.s > 0 &&
+                     bounds.lengthS() * part.rectangle.width() > shortest * leaf_.part.width()
+                 : degrees_.t > 0 &&
+                     bounds.lengthT() * part.rectangle.height() > shortest * leaf_.part.height();
+}
+
+/// The direction in which the distance bends more; where it hardly bends, that of larger slope.
+bool LeafSubdivision::cutsAcrossS(
+  const Part& part, const Curvature& c, const MiddleValue& middle) const
+{
+  if (!canSplit(part, true) || !canSplit(part, false))
+  {
+    return canSplit(part, true);
+  }
+  constexpr double nearlyLinear = 0.1;
+  const double bendS = c.ss.magnitude();
+  const double bendT = c.tt.magnitude();
+  const double slopeS = std::abs(middle.s);
+  const double slopeT = std::abs(middle.t);
+  return std::max(bendS, bendT) < nearlyLinear * std::max(slopeS, slopeT) ? slopeS >= slopeT
+                                                                          : bendS >= bendT;
 }
 
 void LeafSubdivision::split(int entry)
 {
   const double level = query_.candidates_.nearest() - query_.tolerance_;
   const Curvature c = curvature(entry, std::isfinite(level) ? level * level : 0.0);
-  const bool acrossS = degrees_.t == 0 || (degrees_.s > 0 && c.ss.magnitude() >= c.tt.magnitude());
   const MiddleValue middle = middleValue(degrees_, level_.data());
+  const bool acrossS = cutsAcrossS(stack_[entry], c, middle);
   forms_.resize(std::max<std::size_t>(
     forms_.size(), static_cast<std::size_t>(2 * entry + 4) * degrees_.count()));
   splitForm(degrees_, acrossS, numerator(entry), numerator(entry + 1));

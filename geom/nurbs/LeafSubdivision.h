@@ -47,6 +47,8 @@ private:
   Curvature curvature(int entry, double level) const;
   bool isMonotone(int entry, double lowest, double highest) const;
   void solveIn(const ParameterRectangle& box, const Part& start);
+  bool canSplit(const Part& part, bool acrossS) const;
+  bool cutsAcrossS(const Part& part, const Curvature& c, const MiddleValue& middle) const;
   void split(int entry);
   bool isTrimmedAway(Part& part) const;
 

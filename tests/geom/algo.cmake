@@ -1,0 +1,14 @@
+if (NOT TARGET CADRefineTestSupport)
+  add_subdirectory("${CMAKE_SOURCE_DIR}/tests/support" "${CMAKE_BINARY_DIR}/tests/support")
+endif ()
+
+cadrefine_geom_test(algo_tests
+  SOURCES
+    algo/BisectionTest.cxx
+    algo/BoundaryProjectorTest.cxx
+    algo/GeometricErrorTest.cxx
+    algo/InteriorSmoothingTest.cxx
+    algo/LongestEdgeMarkingTest.cxx
+    algo/MoveGuardTest.cxx
+    algo/UniformSplitTest.cxx
+  LINKS CADRefineTestSupport)

@@ -9,6 +9,7 @@ cadrefine_geom_test(cad_tests
     cad/AnalyticShapesTest.cxx
     cad/CurveModelTest.cxx
     cad/FileErrorsTest.cxx
+    cad/IsolatedRunTest.cxx
     cad/ModelBytesTest.cxx
     cad/RealFilesTest.cxx
     cad/SurfaceConversionTest.cxx

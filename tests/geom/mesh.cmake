@@ -1,0 +1,10 @@
+if (NOT TARGET CADRefineTestSupport)
+  add_subdirectory("${CMAKE_SOURCE_DIR}/tests/support" "${CMAKE_BINARY_DIR}/tests/support")
+endif ()
+
+cadrefine_geom_test(mesh_tests
+  SOURCES
+    mesh/EdgeTableTest.cxx
+    mesh/FacetsTest.cxx
+    mesh/QualityTest.cxx
+  LINKS CADRefineTestSupport)

@@ -165,5 +165,51 @@ TEST(ClosedForms, PlateWithHole)
   }
 }
 
+/// The half y >= 0 of the cylinder of radius 1 about the z axis, 1 <= z <= 2, cut by its loop out
+/// of a longer full cylinder.
+NurbsModel halfCylinder()
+{
+  NurbsModel model = shapes::modelOf(shapes::cylinder(1.0, 0.0, 4.0));
+  model.faces[0].loops = { shapes::polygonLoop(
+    { { 0, 0.25 }, { 2, 0.25 }, { 2, 0.5 }, { 0, 0.5 } }) };
+  model.vertices = { { { 1, 0, 1 }, {}, 0 }, { { -1, 0, 1 }, {}, 0 }, { { -1, 0, 2 }, {}, 0 },
+    { { 1, 0, 2 }, {}, 0 } };
+  shapes::addLine(model, 0, 3);
+  shapes::addLine(model, 1, 2);
+  for (const double z : { 1.0, 2.0 })
+  {
+    NurbsEdge arc = shapes::circle(1.0, z);
+    arc.segments.resize(2);
+    arc.firstVertex = z < 1.5 ? 0 : 3;
+    arc.lastVertex = z < 1.5 ? 1 : 2;
+    model.edges.push_back(arc);
+  }
+  model.faces[0].edges = { 0, 1, 2, 3 };
+  for (NurbsEdge& edge : model.edges)
+  {
+    edge.faces = { 0 };
+  }
+  return model;
+}
+
+TEST(ClosedForms, HalfCylinderFromAllSides)
+{
+  const NurbsModel model = halfCylinder();
+  const ClosestPointSearch search(model);
+  shapes::Random random(5);
+  for (int i = 0; i < 3000; ++i)
+  {
+    Point3 q = random.point(i % 2 == 0 ? 2.0 : 12.0);
+    q[2] += 1.5;
+    const double radial =
+      q[1] >= 0 ? std::hypot(q[0], q[1]) - 1.0 : std::hypot(std::abs(q[0]) - 1.0, q[1]);
+    const double axial = q[2] - std::clamp(q[2], 1.0, 2.0);
+    const ClosestPoint answer = search.nearest(q);
+    expectConsistent(model, search.modelSize(), q, answer);
+    EXPECT_NEAR(answer.distance, std::hypot(radial, axial), tolerance * search.modelSize());
+    EXPECT_TRUE(answer.converged);
+  }
+}
+
 } // namespace
 } // namespace cadrefine

@@ -1,0 +1,246 @@
+// Longest edge marking against a brute-force least fixpoint.
+
+#include "LongestEdgeMarking.h"
+
+#include "MeshChecks.h"
+#include "Split.h"
+#include "TestMeshes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+#include <random>
+#include <set>
+
+namespace
+{
+
+using namespace cadrefine;
+
+using IdPair = std::array<GlobalId, 2>;
+
+/// Length and ids of an edge, by which edges are ordered.
+struct OrderedEdge
+{
+  double squaredLength;
+  IdPair ids;
+  friend bool operator<(const OrderedEdge& a, const OrderedEdge& b)
+  {
+    return std::tie(a.squaredLength, a.ids) < std::tie(b.squaredLength, b.ids);
+  }
+};
+
+OrderedEdge orderedEdge(const SimplexMesh& mesh, Index a, Index b)
+{
+  if (mesh.ids[b] < mesh.ids[a])
+  {
+    std::swap(a, b);
+  }
+  return { squaredNorm(mesh.points[b] - mesh.points[a]), { mesh.ids[a], mesh.ids[b] } };
+}
+
+/// All edges of a cell, and the triangles among its corners, as the rules say it.
+std::vector<std::vector<OrderedEdge>> simplicesOf(
+  const SimplexMesh& mesh, const std::vector<Index>& cell)
+{
+  std::vector<std::vector<OrderedEdge>> result;
+  for (unsigned subset = 1; subset < 1u << cell.size(); ++subset)
+  {
+    std::vector<Index> corners;
+    for (std::size_t k = 0; k < cell.size(); ++k)
+    {
+      if (subset & (1u << k))
+      {
+        corners.push_back(cell[k]);
+      }
+    }
+    if (corners.size() >= 3)
+    {
+      auto& edges = result.emplace_back();
+      for (std::size_t i = 0; i < corners.size(); ++i)
+      {
+        for (std::size_t j = 0; j < i; ++j)
+        {
+          edges.push_back(orderedEdge(mesh, corners[i], corners[j]));
+        }
+      }
+    }
+  }
+  return result;
+}
+
+std::vector<std::vector<Index>> cellsOf(const SimplexMesh& mesh)
+{
+  std::vector<std::vector<Index>> cells;
+  for (const auto& cell : mesh.tetrahedra)
+  {
+    cells.emplace_back(cell.begin(), cell.end());
+  }
+  for (const auto& cell : mesh.triangles)
+  {
+    cells.emplace_back(cell.begin(), cell.end());
+  }
+  return cells;
+}
+
+/// The least set of edges with the longest edge of each marked cell, and with the longest edge of
+/// each cell and triangle that has an edge in the set.
+std::set<IdPair> bruteForce(const SimplexMesh& mesh, const std::vector<unsigned char>& cellMarks)
+{
+  std::vector<std::vector<OrderedEdge>> simplices;
+  std::set<IdPair> marked;
+  const auto cells = cellsOf(mesh);
+  for (std::size_t c = 0; c < cells.size(); ++c)
+  {
+    const auto ofCell = simplicesOf(mesh, cells[c]);
+    simplices.insert(simplices.end(), ofCell.begin(), ofCell.end());
+    if (cellMarks[c])
+    {
+      marked.insert(std::max_element(ofCell.back().begin(), ofCell.back().end())->ids);
+    }
+  }
+  for (std::size_t before = 0; before != marked.size();)
+  {
+    before = marked.size();
+    for (const auto& edges : simplices)
+    {
+      if (std::any_of(edges.begin(), edges.end(),
+            [&](const OrderedEdge& edge) { return marked.count(edge.ids) > 0; }))
+      {
+        marked.insert(std::max_element(edges.begin(), edges.end())->ids);
+      }
+    }
+  }
+  return marked;
+}
+
+struct Closure
+{
+  Closure(const SimplexMesh& mesh, const std::vector<unsigned char>& cellMarks)
+    : table(buildEdgeTable(mesh)), marks(table.edges().size(), 0)
+  {
+    markLongestEdges(mesh, table, cellMarks, marks);
+    closeMarks(mesh, table, marks);
+    for (std::size_t e = 0; e < marks.size(); ++e)
+    {
+      if (marks[e])
+      {
+        ids.insert({ mesh.ids[table.edges()[e][0]], mesh.ids[table.edges()[e][1]] });
+      }
+    }
+  }
+
+  EdgeTable table;
+  EdgeMarks marks;
+  std::set<IdPair> ids;
+};
+
+struct Case
+{
+  int dimension;
+  double jitter; ///< 0: many edges of equal length.
+};
+
+class LongestEdge : public testing::TestWithParam<Case>
+{
+protected:
+  SimplexMesh mesh(std::uint64_t seed) const
+  {
+    const auto [dimension, jitter] = GetParam();
+    return dimension == 3 ? cadtest::cubeMesh(3, jitter, seed)
+                          : cadtest::squareMesh(8, jitter, seed);
+  }
+
+  static std::vector<unsigned char> someCells(const SimplexMesh& mesh, std::uint64_t seed)
+  {
+    std::mt19937_64 random(seed);
+    std::vector<unsigned char> marks(mesh.cellCount());
+    std::generate(marks.begin(), marks.end(), [&] { return random() % 20 == 0; });
+    return marks;
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Meshes, LongestEdge,
+  testing::Values(Case{ 2, 0 }, Case{ 2, 0.3 }, Case{ 3, 0 }, Case{ 3, 0.2 }),
+  [](const auto& info)
+  {
+    return std::string(info.param.dimension == 3 ? "Tetrahedra" : "Triangles") +
+           (info.param.jitter > 0 ? "Moved" : "Regular");
+  });
+
+TEST_P(LongestEdge, closureIsTheLeastFixpoint)
+{
+  for (std::uint64_t seed = 0; seed < 6; ++seed)
+  {
+    const SimplexMesh mesh = this->mesh(seed);
+    const auto cellMarks = someCells(mesh, seed);
+    const Closure closure(mesh, cellMarks);
+    EXPECT_EQ(closure.ids, bruteForce(mesh, cellMarks));
+    EXPECT_FALSE(closure.ids.empty());
+  }
+}
+
+TEST_P(LongestEdge, closureDoesNotDependOnTheOrderOfCells)
+{
+  const SimplexMesh mesh = this->mesh(11);
+  const auto cellMarks = someCells(mesh, 12);
+  const auto cells = cellsOf(mesh);
+  std::set<std::vector<Index>> marked;
+  for (std::size_t c = 0; c < cells.size(); ++c)
+  {
+    if (cellMarks[c])
+    {
+      marked.insert(cells[c]);
+    }
+  }
+  for (std::uint64_t seed = 0; seed < 4; ++seed)
+  {
+    const SimplexMesh shuffled = cadtest::withShuffledCells(mesh, seed);
+    std::vector<unsigned char> shuffledMarks;
+    for (const auto& cell : cellsOf(shuffled))
+    {
+      shuffledMarks.push_back(marked.count(cell) > 0);
+    }
+    EXPECT_EQ(Closure(shuffled, shuffledMarks).ids, Closure(mesh, cellMarks).ids);
+  }
+}
+
+TEST_P(LongestEdge, closedMarksStayAsTheyAre)
+{
+  const SimplexMesh mesh = this->mesh(13);
+  Closure closure(mesh, someCells(mesh, 14));
+  EXPECT_FALSE(closeMarks(mesh, closure.table, closure.marks));
+}
+
+/// Six rounds of refinement near a corner: the mesh stays whole and its cells do not degenerate.
+TEST_P(LongestEdge, bisectionKeepsMeshesConforming)
+{
+  SimplexMesh mesh = this->mesh(15);
+  for (int round = 0; round < 6; ++round)
+  {
+    std::vector<unsigned char> cellMarks;
+    for (const auto& cell : cellsOf(mesh))
+    {
+      cellMarks.push_back(norm(mesh.points[cell[0]]) < 0.3);
+    }
+    const Closure closure(mesh, cellMarks);
+    const Midpoints midpoints = makeMidpoints(mesh, closure.table, closure.marks);
+    std::vector<GlobalId> ids(midpoints.edges.size());
+    std::iota(ids.begin(), ids.end(), static_cast<GlobalId>(mesh.points.size()));
+    const std::size_t before = mesh.cellCount();
+    mesh = splitMarked(mesh, closure.table, midpoints, ids).mesh;
+    EXPECT_GT(mesh.cellCount(), before);
+    EXPECT_TRUE(cadtest::isValid(mesh));
+    EXPECT_TRUE(cadtest::hasNoHangingVertex(mesh));
+    EXPECT_NEAR(cadtest::measureOf(mesh), 1, 1e-13);
+    EXPECT_TRUE(cadtest::isWatertight(mesh,
+      [](const std::vector<Point3>& side)
+      {
+        const auto [low, high] = std::minmax_element(side.begin(), side.end());
+        return (*low)[0] == (*high)[0] || side[0][1] == side[1][1] || side[0][2] == side[1][2];
+      }));
+  }
+}
+
+} // namespace

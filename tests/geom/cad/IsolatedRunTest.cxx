@@ -1,0 +1,86 @@
+// What happens in the child process comes back as bytes or as an Error.
+
+#include "IsolatedRun.h"
+
+#include "Error.h"
+
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <iostream>
+#include <stdexcept>
+
+namespace
+{
+
+using cadrefine::runIsolated;
+
+std::string errorOf(int seconds, const std::function<std::vector<char>()>& work)
+{
+  try
+  {
+    runIsolated("file", seconds, work);
+  }
+  catch (const cadrefine::Error& error)
+  {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(IsolatedRun, BringsBackManyBytes)
+{
+  std::vector<char> bytes(3000001);
+  for (std::size_t i = 0; i < bytes.size(); ++i)
+  {
+    bytes[i] = static_cast<char>(i % 251);
+  }
+  EXPECT_EQ(runIsolated("file", 60, [&] { return bytes; }), bytes);
+  EXPECT_TRUE(runIsolated("file", 60, [] { return std::vector<char>(); }).empty());
+}
+
+TEST(IsolatedRun, KeepsItsOutputToItself)
+{
+  testing::internal::CaptureStdout();
+  runIsolated("file", 60,
+    []
+    {
+      std::cout << "chatter" << std::endl;
+      return std::vector<char>(1);
+    });
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+}
+
+TEST(IsolatedRun, PassesErrorsOn)
+{
+  EXPECT_EQ(errorOf(60, []() -> std::vector<char> { throw cadrefine::Error("reason"); }), "reason");
+  EXPECT_EQ(errorOf(60, []() -> std::vector<char> { throw std::runtime_error("why"); }), "why");
+  EXPECT_NE(errorOf(60, []() -> std::vector<char> { throw 1; }), "");
+}
+
+TEST(IsolatedRun, SurvivesACrash)
+{
+  const std::string error = errorOf(60,
+    []
+    {
+      std::raise(SIGSEGV);
+      return std::vector<char>();
+    });
+  EXPECT_EQ(error.find("file: "), 0u) << error;
+  EXPECT_NE(error.find("signal 11"), std::string::npos) << error;
+}
+
+TEST(IsolatedRun, EndsWhatNeverEnds)
+{
+  const std::string error = errorOf(1,
+    []
+    {
+      for (volatile int i = 0;; i = i + 1)
+      {
+      }
+      return std::vector<char>();
+    });
+  EXPECT_NE(error.find("no end within 1 s"), std::string::npos) << error;
+}
+
+} // namespace

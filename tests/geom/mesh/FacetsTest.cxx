@@ -1,0 +1,116 @@
+#include "Facets.h"
+#include "MeshChecks.h"
+#include "Quality.h"
+#include "TestMeshes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+namespace
+{
+
+using namespace cadrefine;
+
+std::set<std::array<GlobalId, 3>> idsOf(const SimplexMesh& mesh, const std::vector<Facet>& facets)
+{
+  std::set<std::array<GlobalId, 3>> result;
+  for (const Facet& facet : facets)
+  {
+    std::array<GlobalId, 3> ids{ -1, -1, -1 };
+    for (int k = 0; k < 3 && facet.vertices[k] >= 0; ++k)
+    {
+      ids[k] = mesh.ids[facet.vertices[k]];
+    }
+    std::sort(ids.begin(), ids.end());
+    result.insert(ids);
+  }
+  return result;
+}
+
+TEST(Facets, encloseTheVolumeWithOutwardNormals)
+{
+  const SimplexMesh mesh = cadtest::cubeMesh(3, 0.2, 1);
+  SimplexMesh surface;
+  surface.dimension = 2;
+  surface.points = mesh.points;
+  for (const Facet& facet : findOuterFacets(mesh))
+  {
+    surface.triangles.push_back(facet.vertices);
+  }
+  EXPECT_EQ(surface.triangles.size(), 6u * 2 * 9);
+  EXPECT_NEAR(cadtest::volumeInside(surface), 1, 1e-14);
+}
+
+TEST(Facets, nameTheirCell)
+{
+  const SimplexMesh mesh = cadtest::ballMesh(2, 0.05);
+  const std::vector<Facet> facets = findOuterFacets(mesh);
+  ASSERT_EQ(facets.size(), 20u);
+  for (const Facet& facet : facets)
+  {
+    const auto& cell = mesh.tetrahedra.at(facet.cell);
+    for (const Index vertex : facet.vertices)
+    {
+      EXPECT_NE(std::find(cell.begin(), cell.end(), vertex), cell.end());
+      EXPECT_NE(vertex, 12) << "the centre is not on the boundary";
+    }
+  }
+}
+
+TEST(Facets, ofAPlanarMeshRunRoundItCounterClockwise)
+{
+  const SimplexMesh mesh = cadtest::squareMesh(4, 0.2, 2);
+  double area = 0;
+  const std::vector<Facet> facets = findOuterFacets(mesh);
+  for (const Facet& facet : facets)
+  {
+    EXPECT_EQ(facet.vertices[2], -1);
+    area += cross(mesh.points[facet.vertices[0]], mesh.points[facet.vertices[1]])[2] / 2;
+  }
+  EXPECT_EQ(facets.size(), 16u);
+  EXPECT_NEAR(area, 1, 1e-14);
+}
+
+TEST(Facets, areTheSameWhateverTheOrderOfTheCells)
+{
+  const SimplexMesh mesh = cadtest::cubeMesh(2, 0.2, 3);
+  const SimplexMesh shuffled = cadtest::withShuffledCells(mesh, 4);
+  EXPECT_EQ(idsOf(mesh, findOuterFacets(mesh)), idsOf(shuffled, findOuterFacets(shuffled)));
+}
+
+TEST(Facets, doNotTakeTagTrianglesForSides)
+{
+  SimplexMesh mesh = cadtest::ballMesh(1, 0);
+  mesh.triangles = { { 0, 1, 2 } };
+  EXPECT_EQ(findOuterFacets(mesh).size(), 20u);
+}
+
+TEST(Facets, ofASurfaceAreItsTriangles)
+{
+  const SimplexMesh mesh = cadtest::sphereMesh(1, 0);
+  const std::vector<Facet> facets = facetsOfSurface(mesh);
+  ASSERT_EQ(facets.size(), 20u);
+  for (std::size_t f = 0; f < facets.size(); ++f)
+  {
+    EXPECT_EQ(facets[f].vertices, mesh.triangles[f]);
+    EXPECT_EQ(facets[f].cell, static_cast<Index>(f));
+  }
+}
+
+TEST(FaceTables, agreeWithTheEdgeTable)
+{
+  for (int face = 0; face < 4; ++face)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      const std::set<int> corners{ tetrahedronFaces[face][k], tetrahedronFaces[face][(k + 1) % 3] };
+      const auto& edge = tetrahedronEdges[tetrahedronFaceEdges[face][k]];
+      EXPECT_EQ(corners, std::set<int>({ edge[0], edge[1] }));
+      EXPECT_EQ(corners.count(face), 0u);
+    }
+  }
+}
+
+} // namespace

@@ -1,0 +1,40 @@
+// Checks that hold for every mesh that CADRefine makes.
+#pragma once
+
+#include "SimplexMesh.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <functional>
+#include <set>
+#include <vector>
+
+namespace cadtest
+{
+
+/// Volume of the tetrahedra, or area of the triangles, cells added up with their sign (triangles in
+/// space: always positive).
+double measureOf(const cadrefine::SimplexMesh& mesh);
+
+/// Volume inside the facets of a closed surface (outward normals), by the divergence theorem.
+double volumeInside(const cadrefine::SimplexMesh& mesh);
+
+/// No cell of the mesh's own dimension is inverted or flat.
+testing::AssertionResult isValid(const cadrefine::SimplexMesh& mesh);
+
+/// Every side of a cell is met once or twice, and a side that is met once lies on the boundary:
+/// `onBoundary` says so of its vertices.
+testing::AssertionResult isWatertight(const cadrefine::SimplexMesh& mesh,
+  const std::function<bool(const std::vector<cadrefine::Point3>&)>& onBoundary);
+
+/// No edge of the mesh has a vertex exactly in its middle.
+testing::AssertionResult hasNoHangingVertex(const cadrefine::SimplexMesh& mesh);
+
+/// Number of sides that are met once.
+std::size_t countOuterSides(const cadrefine::SimplexMesh& mesh);
+
+/// Vertices of the sides that are met once.
+std::set<cadrefine::Index> outerVertices(const cadrefine::SimplexMesh& mesh);
+
+} // namespace cadtest

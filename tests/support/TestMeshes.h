@@ -1,0 +1,35 @@
+// Small meshes with known volumes and boundaries.
+#pragma once
+
+#include "SimplexMesh.h"
+
+#include <array>
+#include <cstdint>
+
+namespace cadtest
+{
+
+/// One tetrahedron or triangle, with ids 0, 1, ...
+cadrefine::SimplexMesh oneTetrahedron(const std::array<cadrefine::Point3, 4>& points);
+cadrefine::SimplexMesh oneTriangle(const std::array<cadrefine::Point3, 3>& points);
+
+/// The unit cube as n * n * n boxes of six tetrahedra each. Inner vertices are moved at random by
+/// up to `jitter` / n in each direction (0.1 keeps all cells valid); ids are in a random order.
+cadrefine::SimplexMesh cubeMesh(int n, double jitter, std::uint64_t seed);
+/// The unit square likewise, as n * n boxes of two triangles each.
+cadrefine::SimplexMesh squareMesh(int n, double jitter, std::uint64_t seed);
+
+/// The same mesh with its cells in another order.
+cadrefine::SimplexMesh withShuffledCells(cadrefine::SimplexMesh mesh, std::uint64_t seed);
+
+/// Ball round the origin: the 20 tetrahedra between an icosahedron and its centre. Vertices lie off
+/// the sphere by up to `offset` times the radius, in and out.
+cadrefine::SimplexMesh ballMesh(double radius, double offset);
+/// The 20 triangles of its surface; vertices are those of ballMesh but for the centre.
+cadrefine::SimplexMesh sphereMesh(double radius, double offset);
+/// Solid torus round the z axis: `around` sections of `corners` corners and a centre each.
+cadrefine::SimplexMesh torusMesh(double majorRadius, double minorRadius, int around, int corners);
+/// Triangles between a polygon with `corners` corners and its centre, in the plane z = 0.
+cadrefine::SimplexMesh discMesh(double radius, double offset, int corners);
+
+} // namespace cadtest

@@ -1,0 +1,63 @@
+#include "TestShapes.h"
+
+#include "CADFile.h"
+
+#include <BRepAlgoAPI_Cut.hxx>
+#include <BRepBuilderAPI_MakeEdge.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeCylinder.hxx>
+#include <BRepPrimAPI_MakeSphere.hxx>
+#include <BRepPrimAPI_MakeTorus.hxx>
+#include <gp_Ax2.hxx>
+#include <gp_Circ.hxx>
+#include <gp_Pln.hxx>
+
+namespace cadtest
+{
+
+TopoDS_Shape sphere(double radius)
+{
+  return BRepPrimAPI_MakeSphere(radius).Shape();
+}
+
+TopoDS_Shape torus(double majorRadius, double minorRadius)
+{
+  return BRepPrimAPI_MakeTorus(majorRadius, minorRadius).Shape();
+}
+
+TopoDS_Shape box(double x, double y, double z)
+{
+  return BRepPrimAPI_MakeBox(x, y, z).Shape();
+}
+
+TopoDS_Shape cylinder(double radius, double height)
+{
+  return BRepPrimAPI_MakeCylinder(radius, height).Shape();
+}
+
+TopoDS_Shape pipe(double innerRadius, double outerRadius, double height)
+{
+  return BRepAlgoAPI_Cut(cylinder(outerRadius, height), cylinder(innerRadius, height)).Shape();
+}
+
+TopoDS_Shape circle(double radius)
+{
+  return BRepBuilderAPI_MakeEdge(gp_Circ(gp_Ax2(), radius)).Shape();
+}
+
+TopoDS_Shape rectangle(double x, double y)
+{
+  return BRepBuilderAPI_MakeFace(gp_Pln(), 0, x, 0, y).Shape();
+}
+
+std::shared_ptr<const cadrefine::CADModel> modelOf(
+  const TopoDS_Shape& shape, const std::string& extension)
+{
+  const TemporaryFolder folder;
+  const std::string path = folder.file("shape" + extension);
+  writeShape(shape, path);
+  return cadrefine::readCADFile(path);
+}
+
+} // namespace cadtest

@@ -1,0 +1,35 @@
+// CAD models of simple shapes: made with Open CASCADE, written to a file and read back.
+#pragma once
+
+#include "CADModel.h"
+#include "TestFiles.h"
+
+#include <TopoDS_Shape.hxx>
+
+#include <memory>
+#include <string>
+
+namespace cadtest
+{
+
+/// Sphere round the origin.
+TopoDS_Shape sphere(double radius);
+/// Torus round the z axis.
+TopoDS_Shape torus(double majorRadius, double minorRadius);
+/// Box from the origin to (x, y, z).
+TopoDS_Shape box(double x, double y, double z);
+/// Cylinder round the z axis from z = 0 to `height`.
+TopoDS_Shape cylinder(double radius, double height);
+/// What lies between two cylinders round the z axis, from z = 0 to `height`.
+TopoDS_Shape pipe(double innerRadius, double outerRadius, double height);
+/// Circle in the plane z = 0 round the origin: an edge without a face.
+TopoDS_Shape circle(double radius);
+/// The rectangle from the origin to (x, y, 0): one face with four edges.
+TopoDS_Shape rectangle(double x, double y);
+
+/// The model that readCADFile makes of `shape`, written with this extension (".step", ".igs",
+/// ".brep").
+std::shared_ptr<const cadrefine::CADModel> modelOf(
+  const TopoDS_Shape& shape, const std::string& extension = ".step");
+
+} // namespace cadtest
