@@ -115,8 +115,9 @@ def run(options, started):
     pipeline.project(options)
     pipeline.measure(options)
     report.add_step("projection", pipeline)
+    largest = pictures.largest_error(pipeline.mesh)  # Both pictures have the same colours.
     if options.screenshot_start:
-        pictures.screenshot(pipeline.mesh, options.screenshot_start, options.focus)
+        pictures.screenshot(pipeline.mesh, options.screenshot_start, options.focus, largest)
 
     for method in planned_methods(options):
         report.stopped = reason_to_stop(options, method, report.steps[-1], pipeline)
@@ -130,7 +131,7 @@ def run(options, started):
     if options.output:
         pipeline.write(options.output)
     if options.screenshot:
-        pictures.screenshot(pipeline.mesh, options.screenshot, options.focus)
+        pictures.screenshot(pipeline.mesh, options.screenshot, options.focus, largest)
     report.write()
     return report
 

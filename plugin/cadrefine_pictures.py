@@ -20,7 +20,7 @@ from cadrefine_pipeline import gathered
 from cadrefine_session import Failure
 
 SIZE = (1400, 900)
-DECADES = 4  # Of the colour scale, downwards from the largest error.
+DECADES = 6  # Of the colour scale, downwards from the largest error.
 VIRIDIS = ((0.267, 0.005, 0.329), (0.231, 0.318, 0.545), (0.129, 0.569, 0.549), (0.369, 0.788, 0.384),
            (0.993, 0.906, 0.144))
 
@@ -39,9 +39,12 @@ def check_display():
         x11.XCloseDisplay(ctypes.c_void_p(display))
 
 
-def screenshot(mesh, path, focus=None):
-    """Writes a picture of `mesh`, whose cells have the array GeometricError."""
-    largest = mesh.CellData["GeometricError"].GetRange(0)[1]
+def largest_error(mesh):
+    return mesh.CellData["GeometricError"].GetRange(0)[1]
+
+
+def screenshot(mesh, path, focus, largest):
+    """Writes a picture of `mesh`, whose cells have the array GeometricError; `largest` is the scale's upper end."""
     shown = gathered(cells_on_cad(mesh))
     if session.speaks():
         draw(shown, largest, path, focus)
@@ -122,8 +125,8 @@ def surface_actor(shown, colours):
     actor.GetProperty().EdgeVisibilityOn()
     actor.GetProperty().SetEdgeColor(0.15, 0.15, 0.15)
     actor.GetProperty().SetInterpolationToFlat()
-    actor.GetProperty().SetAmbient(0.35)
-    actor.GetProperty().SetDiffuse(0.65)
+    actor.GetProperty().SetAmbient(0.45)
+    actor.GetProperty().SetDiffuse(0.55)
     return actor
 
 
@@ -134,7 +137,7 @@ def colour_bar(colours):
     bar.SetLookupTable(colours)
     bar.SetTitle("local geometric error")
     bar.SetNumberOfLabels(DECADES + 1)
-    bar.SetLabelFormat("%.1e")
+    bar.SetLabelFormat("%.0e")
     bar.SetUnconstrainedFontSize(True)
     for text, size in ((bar.GetTitleTextProperty(), 20), (bar.GetLabelTextProperty(), 18)):
         text.SetColor(0.0, 0.0, 0.0)
@@ -142,9 +145,9 @@ def colour_bar(colours):
         text.ItalicOff()
         text.BoldOff()
         text.ShadowOff()
-    bar.SetPosition(0.82, 0.05)
+    bar.SetPosition(0.02, 0.04)
     bar.SetWidth(0.16)
-    bar.SetHeight(0.45)
+    bar.SetHeight(0.4)
     return bar
 
 

@@ -19,7 +19,7 @@ RANKS = 2
 CASE = [os.path.join(DATA, "naca0012_coarse.vtu"), os.path.join(DATA, "naca0012_sharp.igs"),
         "--region", "-0.1", "1.1", "-1", "3", "-0.2", "0.2",
         "--uniform-steps", "3", "--steps", "6", "--method", "longest-edge", "--threshold", "1e-7"]
-LEADING_EDGE = ["--focus", "-0.02", "0.18", "0.75", "1.0", "-0.07", "0.07"]
+LEADING_EDGE = ["--focus", "0", "0.3", "0", "0.3", "-0.06", "0.06"]
 
 FILES = (
     ("with_cad.txt", "the table: a row a step, new vertices on the CAD"),

@@ -19,11 +19,11 @@ namespace cadrefine
 namespace
 {
 
-void addFailures(Interface_CheckIterator checks, FailureMap& failures)
+void addFailures(const Interface_CheckIterator& checks, FailureMap& failures)
 {
   for (checks.Start(); checks.More(); checks.Next())
   {
-    const Handle(Interface_Check) check = checks.Value();
+    const Handle(Interface_Check)& check = checks.Value();
     if (!check.IsNull() && check->NbFails() > 0)
     {
       failures.emplace(checks.Number(), oneLine(check->CFail(1)));

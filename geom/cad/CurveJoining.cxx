@@ -136,6 +136,7 @@ std::vector<int> cluster(const std::vector<Point3>& points, double tolerance)
   }
   std::map<int, int> numbers;
   std::vector<int> clusters;
+  clusters.reserve(representative.size());
   for (const int seed : representative)
   {
     clusters.push_back(numbers.emplace(seed, static_cast<int>(numbers.size())).first->second);

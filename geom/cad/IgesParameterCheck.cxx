@@ -114,7 +114,7 @@ std::string checkSpline(const Values& values, std::size_t directions)
   {
     const Direction d{ std::atol(values[1 + k].c_str()),
       std::atol(values[1 + directions + k].c_str()) };
-    const std::string reason = checkDirection(d);
+    std::string reason = checkDirection(d);
     if (!reason.empty())
     {
       return reason;
@@ -133,7 +133,7 @@ std::string checkSpline(const Values& values, std::size_t directions)
   std::size_t at = header;
   for (const Direction& d : sizes)
   {
-    const std::string reason = checkKnots(values, at, d.knots());
+    std::string reason = checkKnots(values, at, d.knots());
     if (!reason.empty())
     {
       return reason;
@@ -160,7 +160,7 @@ std::string checkIgesParameters(int type, const IgesParameters& parameters)
   {
     return "its parameters have no end";
   }
-  const std::string reason = checkNumbers(parameters.values);
+  std::string reason = checkNumbers(parameters.values);
   if (!reason.empty() || (type != 126 && type != 128))
   {
     return reason;

@@ -26,13 +26,15 @@ def data(name):
 class Run:
     """One run of the driver: exit statuses of all ranks, standard output and the lines of standard error."""
 
-    def __init__(self, ranks, *arguments, without=()):
-        """`ranks` 0 stands for pvpython; variables named in `without` are taken out of the environment."""
+    def __init__(self, ranks, *arguments, without=(), display=False):
+        """`ranks` 0 stands for pvpython; variables named in `without` are taken out of the environment; `display`
+        gives the run an X server of its own."""
         environment = {**os.environ, **ENVIRONMENT}
         for name in without:
             environment.pop(name, None)
         with tempfile.TemporaryDirectory() as folder:
-            result = subprocess.run(self.command(ranks, folder, arguments), env=environment, capture_output=True,
+            command = ["xvfb-run", "--auto-servernum"] * display + self.command(ranks, folder, arguments)
+            result = subprocess.run(command, env=environment, capture_output=True,
                                     text=True, timeout=TIMEOUT, stdin=subprocess.DEVNULL, check=False)
             self.statuses = [read_status(os.path.join(folder, name)) for name in sorted(os.listdir(folder))]
         self.status = result.returncode

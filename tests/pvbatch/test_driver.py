@@ -14,6 +14,7 @@ RANKS = int(sys.argv.pop()) if sys.argv[-1].isdigit() else 1
 WING = (driver.data("naca0012_coarse.vtu"), driver.data("naca0012_sharp.igs"))
 ARCS = (driver.data("three_arcs_coarse.vtu"), driver.data("three_arcs.igs"))
 
+PNG = b"\x89PNG\r\n\x1a\n"
 STEP_KEYS = {"step", "vertices", "cells", "cad_vertices", "projected_points", "global_error", "maximum_distance",
              "invalid_cells", "unprojected_vertices", "minimum_quality", "seconds"}
 
@@ -88,13 +89,25 @@ class Driver(unittest.TestCase):
         target = driver.report_of(RANKS, *WING, "--target-error", "1e9")
         self.assertEqual(len(target["steps"]), 1)
 
+    def test_screenshots(self):
+        for case in (WING, ARCS):
+            pictures = self.path("start.png"), self.path("end.png")
+            run = driver.Run(RANKS, *case, "--steps", "1", "--screenshot-start", pictures[0],
+                             "--screenshot", pictures[1], display=True)
+            self.assertEqual((run.status, run.errors), (0, []))
+            for picture in pictures:
+                with open(picture, "rb") as file:
+                    self.assertEqual(file.read(8), PNG)
+                    self.assertGreater(os.path.getsize(picture), 10000, "an empty picture")
+                os.remove(picture)
+
     def test_plot_and_table(self):
         report, plot = self.path("straight.json"), self.path("plot.png")
         driver.Run(RANKS, *ARCS, "--steps", "2", "--no-cad", "--report", report)
         run = driver.Run(RANKS, *ARCS, "--steps", "2", "--plot", plot, "--compare-report", report)
         self.assertEqual((run.status, run.errors), (0, []))
         with open(plot, "rb") as file:
-            self.assertEqual(file.read(8), b"\x89PNG\r\n\x1a\n")
+            self.assertEqual(file.read(8), PNG)
         rows = [line.split() for line in run.output.splitlines() if line.strip()[:1].isdigit()]
         self.assertEqual([row[0] for row in rows], ["0", "1", "2"])
         self.assertEqual(driver.Run(RANKS, *ARCS, "--steps", "1", "--quiet").output, "")

@@ -159,6 +159,21 @@ testing::AssertionResult isWatertight(
                        : testing::AssertionSuccess();
 }
 
+bool onUnitCube(const std::vector<Point3>& points, int dimension)
+{
+  for (int k = 0; k < dimension; ++k)
+  {
+    for (const double plane : { 0.0, 1.0 })
+    {
+      if (std::all_of(points.begin(), points.end(), [&](const Point3& p) { return p[k] == plane; }))
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
 testing::AssertionResult hasNoHangingVertex(const SimplexMesh& mesh)
 {
   const std::set<Point3> points(mesh.points.begin(), mesh.points.end());

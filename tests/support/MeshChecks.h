@@ -28,6 +28,9 @@ testing::AssertionResult isValid(const cadrefine::SimplexMesh& mesh);
 testing::AssertionResult isWatertight(const cadrefine::SimplexMesh& mesh,
   const std::function<bool(const std::vector<cadrefine::Point3>&)>& onBoundary);
 
+/// Whether these points lie on one side of the unit cube, or (dimension 2) of the unit square.
+bool onUnitCube(const std::vector<cadrefine::Point3>& points, int dimension);
+
 /// No edge of the mesh has a vertex exactly in its middle.
 testing::AssertionResult hasNoHangingVertex(const cadrefine::SimplexMesh& mesh);
 

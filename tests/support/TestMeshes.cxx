@@ -130,8 +130,8 @@ Simplices<3> icosahedronSides(const std::vector<Point3>& points)
         if (near(a, b) && near(b, c) && near(a, c))
         {
           const Vector3 normal = twofoldAreaVector(points[a], points[b], points[c]);
-          sides.push_back({ a, dot(normal, points[a]) > 0 ? b : c,
-            dot(normal, points[a]) > 0 ? c : b });
+          sides.push_back(
+            { a, dot(normal, points[a]) > 0 ? b : c, dot(normal, points[a]) > 0 ? c : b });
         }
       }
     }
@@ -239,8 +239,7 @@ SimplexMesh torusMesh(double majorRadius, double minorRadius, int around, int co
       const double angle = 2 * pi * (c + 0.25) / corners;
       const double minor = c < corners ? minorRadius * (1 + 0.02 * ((s + c) % 3 - 1)) : 0;
       const double r = majorRadius + minor * std::cos(angle);
-      mesh.points.push_back(
-        { r * std::cos(turn), r * std::sin(turn), minor * std::sin(angle) });
+      mesh.points.push_back({ r * std::cos(turn), r * std::sin(turn), minor * std::sin(angle) });
     }
   }
   mesh.ids = consecutiveIds(mesh.points.size());

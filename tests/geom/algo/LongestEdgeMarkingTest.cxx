@@ -235,11 +235,7 @@ TEST_P(LongestEdge, bisectionKeepsMeshesConforming)
     EXPECT_TRUE(cadtest::hasNoHangingVertex(mesh));
     EXPECT_NEAR(cadtest::measureOf(mesh), 1, 1e-13);
     EXPECT_TRUE(cadtest::isWatertight(mesh,
-      [](const std::vector<Point3>& side)
-      {
-        const auto [low, high] = std::minmax_element(side.begin(), side.end());
-        return (*low)[0] == (*high)[0] || side[0][1] == side[1][1] || side[0][2] == side[1][2];
-      }));
+      [&](const std::vector<Point3>& side) { return cadtest::onUnitCube(side, mesh.dimension); }));
   }
 }
 

@@ -110,8 +110,8 @@ TEST(UniformSplit, cutsATriangleIntoFourOfEqualArea)
   ASSERT_EQ(fine.triangles.size(), 4u);
   for (const auto& cell : fine.triangles)
   {
-    EXPECT_EQ(twofoldAreaVector(fine.points[cell[0]], fine.points[cell[1]], fine.points[cell[2]])[2],
-      8);
+    EXPECT_EQ(
+      twofoldAreaVector(fine.points[cell[0]], fine.points[cell[1]], fine.points[cell[2]])[2], 8);
   }
 }
 
@@ -126,22 +126,6 @@ protected:
 
 INSTANTIATE_TEST_SUITE_P(Dimensions, UniformMesh, testing::Values(2, 3));
 
-bool onUnitCube(const std::vector<Point3>& side, int dimension)
-{
-  for (int k = 0; k < dimension; ++k)
-  {
-    for (const double plane : { 0.0, 1.0 })
-    {
-      if (std::all_of(
-            side.begin(), side.end(), [&](const Point3& p) { return p[k] == plane; }))
-      {
-        return true;
-      }
-    }
-  }
-  return false;
-}
-
 TEST_P(UniformMesh, staysValidWatertightAndOfTheSameVolumeOverThreeLevels)
 {
   SimplexMesh mesh = this->mesh(1);
@@ -154,8 +138,8 @@ TEST_P(UniformMesh, staysValidWatertightAndOfTheSameVolumeOverThreeLevels)
     mesh = split.mesh;
     EXPECT_TRUE(cadtest::isValid(mesh));
     EXPECT_TRUE(cadtest::hasNoHangingVertex(mesh));
-    EXPECT_TRUE(cadtest::isWatertight(mesh,
-      [](const std::vector<Point3>& side) { return onUnitCube(side, GetParam()); }));
+    EXPECT_TRUE(cadtest::isWatertight(
+      mesh, [](const std::vector<Point3>& side) { return cadtest::onUnitCube(side, GetParam()); }));
     EXPECT_NEAR(cadtest::measureOf(mesh), 1, 1e-13);
   }
 }

@@ -128,8 +128,8 @@ TEST(EdgeOrder, prefersLengthThenTheLargerIds)
     {
       const auto key = [&](Index e)
       {
-        return std::make_tuple(table.squaredLengths[e], mesh.ids[table.edges()[e][0]],
-          mesh.ids[table.edges()[e][1]]);
+        return std::make_tuple(
+          table.squaredLengths[e], mesh.ids[table.edges()[e][0]], mesh.ids[table.edges()[e][1]]);
       };
       EXPECT_EQ(order.longer(a, b), key(a) > key(b));
     }

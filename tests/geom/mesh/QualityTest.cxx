@@ -34,10 +34,8 @@ TEST(Quality, isOneForEquilateralCells)
 TEST(Quality, ofACornerIsTheClosedForm)
 {
   const double expected = 12 * std::pow(0.5, 2.0 / 3.0) / 9;
-  EXPECT_NEAR(
-    meanRatio({ 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }), expected, 1e-15);
-  EXPECT_NEAR(
-    meanRatio({ 0, 0, 0 }, { 0, 1, 0 }, { 1, 0, 0 }, { 0, 0, 1 }), -expected, 1e-15);
+  EXPECT_NEAR(meanRatio({ 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }), expected, 1e-15);
+  EXPECT_NEAR(meanRatio({ 0, 0, 0 }, { 0, 1, 0 }, { 1, 0, 0 }, { 0, 0, 1 }), -expected, 1e-15);
 }
 
 /// Legs a and b at a right angle: 4 sqrt(3) (ab/2) / (2 a^2 + 2 b^2).
@@ -45,8 +43,8 @@ TEST(Quality, ofARightTriangleIsTheClosedForm)
 {
   for (const double b : { 1.0, 0.5, 0.01 })
   {
-    EXPECT_NEAR(meanRatio({ 0, 0, 3 }, { 1, 0, 3 }, { 0, b, 3 }), std::sqrt(3.0) * b / (1 + b * b),
-      1e-15);
+    EXPECT_NEAR(
+      meanRatio({ 0, 0, 3 }, { 1, 0, 3 }, { 0, b, 3 }), std::sqrt(3.0) * b / (1 + b * b), 1e-15);
   }
 }
 
