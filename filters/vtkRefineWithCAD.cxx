@@ -35,7 +35,9 @@ public:
     {
       this->BalanceCells();
     }
-    if (this->Settings->GetProjectNewVertices())
+    this->Classified = this->Settings->GetProjectNewVertices() ||
+                       this->Exchange.any(hasClassification(this->Current));
+    if (this->Classified)
     {
       attempt(this->Exchange,
         [&]
@@ -130,10 +132,11 @@ private:
   void RefineOnce()
   {
     const RefinementPlan plan = this->MakePlan();
-    const RefinementTrace trace =
-      this->Settings->GetProjectNewVertices()
-        ? refineOntoCAD(this->Exchange, this->Mesh, plan, this->Model, this->Positions)
-        : refine(this->Exchange, this->Mesh, plan);
+    const auto newVertices = this->Settings->GetProjectNewVertices() ? NewVertices::MoveOntoCAD
+                                                                     : NewVertices::StayStraight;
+    const RefinementTrace trace = this->Classified ? refineOntoCAD(this->Exchange, this->Mesh, plan,
+                                                       this->Model, this->Positions, newVertices)
+                                                   : refine(this->Exchange, this->Mesh, plan);
     this->ProjectedPoints += trace.projectedPoints;
     auto fine = makePointSet(this->Current, this->Mesh.mesh());
     refineArrays(this->Current, this->Mesh.converted, trace, fine);
@@ -143,7 +146,7 @@ private:
 
   void Summarise()
   {
-    if (this->Settings->GetProjectNewVertices())
+    if (this->Classified)
     {
       writeClassification(this->Current, this->Positions);
       summariseProjection(
@@ -157,6 +160,7 @@ private:
   const CADModel& Model;
   DistributedMesh Mesh;
   vtkSmartPointer<vtkPointSet> Current; ///< The mesh with its arrays.
+  bool Classified = false;              ///< The mesh knows its places on the CAD.
   Classification Positions;
   std::int64_t ProjectedPoints = 0;
 };

@@ -65,8 +65,8 @@ public:
 
   ///@{
   /**
-   * Whether new boundary vertices are put onto the CAD; off: they stay in the middle of their edge.
-   * Default on.
+   * Whether new boundary vertices are put onto the CAD; off: they stay in the middle of their edge
+   * (classified, with their CADDistance, if the mesh was projected). Default on.
    */
   vtkSetMacro(ProjectNewVertices, bool);
   vtkGetMacro(ProjectNewVertices, bool);

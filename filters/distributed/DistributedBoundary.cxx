@@ -204,11 +204,11 @@ BoundaryClasses classifyBoundary(RankExchange& exchange, const SimplexMesh& mesh
       for (const Facet& facet : boundary.facets)
       {
         const ClassifiedFacet classified = classifiedFacet(mesh, entities, facet, boundary.kind);
-      records.push_back(makeRecord(projector, classified));
-      if (boundary.ofSurface)
-      {
-        records.back().onCAD = isClassified(classified, boundary.kind);
-      }
+        records.push_back(makeRecord(projector, classified));
+        if (boundary.ofSurface)
+        {
+          records.back().onCAD = isClassified(classified, boundary.kind);
+        }
         classes.facetOnCAD.push_back(records.back().onCAD);
       }
     });

@@ -53,9 +53,9 @@ ClassifiedFacet classifiedFacet(const SimplexMesh& mesh, const std::vector<Entit
 /// there (BoundaryProjector::isOnCAD).
 FacetRecord makeRecord(const BoundaryProjector& projector, const ClassifiedFacet& facet);
 
-/// Classes of all boundary edges of a classified mesh, and which facets are on the CAD. Of a mesh of
-/// triangles in space, every facet with classified corners is: there is no inside that a wall could
-/// bound. Collective.
+/// Classes of all boundary edges of a classified mesh, and which facets are on the CAD. Of a mesh
+/// of triangles in space, every facet with classified corners is: there is no inside that a wall
+/// could bound. Collective.
 struct BoundaryClasses
 {
   std::vector<EdgeClass> ofEdges;

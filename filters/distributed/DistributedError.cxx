@@ -21,6 +21,8 @@ ErrorFacet makeErrorFacet(const SimplexMesh& mesh, const DistributedBoundary& bo
   {
     const Index edge = boundary.facetEdges[f][k];
     facet.edges[k] = edge < 0 ? EdgeClass{} : classes.ofEdges[edge];
+    const Index vertex = boundary.facets[f].vertices[k];
+    facet.offCAD[k] = vertex >= 0 && classification.distances[vertex] > 0;
   }
   return facet;
 }
@@ -55,13 +57,8 @@ MeshError measureError(RankExchange& exchange, const DistributedMesh& mesh, cons
           continue;
         }
         const Facet& facet = boundary.facets[f];
-        FacetError error = geometricError(
+        const FacetError error = geometricError(
           projector, makeErrorFacet(piece, boundary, classes, classification, f), depth);
-        for (int k = 0; k < boundary.facetCorners(); ++k)
-        {
-          error.maximumDistance =
-            std::max(error.maximumDistance, classification.distances[facet.vertices[k]]);
-        }
         result.ofCells[facet.cell] += error.measure;
         double& cellDistance = result.distanceOfCells[facet.cell];
         cellDistance = std::max(cellDistance, error.maximumDistance);

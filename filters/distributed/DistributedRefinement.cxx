@@ -121,29 +121,43 @@ std::vector<ClosestPoint> projectMidpoints(const SimplexMesh& mesh, const Refine
   return hits;
 }
 
-/// Moves of the new vertices to their places, and of old ones that are not there yet.
-Moves movesOntoCAD(const SimplexMesh& mesh, const std::vector<ClosestPoint>& hits,
-  const BoundaryProjector& projector, Classification& classification)
+/// Appends the new vertices, at their distance from the CAD.
+void classifyNewVertices(const std::vector<ClosestPoint>& hits, Classification& classification)
 {
-  Moves moves(mesh);
-  const auto oldCount = static_cast<Index>(classification.entities.size());
-  classification.resize(mesh.points.size());
-  for (Index v = 0; v < oldCount; ++v)
-  {
-    if (classification.distances[v] > 0)
-    {
-      const ClosestPoint where = projector.nearestOn(classification.entities[v], mesh.points[v]);
-      classification.set(v, where);
-      moves.add(v, where.point);
-    }
-  }
+  const std::size_t oldCount = classification.entities.size();
+  classification.resize(oldCount + hits.size());
   for (std::size_t n = 0; n < hits.size(); ++n)
   {
     if (hits[n].entity)
     {
-      const auto v = static_cast<Index>(oldCount + n);
-      classification.set(v, hits[n]);
-      moves.add(v, hits[n].point);
+      classification.set(static_cast<Index>(oldCount + n), hits[n]);
+      classification.distances[oldCount + n] = hits[n].distance;
+    }
+  }
+}
+
+/// Moves of all vertices that are not at their places to these.
+Moves movesOntoCAD(const SimplexMesh& mesh, const std::vector<ClosestPoint>& hits,
+  const BoundaryProjector& projector, Classification& classification)
+{
+  Moves moves(mesh);
+  const std::size_t oldCount = classification.entities.size();
+  for (std::size_t v = 0; v < oldCount; ++v)
+  {
+    if (classification.distances[v] > 0)
+    {
+      const auto vertex = static_cast<Index>(v);
+      const ClosestPoint where = projector.nearestOn(classification.entities[v], mesh.points[v]);
+      classification.set(vertex, where);
+      moves.add(vertex, where.point);
+    }
+  }
+  classifyNewVertices(hits, classification);
+  for (std::size_t n = 0; n < hits.size(); ++n)
+  {
+    if (hits[n].entity)
+    {
+      moves.add(static_cast<Index>(oldCount + n), hits[n].point);
     }
   }
   return moves;
@@ -222,7 +236,8 @@ RefinementTrace refine(RankExchange& exchange, DistributedMesh& mesh, const Refi
 }
 
 RefinementTrace refineOntoCAD(RankExchange& exchange, DistributedMesh& mesh,
-  const RefinementPlan& plan, const CADModel& model, Classification& classification)
+  const RefinementPlan& plan, const CADModel& model, Classification& classification,
+  NewVertices newVertices)
 {
   const DistributedBoundary boundary = findBoundary(exchange, mesh, model);
   const BoundaryProjector projector(model, boundary.kind);
@@ -240,6 +255,11 @@ RefinementTrace refineOntoCAD(RankExchange& exchange, DistributedMesh& mesh,
   }
   RefinementTrace trace = refine(exchange, mesh, plan);
   trace.projectedPoints = countOwnedHits(exchange, mesh, hits);
+  if (newVertices == NewVertices::StayStraight)
+  {
+    classifyNewVertices(hits, classification);
+    return trace;
+  }
   const Moves moves = movesOntoCAD(mesh.mesh(), hits, projector, classification);
   classification.distances = moveVertices(exchange, mesh, moves, onBoundary);
   return trace;

@@ -48,10 +48,18 @@ struct RefinementTrace
 /// the edges' ends, so that they do not depend on the partition). Collective.
 RefinementTrace refine(RankExchange& exchange, DistributedMesh& mesh, const RefinementPlan& plan);
 
-/// The same, and then moves the new vertices of classified edges onto the CAD, each onto the entity
-/// of its edge (S. Strunk, KTH 2013, Algorithm 4.3), as far as all cells stay valid; vertices that
-/// stopped on the way earlier try again. Collective.
+/// What is done with the new vertices of classified edges.
+enum class NewVertices
+{
+  MoveOntoCAD,
+  StayStraight ///< They are classified, and keep their distance from the CAD.
+};
+
+/// The same, and classifies the new vertices of classified edges: each belongs onto the entity of
+/// its edge (S. Strunk, KTH 2013, Algorithm 4.3). MoveOntoCAD moves them there as far as all cells
+/// stay valid; vertices that stopped on the way earlier try again. Collective.
 RefinementTrace refineOntoCAD(RankExchange& exchange, DistributedMesh& mesh,
-  const RefinementPlan& plan, const CADModel& model, Classification& classification);
+  const RefinementPlan& plan, const CADModel& model, Classification& classification,
+  NewVertices newVertices);
 
 } // namespace cadrefine

@@ -82,9 +82,9 @@ private:
     return records;
   }
 
-  /// Whether the facet looks alike on the CAD: no edge shorter than half of it or longer than twice,
-  /// no corner farther away than half of the longest edge. Facets of walls and of the far field
-  /// collapse when their corners are projected.
+  /// Whether the facet looks alike on the CAD: no edge shorter than half of it or longer than
+  /// twice, no corner farther away than half of the longest edge. Facets of walls and of the far
+  /// field collapse when their corners are projected.
   bool keepsItsShape(const Facet& facet) const
   {
     const auto& points = mesh_.mesh().points;

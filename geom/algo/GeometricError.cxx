@@ -40,36 +40,60 @@ void add(FacetError& sum, const FacetError& part)
   sum.maximumDistance = std::max(sum.maximumDistance, part.maximumDistance);
 }
 
+/// The corners' places on the CAD: the corners themselves where they lie on it.
+std::array<Corner, 3> cornersOnCAD(
+  const BoundaryProjector& projector, const ErrorFacet& facet, int corners, FacetError& error)
+{
+  std::array<Corner, 3> result;
+  for (int k = 0; k < corners; ++k)
+  {
+    const Point3& p = facet.corners.points[k];
+    result[k] = { p, facet.corners.entities[k] };
+    if (facet.offCAD[k])
+    {
+      const ClosestPoint where = projector.nearestOn(result[k].entity, p);
+      error.maximumDistance = std::max(error.maximumDistance, where.distance);
+      result[k] = { where.point, where.entity };
+    }
+  }
+  return result;
+}
+
 FacetError segmentError(const BoundaryProjector& projector, const ErrorFacet& facet, int depth)
 {
   FacetError error;
+  const auto c = cornersOnCAD(projector, facet, 2, error);
   const Corner m = projectedMidpoint(projector, facet, 0, 2, error);
   const auto& p = facet.corners.points;
-  error.measure = 0.5 * norm(twofoldAreaVector(p[0], p[1], m.point));
+  error.measure = 0.5 * norm(twofoldAreaVector(p[0], p[1], c[1].point) +
+                             twofoldAreaVector(p[0], c[1].point, m.point) +
+                             twofoldAreaVector(p[0], m.point, c[0].point));
   if (depth > 1)
   {
-    const auto& e = facet.corners.entities;
-    add(error, segmentError(
-                 projector, { { { p[0], m.point }, { e[0], m.entity } }, facet.edges }, depth - 1));
-    add(error, segmentError(
-                 projector, { { { m.point, p[1] }, { m.entity, e[1] } }, facet.edges }, depth - 1));
+    const ErrorFacet first{ { { c[0].point, m.point }, { c[0].entity, m.entity } }, facet.edges };
+    const ErrorFacet second{ { { m.point, c[1].point }, { m.entity, c[1].entity } }, facet.edges };
+    add(error, segmentError(projector, first, depth - 1));
+    add(error, segmentError(projector, second, depth - 1));
   }
   return error;
 }
 
 /// Six times the signed volume of the polyhedron between the triangle and its children.
-double sixfoldVolumeBetween(const std::array<Point3, 3>& p, const std::array<Corner, 3>& m)
+double sixfoldVolumeBetween(
+  const std::array<Point3, 3>& p, const std::array<Corner, 3>& c, const std::array<Corner, 3>& m)
 {
   const Point3& origin = p[0];
-  const auto over = [&](const Point3& a, const Point3& b, const Point3& c)
-  { return dot(a - origin, cross(b - origin, c - origin)); };
+  const auto over = [&](const Point3& x, const Point3& y, const Point3& z)
+  { return dot(x - origin, cross(y - origin, z - origin)); };
   double volume = over(m[0].point, m[1].point, m[2].point);
   for (int k = 0; k < 3; ++k)
   {
     const int next = (k + 1) % 3;
     const int previous = (k + 2) % 3;
-    volume += over(p[k], m[k].point, m[previous].point); // the child at corner k
-    volume += over(p[k], p[next], m[k].point);           // the side over edge k
+    volume += over(c[k].point, m[k].point, m[previous].point); // the child at corner k
+    volume += over(p[k], p[next], m[k].point);                 // the side over edge k
+    volume += over(p[k], m[k].point, c[k].point);
+    volume += over(p[next], c[next].point, m[k].point);
   }
   return volume; // the flat triangle itself passes through the origin
 }
@@ -77,24 +101,23 @@ double sixfoldVolumeBetween(const std::array<Point3, 3>& p, const std::array<Cor
 FacetError triangleError(const BoundaryProjector& projector, const ErrorFacet& facet, int depth)
 {
   FacetError error;
+  const auto c = cornersOnCAD(projector, facet, 3, error);
   std::array<Corner, 3> m;
   for (int k = 0; k < 3; ++k)
   {
     m[k] = projectedMidpoint(projector, facet, k, 3, error);
   }
-  const auto& p = facet.corners.points;
-  error.measure = std::abs(sixfoldVolumeBetween(p, m)) / 6;
+  error.measure = std::abs(sixfoldVolumeBetween(facet.corners.points, c, m)) / 6;
   if (depth <= 1)
   {
     return error;
   }
-  const auto& e = facet.corners.entities;
   const EdgeClass inner{ EdgeClass::Smooth, -1 };
   for (int k = 0; k < 3; ++k)
   {
     const int previous = (k + 2) % 3;
-    const ErrorFacet child{ { { p[k], m[k].point, m[previous].point },
-                              { e[k], m[k].entity, m[previous].entity } },
+    const ErrorFacet child{ { { c[k].point, m[k].point, m[previous].point },
+                              { c[k].entity, m[k].entity, m[previous].entity } },
       { facet.edges[k], inner, facet.edges[previous] } };
     add(error, triangleError(projector, child, depth - 1));
   }

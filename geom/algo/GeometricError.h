@@ -21,6 +21,7 @@ struct ErrorFacet
 {
   ClassifiedFacet corners;
   std::array<EdgeClass, 3> edges;
+  std::array<bool, 3> offCAD{}; ///< Corners that are classified, but have not reached the CAD.
 };
 
 /// The area between a boundary edge and the CAD: the triangle over the edge and the projection of
@@ -30,6 +31,9 @@ struct ErrorFacet
 /// and its four children is that of a closed polyhedron (facet, children, and a triangle over each
 /// edge), by the divergence theorem; and so on on the four. Absolute values are added up over the
 /// levels.
+///
+/// Where a corner has not reached the CAD, its point on the CAD takes its place among the children,
+/// and the sides of the polyhedron (in 2D the polygon over the edge) join the two.
 ///
 /// Midpoints belong to their edge and not to the facet, so neighbouring facets leave no gap and no
 /// overlap between them. On smooth CAD the sum converges to the exact measure like 4^-depth.
