@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 """Writes a NACA 0012 wing section of 38 NURBS surfaces as IGES, entities 126 and 128 only.
 
-The section lies in the (x, z) plane, chord 1 from x = 0 to x = 1, and runs along y. Its half thickness is
+The section lies in the (x, z) plane, chord 3 from x = 0 to x = 3, and runs along y to 1.5. The half thickness of
+a section of chord 1 is
 
     z(x) = 0.6 (0.2969 sqrt(x) - 0.1260 x - 0.3516 x^2 + 0.2843 x^3 - 0.1036 x^4)
 
@@ -10,7 +11,7 @@ a Bezier curve of degree 8 in s, and not a fit: its poles are computed in ration
 so that neighbours share their border bit for bit. The leading edge (s = 0) is smooth: the two sides meet there
 with the same tangent and curvature.
 
-Patches: sharp trailing edge: 10 above, 9 below, twice along the span. Blunt (-0.1015 for -0.1036, 0.00252 thick):
+Patches: sharp trailing edge: 10 above, 9 below, twice along the span. Blunt (-0.1015 for -0.1036, 0.00252 of the chord thick):
 9 above, 9 below and the base, twice along the span. Normals (dS/du x dS/dv) point out of the wing.
 Each border is written once, as a curve of its own, flagged as construction geometry: it is no part of the model
 beside the surfaces.
@@ -23,7 +24,8 @@ from math import comb
 from iges import CONSTRUCTION, IgesFile
 
 DEGREE = 8
-SPAN = 2.0
+CHORD = 3
+SPAN = 1.5
 SPAN_PATCHES = 2
 LAST_COEFFICIENT = {"sharp": Fraction("-0.1036"), "blunt": Fraction("-0.1015")}
 
@@ -38,7 +40,7 @@ def thickness_coefficients(trailing_edge):
 
 
 def half_thickness(x, trailing_edge="sharp"):
-    """Half thickness at 0 <= x <= 1, in doubles: what meshes and tests need."""
+    """Half thickness at 0 <= x <= 1 of a section of chord 1, in doubles: what meshes and tests need."""
     s = x**0.5
     return sum(float(c) * s**k for k, c in enumerate(thickness_coefficients(trailing_edge)))
 
@@ -75,13 +77,13 @@ def clamped(degree):
     return [0.0] * (degree + 1) + [1.0] * (degree + 1)
 
 
-def write(path, trailing_edge, span):
+def write(path, trailing_edge, chord, span):
     file = IgesFile(path.rsplit("/", 1)[-1], f"NACA 0012 section, {trailing_edge} trailing edge, 38 NURBS surfaces")
     curves = section(trailing_edge)
     stations = [float(span) * j / SPAN_PATCHES for j in range(SPAN_PATCHES + 1)]
 
     def lifted(curve, y):
-        return [(float(x), y, float(z)) for x, z in curve]
+        return [(float(chord * x), y, float(chord * z)) for x, z in curve]
 
     for y0, y1 in zip(stations, stations[1:]):
         for curve in curves:
@@ -100,10 +102,11 @@ def write(path, trailing_edge, span):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--trailing-edge", choices=sorted(LAST_COEFFICIENT), default="sharp")
+    parser.add_argument("--chord", type=Fraction, default=Fraction(CHORD), help="length along x (default %(default)s)")
     parser.add_argument("--span", type=float, default=SPAN, help="length along y (default %(default)s)")
     parser.add_argument("output", help="the .igs file")
     arguments = parser.parse_args()
-    write(arguments.output, arguments.trailing_edge, arguments.span)
+    write(arguments.output, arguments.trailing_edge, arguments.chord, arguments.span)
 
 
 if __name__ == "__main__":

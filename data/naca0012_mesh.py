@@ -16,9 +16,10 @@ import math
 import numpy as np
 
 from coarse_mesh import mesh_around
-from naca0012 import SPAN, half_thickness
+from naca0012 import CHORD, SPAN, half_thickness
 from vtu import mean_ratio, write_vtu
 
+# Lengths in the plane are in chords.
 BOX_X = (-1.5, 2.5)
 BOX_Z = (-1.5, 1.5)
 LAYERS = 2
@@ -89,9 +90,10 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--trailing-edge", choices=("blunt", "sharp"), default="sharp")
     parser.add_argument("--around", type=int, default=22, help="vertices around the section (default %(default)s)")
+    parser.add_argument("--chord", type=float, default=float(CHORD), help="length along x (default %(default)s)")
     parser.add_argument("--span", type=float, default=SPAN, help="length along y (default %(default)s)")
     parser.add_argument("--layers", type=int, default=LAYERS, help="layers of cells along y (default %(default)s)")
-    parser.add_argument("--far-size", type=float, default=4.0, help="edge length far away (default %(default)s)")
+    parser.add_argument("--far-size", type=float, default=4.0, help="edge length far away, in chords (default %(default)s)")
     parser.add_argument("--boundary-triangles", action="store_true",
                         help="write the boundary's triangles too, with the cell array gmsh:physical: "
                         "1 wing, 2 walls, 3 far field, 0 tetrahedra")
@@ -102,8 +104,9 @@ def main():
 
     polygon = section_polygon(arguments.around, arguments.trailing_edge)
     points, cells = mesh_around(on_wall(box()), on_wall(polygon), on_wall(ring()), arguments.far_size,
-                                draw_out=((0.0, arguments.span, 0.0), arguments.layers))
+                                draw_out=((0.0, arguments.span / arguments.chord, 0.0), arguments.layers))
     wing = move_off_surface(points, polygon)
+    points *= arguments.chord
     blocks, arrays = [cells], {}
     if arguments.boundary_triangles:
         triangles, tags = boundary_triangles(points, cells, wing, arguments.span)

@@ -17,9 +17,9 @@ DATA = os.path.join(HERE, "..", "data")
 RANKS = 2
 
 CASE = [os.path.join(DATA, "naca0012_coarse.vtu"), os.path.join(DATA, "naca0012_sharp.igs"),
-        "--region", "-0.1", "1.1", "-1", "3", "-0.2", "0.2",
+        "--region", "-0.3", "3.3", "-1", "3", "-0.6", "0.6", "--recursion-depth", "3",
         "--uniform-steps", "3", "--steps", "6", "--method", "longest-edge", "--threshold", "1e-7"]
-LEADING_EDGE = ["--focus", "0", "0.3", "0", "0.3", "-0.06", "0.06"]
+LEADING_EDGE = ["--focus", "0", "0.9", "0", "0.9", "-0.18", "0.18"]
 
 FILES = (
     ("with_cad.txt", "the table: a row a step, new vertices on the CAD"),

@@ -70,7 +70,7 @@ class Data(unittest.TestCase):
 
     def test_wing_meshes(self):
         sys.path.insert(0, driver.DATA)
-        from naca0012 import half_thickness
+        from naca0012 import CHORD, half_thickness
         from vtu import mean_ratio
 
         for around in (22, 41, 60):
@@ -81,7 +81,7 @@ class Data(unittest.TestCase):
                 self.assertGreater(mean_ratio(mesh.points, mesh.cells_dict["tetra"]).min(), 0.02)
                 triangles = mesh.cells_dict["triangle"]
                 tags = mesh.cell_data_dict["gmsh:physical"]["triangle"]
-                wing = mesh.points[np.unique(triangles[tags == 1])]
+                wing = mesh.points[np.unique(triangles[tags == 1])] / CHORD
                 self.assertEqual(len(wing), 3 * around)
                 inside = wing[(wing[:, 0] > 0.02) & (wing[:, 0] < 0.95)]
                 offset = np.abs(inside[:, 2]) - [half_thickness(x) for x in inside[:, 0]]
