@@ -186,8 +186,12 @@ FacetRecord makeRecord(const BoundaryProjector& projector, const ClassifiedFacet
   const bool triangle = projector.kind() == BoundaryKind::Triangles;
   const auto& p = facet.points;
   FacetRecord record;
-  record.normal =
-    triangle ? normalized(twofoldAreaVector(p[0], p[1], p[2])) : normalized(p[1] - p[0]);
+  if (triangle)
+  {
+    const Vector3 twofoldArea = twofoldAreaVector(p[0], p[1], p[2]);
+    record.normal = normalized(twofoldArea);
+    record.area = 0.5 * norm(twofoldArea);
+  }
   record.onCAD = isClassified(facet, projector.kind()) && projector.isOnCAD(facet) ? 1 : 0;
   return record;
 }

@@ -215,7 +215,13 @@ bool BoundaryProjector::runsAlongCrease(
   {
     return false;
   }
-  const ClosestPoint where = nearestCrease(0.5 * (a + b), 0.5 * distance(a, b));
+  const double length = distance(a, b);
+  double reach = length;
+  for (const FacetRecord& facet : onCAD)
+  {
+    reach = std::min(reach, 2 * facet.area / length); // its height over the edge
+  }
+  const ClosestPoint where = nearestCrease(0.5 * (a + b), 0.5 * reach);
   return where.entity && creaseFits(where, normalized(b - a), onCAD);
 }
 

@@ -31,6 +31,7 @@ struct ClassifiedFacet
 struct FacetRecord
 {
   Vector3 normal{};        ///< Unit outward normal of a triangle.
+  double area = 0;         ///< Of a triangle.
   unsigned char onCAD = 0; ///< The facet stands for a part of the CAD.
   unsigned char free = 0;  ///< It is not, because the user's region or limit leaves it out.
 };

@@ -20,7 +20,7 @@ constexpr double unlimited = std::numeric_limits<double>::infinity();
 
 FacetRecord facetWithNormal(const Vector3& normal)
 {
-  return { normalized(normal), 1, 0 };
+  return { normalized(normal), 1, 1, 0 };
 }
 
 ClassifiedFacet facetAt(const BoundaryProjector& projector, const std::array<Point3, 3>& points)
@@ -120,7 +120,7 @@ TEST_F(BoxProjector, leavesEdgesBesideFreeFacetsAndOffTheCadStraight)
   std::vector<FacetRecord> facets{ facetWithNormal({ 0, -1, 0 }), facetWithNormal({ 0, 0, 1 }) };
   EXPECT_EQ(projector.classify(points, {}, facets).kind, EdgeClass::Straight);
   EXPECT_EQ(projector.classify(points, entitiesAt(points), {}).kind, EdgeClass::Straight);
-  facets[1] = { facets[1].normal, 0, 1 };
+  facets[1] = { facets[1].normal, 1, 0, 1 };
   EXPECT_EQ(projector.classify(points, entitiesAt(points), facets).kind, EdgeClass::Straight);
   EXPECT_FALSE(projector.projectMidpoint({}, points, entitiesAt(points)).entity);
 }
