@@ -204,15 +204,22 @@ RefinementPlan planLongestEdge(
 
 std::array<std::vector<Index>, 4> countChildren(const SimplexMesh& mesh, const RefinementPlan& plan)
 {
-  const Midpoints midpoints = makeMidpoints(mesh, plan.table, plan.marks);
-  const std::vector<GlobalId> noIds(midpoints.edges.size(), 0);
-  const SplitMesh split = splitMarked(mesh, plan.table, midpoints, noIds);
   const std::size_t counts[4] = { mesh.vertices.size(), mesh.segments.size(), mesh.triangles.size(),
     mesh.tetrahedra.size() };
   std::array<std::vector<Index>, 4> children;
   for (int d = 0; d < 4; ++d)
   {
-    children[d].assign(counts[d], 0);
+    children[d].assign(counts[d], plan.uniform ? 1 << d : 0);
+  }
+  if (plan.uniform)
+  {
+    return children;
+  }
+  const Midpoints midpoints = makeMidpoints(mesh, plan.table, plan.marks);
+  const std::vector<GlobalId> noIds(midpoints.edges.size(), 0);
+  const SplitMesh split = splitMarked(mesh, plan.table, midpoints, noIds);
+  for (int d = 0; d < 4; ++d)
+  {
     for (const Index parent : split.parentCells[d])
     {
       ++children[d][parent];

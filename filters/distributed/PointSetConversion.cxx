@@ -136,10 +136,10 @@ std::vector<GlobalId> pointIds(RankExchange& exchange, vtkPointSet* input)
     }
     return numberDistinct(exchange, keys).numbers;
   }
-  std::vector<GlobalId> ids(count);
-  for (vtkIdType p = 0; p < count; ++p)
+  std::vector<GlobalId> ids(given ? count : 0);
+  for (std::size_t p = 0; p < ids.size(); ++p)
   {
-    ids[p] = static_cast<GlobalId>(given->GetTuple1(p));
+    ids[p] = static_cast<GlobalId>(given->GetTuple1(static_cast<vtkIdType>(p)));
   }
   return ids;
 }
@@ -263,7 +263,7 @@ void setCellIds(RankExchange& exchange, vtkPointSet* input, ConvertedMesh& resul
     for (const vtkIdType cell : result.cellOf[d])
     {
       result.cellIds[d].push_back(
-        usable ? static_cast<GlobalId>(given->GetTuple1(cell)) : numbers[next]);
+        usable && given ? static_cast<GlobalId>(given->GetTuple1(cell)) : numbers[next]);
       ++next;
     }
   }

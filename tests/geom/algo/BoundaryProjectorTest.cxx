@@ -92,12 +92,12 @@ TEST_F(BoxProjector, doesNotTakeFlatMeshEdgesForCreases)
   EXPECT_NEAR(distance(where.point, { 0.5, 0.5, 1 }), 0, 1e-12);
 }
 
-/// A mesh edge across a corner of the box: its ends lie on two creases, but it runs along none.
-TEST_F(BoxProjector, doesNotTakeEdgesAcrossACornerForCreases)
+/// A mesh edge that leaves a crease at an angle of more than 60 degrees.
+TEST_F(BoxProjector, doesNotTakeEdgesAwayFromACreaseForIt)
 {
-  const std::vector<FacetRecord> facets{ facetWithNormal({ 0, 0, 1 }),
-    facetWithNormal({ -1, -1, 1 }) };
-  EXPECT_FALSE(projector.runsAlongCrease({ 0.4, 0, 1 }, { 0, 0.4, 1 }, facets));
+  const std::vector<FacetRecord> facets{ facetWithNormal({ 0, -1, 0.5 }),
+    facetWithNormal({ 0, 0, 1 }) };
+  EXPECT_FALSE(projector.runsAlongCrease({ 0.4, 0, 1 }, { 0.5, 0.3, 1 }, facets));
 }
 
 TEST_F(BoxProjector, knowsACornersEdgesApart)
@@ -192,9 +192,9 @@ TEST(SharpWing, keepsMidpointsAtTheTrailingEdgeOnTheirSide)
   const BoundaryProjector projector(*model, BoundaryKind::Triangles);
   for (const double side : { -1.0, 1.0 })
   {
-    const ClosestPoint before = projector.nearest({ 0.98, 0.7, side * 0.1 }, unlimited);
+    const ClosestPoint before = projector.nearest({ 2.94, 0.7, side * 0.3 }, unlimited);
     ASSERT_EQ(before.entity.dimension, 2);
-    const ClosestPoint end = projector.nearestCrease({ 1.01, 0.7, 0 }, unlimited);
+    const ClosestPoint end = projector.nearestCrease({ 3.03, 0.7, 0 }, unlimited);
     ASSERT_EQ(end.entity.dimension, 1);
     const ClosestPoint where = projector.projectMidpoint(
       { EdgeClass::Smooth, -1 }, { before.point, end.point }, { before.entity, end.entity });
@@ -210,7 +210,7 @@ TEST(SharpWing, hasCornersAtTheEndsOfTheTrailingEdgeOnly)
   ASSERT_EQ(projector.corners().size(), 2u);
   for (const std::int32_t corner : projector.corners())
   {
-    EXPECT_NEAR(model->nurbs().vertices[corner].point[0], 1, 1e-9);
+    EXPECT_NEAR(model->nurbs().vertices[corner].point[0], 3, 1e-9);
   }
 }
 

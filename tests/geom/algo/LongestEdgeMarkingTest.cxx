@@ -163,10 +163,10 @@ protected:
 
 INSTANTIATE_TEST_SUITE_P(Meshes, LongestEdge,
   testing::Values(Case{ 2, 0 }, Case{ 2, 0.3 }, Case{ 3, 0 }, Case{ 3, 0.2 }),
-  [](const auto& info)
+  [](const auto& mesh)
   {
-    return std::string(info.param.dimension == 3 ? "Tetrahedra" : "Triangles") +
-           (info.param.jitter > 0 ? "Moved" : "Regular");
+    return std::string(mesh.param.dimension == 3 ? "Tetrahedra" : "Triangles") +
+           (mesh.param.jitter > 0 ? "Moved" : "Regular");
   });
 
 TEST_P(LongestEdge, closureIsTheLeastFixpoint)

@@ -80,8 +80,8 @@ TEST(EdgeTable, holdsEdgesOfCellsOfAllDimensions)
 
 TEST(EdgeTable, measuresLengths)
 {
-  const EdgeTable table =
-    buildEdgeTable(cadtest::oneTriangle({ { { 0, 0, 0 }, { 3, 0, 0 }, { 0, 4, 0 } } }));
+  const SimplexMesh mesh = cadtest::oneTriangle({ { { 0, 0, 0 }, { 3, 0, 0 }, { 0, 4, 0 } } });
+  const EdgeTable table = buildEdgeTable(mesh);
   EXPECT_EQ(table.squaredLengths.at(table.list.find(0, 1)), 9);
   EXPECT_EQ(table.squaredLengths.at(table.list.find(1, 2)), 25);
   EXPECT_EQ(table.squaredLengths.at(table.list.find(0, 2)), 16);
