@@ -9,6 +9,8 @@
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRepPrimAPI_MakeTorus.hxx>
+#include <Message.hxx>
+#include <Message_Messenger.hxx>
 #include <gp_Ax2.hxx>
 #include <gp_Circ.hxx>
 #include <gp_Pln.hxx>
@@ -51,13 +53,20 @@ TopoDS_Shape rectangle(double x, double y)
   return BRepBuilderAPI_MakeFace(gp_Pln(), 0, x, 0, y).Shape();
 }
 
+std::string writeInto(
+  const TemporaryFolder& folder, const TopoDS_Shape& shape, const std::string& extension)
+{
+  Message::DefaultMessenger()->ChangePrinters().Clear(); // Open CASCADE reports every file
+  const std::string path = folder.file("shape" + extension);
+  writeShape(shape, path);
+  return path;
+}
+
 std::shared_ptr<const cadrefine::CADModel> modelOf(
   const TopoDS_Shape& shape, const std::string& extension)
 {
   const TemporaryFolder folder;
-  const std::string path = folder.file("shape" + extension);
-  writeShape(shape, path);
-  return cadrefine::readCADFile(path);
+  return cadrefine::readCADFile(writeInto(folder, shape, extension));
 }
 
 } // namespace cadtest

@@ -27,8 +27,11 @@ TopoDS_Shape circle(double radius);
 /// The rectangle from the origin to (x, y, 0): one face with four edges.
 TopoDS_Shape rectangle(double x, double y);
 
-/// The model that readCADFile makes of `shape`, written with this extension (".step", ".igs",
-/// ".brep").
+/// Writes `shape` into the folder with this extension (".step", ".igs", ".brep"); the file's path.
+std::string writeInto(
+  const TemporaryFolder& folder, const TopoDS_Shape& shape, const std::string& extension);
+
+/// The model that readCADFile makes of `shape`.
 std::shared_ptr<const cadrefine::CADModel> modelOf(
   const TopoDS_Shape& shape, const std::string& extension = ".step");
 

@@ -1,0 +1,219 @@
+// Arrays and tags that a mesh brings along, in a mesh of tetrahedra and tagged boundary triangles.
+
+#include "DataSets.h"
+#include "FilterRun.h"
+#include "MeshChecks.h"
+#include "TestMeshes.h"
+#include "TestShapes.h"
+
+#include <gtest/gtest.h>
+#include <vtkCellData.h>
+#include <vtkCellType.h>
+#include <vtkDataArray.h>
+#include <vtkDoubleArray.h>
+#include <vtkIdList.h>
+#include <vtkPointData.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace
+{
+
+using namespace cadrefine;
+
+constexpr double radius = 2;
+
+class TaggedBall : public testing::Test
+{
+protected:
+  cadtest::TemporaryFolder folder;
+  cadtest::FilterRun filters{ cadtest::writeInto(folder, cadtest::sphere(radius), ".step") };
+  vtkSmartPointer<vtkUnstructuredGrid> coarse = makeMesh();
+
+  /// 20 triangles with tags 0 ... 19, then 20 tetrahedra with tags 20 ... 39.
+  static vtkSmartPointer<vtkUnstructuredGrid> makeMesh()
+  {
+    SimplexMesh mesh = cadtest::ballMesh(radius, 0.03);
+    mesh.triangles = cadtest::sphereMesh(radius, 0.03).triangles;
+    auto grid = cadtest::toGrid(mesh);
+    cadtest::addArrays(grid);
+    return grid;
+  }
+
+  static std::set<double> valuesOf(vtkDataArray* array)
+  {
+    std::set<double> values;
+    for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
+    {
+      values.insert(array->GetTuple1(i));
+    }
+    return values;
+  }
+};
+
+TEST_F(TaggedBall, keepsALinearFieldLinearUnderStraightRefinement)
+{
+  const auto data = filters.refineStraight(coarse, 3);
+  vtkDataArray* linear = data->GetPointData()->GetArray("Linear");
+  ASSERT_NE(linear, nullptr);
+  ASSERT_EQ(linear->GetNumberOfTuples(), data->GetNumberOfPoints());
+  for (vtkIdType p = 0; p < data->GetNumberOfPoints(); ++p)
+  {
+    EXPECT_NEAR(linear->GetTuple1(p), cadtest::linearAt(data->GetPoint(p)), 1e-13);
+  }
+}
+
+TEST_F(TaggedBall, givesChildrenTheArraysOfTheirParents)
+{
+  const auto data = filters.refineUniformly(filters.project(coarse), 2);
+  vtkDataArray* tag = data->GetCellData()->GetArray("Tag");
+  vtkDataArray* colour = data->GetCellData()->GetArray("Colour");
+  ASSERT_NE(tag, nullptr);
+  ASSERT_NE(colour, nullptr);
+  std::map<double, int> counts;
+  for (vtkIdType c = 0; c < data->GetNumberOfCells(); ++c)
+  {
+    const double value = tag->GetTuple1(c);
+    ++counts[value];
+    EXPECT_EQ(value < 20 ? VTK_TRIANGLE : VTK_TETRA, data->GetCellType(c));
+    EXPECT_EQ(colour->GetComponent(c, 0), 0.25 * value);
+    EXPECT_EQ(colour->GetComponent(c, 2), -1);
+  }
+  ASSERT_EQ(counts.size(), 40u);
+  for (const auto& [value, count] : counts)
+  {
+    EXPECT_EQ(count, value < 20 ? 16 : 64);
+  }
+}
+
+/// Tag triangles must lie where the boundary of the tetrahedra lies, after refinement too.
+TEST_F(TaggedBall, keepsTagTrianglesOnTheBoundary)
+{
+  auto data = filters.measure(filters.project(coarse), 1);
+  for (int step = 0; step < 4; ++step)
+  {
+    data = filters.measure(filters.refineWhereErrorExceeds(data, 0.02), 1);
+    const SimplexMesh mesh = cadtest::toMesh(data);
+    SimplexMesh surface = mesh;
+    surface.dimension = 2;
+    EXPECT_EQ(mesh.triangles.size(), cadtest::countOuterSides(mesh));
+    EXPECT_EQ(cadtest::countOuterSides(surface), 0u);
+    EXPECT_NEAR(cadtest::volumeInside(surface), cadtest::measureOf(mesh), 1e-12);
+  }
+  EXPECT_GT(data->GetNumberOfCells(), 200);
+}
+
+/// A whole number is kept, never averaged: it stays one of those that were there.
+TEST_F(TaggedBall, keepsWholeNumbersOfPoints)
+{
+  const auto data = filters.refineUniformly(filters.project(coarse), 2);
+  vtkDataArray* region = data->GetPointData()->GetArray("Region");
+  ASSERT_NE(region, nullptr);
+  EXPECT_EQ(region->GetDataType(), VTK_INT);
+  EXPECT_EQ(valuesOf(region), (std::set<double>{ 0, 1, 2, 3 }));
+}
+
+TEST_F(TaggedBall, hasUniqueGlobalIds)
+{
+  for (const bool withIds : { false, true })
+  {
+    auto input = makeMesh();
+    if (withIds)
+    {
+      cadtest::addGlobalIds(input);
+    }
+    const auto data = filters.refineUniformly(filters.project(input), 2);
+    vtkDataArray* pointIds = data->GetPointData()->GetGlobalIds();
+    vtkDataArray* cellIds = data->GetCellData()->GetGlobalIds();
+    ASSERT_NE(pointIds, nullptr);
+    ASSERT_NE(cellIds, nullptr);
+    EXPECT_EQ(pointIds->GetName(), std::string(withIds ? "PointIds" : "GlobalPointIds"));
+    EXPECT_EQ(valuesOf(pointIds).size(), static_cast<std::size_t>(data->GetNumberOfPoints()));
+    EXPECT_EQ(valuesOf(cellIds).size(), static_cast<std::size_t>(data->GetNumberOfCells()));
+  }
+}
+
+/// Old vertices keep their ids: a solver can find them again.
+TEST_F(TaggedBall, keepsTheIdsOfOldVertices)
+{
+  cadtest::addGlobalIds(coarse);
+  const auto data = filters.refineStraight(coarse);
+  vtkDataArray* before = coarse->GetPointData()->GetGlobalIds();
+  vtkDataArray* after = data->GetPointData()->GetGlobalIds();
+  std::map<std::array<double, 3>, double> idAt;
+  for (vtkIdType p = 0; p < data->GetNumberOfPoints(); ++p)
+  {
+    std::array<double, 3> point;
+    data->GetPoint(p, point.data());
+    idAt[point] = after->GetTuple1(p);
+  }
+  for (vtkIdType p = 0; p < coarse->GetNumberOfPoints(); ++p)
+  {
+    std::array<double, 3> point;
+    coarse->GetPoint(p, point.data());
+    EXPECT_EQ(idAt.at(point), before->GetTuple1(p));
+  }
+}
+
+TEST_F(TaggedBall, marksByAnyCellArray)
+{
+  const auto data = filters.run<vtkRefineWithCAD>(filters.project(coarse),
+    [](vtkRefineWithCAD* filter)
+    {
+      filter->SetMarkingArray("Tag");
+      filter->SetThreshold(38.5); // the last tetrahedron alone
+    });
+  const SimplexMesh mesh = cadtest::toMesh(data);
+  EXPECT_GT(mesh.tetrahedra.size(), 20u);
+  EXPECT_LT(mesh.tetrahedra.size(), 40u);
+  EXPECT_TRUE(cadtest::isValid(mesh));
+}
+
+TEST(MeshValidity, findsTheInvertedTetrahedron)
+{
+  SimplexMesh mesh = cadtest::cubeMesh(2, 0.1, 1);
+  std::swap(mesh.tetrahedra[7][0], mesh.tetrahedra[7][1]);
+  const cadtest::FilterRun filters(static_cast<vtkDataObject*>(nullptr));
+  const auto data = filters.run<vtkMeshValidity>(cadtest::toGrid(mesh), [](vtkMeshValidity*) {});
+  vtkDataArray* validity = data->GetCellData()->GetArray("CellValidity");
+  vtkDataArray* quality = data->GetCellData()->GetArray("CellQuality");
+  for (vtkIdType c = 0; c < data->GetNumberOfCells(); ++c)
+  {
+    EXPECT_EQ(validity->GetTuple1(c), c != 7);
+    EXPECT_EQ(quality->GetTuple1(c) > 0, c != 7);
+  }
+  EXPECT_EQ(cadtest::fieldValue(data, "InvalidCells"), 1);
+  EXPECT_EQ(cadtest::fieldValue(data, "MinimumQuality"), quality->GetTuple1(7));
+}
+
+TEST(MeshValidity, findsFlatCellsAndTrianglesThatTurnOver)
+{
+  const cadtest::FilterRun filters(static_cast<vtkDataObject*>(nullptr));
+  const auto flat = cadtest::toGrid(
+    cadtest::oneTetrahedron({ { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 1, 1, 0 } } }));
+  EXPECT_EQ(cadtest::fieldValue(
+              filters.run<vtkMeshValidity>(flat, [](vtkMeshValidity*) {}), "InvalidCells"),
+    1);
+  SimplexMesh square = cadtest::squareMesh(3, 0.1, 1);
+  std::swap(square.triangles[4][0], square.triangles[4][1]);
+  const auto data =
+    filters.run<vtkMeshValidity>(cadtest::toPolyData(square), [](vtkMeshValidity*) {});
+  EXPECT_EQ(cadtest::fieldValue(data, "InvalidCells"), 1);
+  EXPECT_EQ(data->GetCellData()->GetArray("CellValidity")->GetTuple1(4), 0);
+}
+
+TEST(MeshValidity, givesTheMeanRatio)
+{
+  const cadtest::FilterRun filters(static_cast<vtkDataObject*>(nullptr));
+  const auto corner = cadtest::toGrid(
+    cadtest::oneTetrahedron({ { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } }));
+  const auto data = filters.run<vtkMeshValidity>(corner, [](vtkMeshValidity*) {});
+  EXPECT_NEAR(data->GetCellData()->GetArray("CellQuality")->GetTuple1(0),
+    12 * std::pow(0.5, 2.0 / 3.0) / 9, 1e-15);
+}
+
+} // namespace

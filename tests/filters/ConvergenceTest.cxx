@@ -1,0 +1,163 @@
+// A ball and a solid torus: refinement onto the CAD approaches the exact volume at second order.
+
+#include "CADModel.h"
+#include "DataSets.h"
+#include "FilterRun.h"
+#include "MeshChecks.h"
+#include "TestMeshes.h"
+#include "TestShapes.h"
+
+#include <gtest/gtest.h>
+#include <vtkCADModelCache.h>
+#include <vtkDataArray.h>
+#include <vtkPointData.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <cmath>
+
+namespace
+{
+
+using namespace cadrefine;
+
+constexpr double pi = 3.14159265358979323846;
+constexpr double ballRadius = 2;
+constexpr double majorRadius = 3;
+constexpr double minorRadius = 1;
+
+/// A solid with its coarse mesh and its closed forms.
+struct Solid
+{
+  std::string name;
+  TopoDS_Shape shape;
+  SimplexMesh mesh;
+  double volume;
+  double size;
+  double (*distance)(const Point3&);
+};
+
+double distanceToSphere(const Point3& p)
+{
+  return std::abs(norm(p) - ballRadius);
+}
+
+double distanceToTorus(const Point3& p)
+{
+  return std::abs(std::hypot(std::hypot(p[0], p[1]) - majorRadius, p[2]) - minorRadius);
+}
+
+Solid ball()
+{
+  return { "Ball", cadtest::sphere(ballRadius), cadtest::ballMesh(ballRadius, 0.03),
+    4.0 / 3.0 * pi * std::pow(ballRadius, 3), 2 * ballRadius, distanceToSphere };
+}
+
+Solid solidTorus()
+{
+  return { "Torus", cadtest::torus(majorRadius, minorRadius),
+    cadtest::torusMesh(majorRadius, minorRadius, 12, 6),
+    2 * pi * pi * majorRadius * minorRadius * minorRadius, 2 * (majorRadius + minorRadius),
+    distanceToTorus };
+}
+
+struct Case
+{
+  Solid (*solid)();
+  const char* extension;
+};
+
+class Convergence : public testing::TestWithParam<Case>
+{
+protected:
+  Solid solid = GetParam().solid();
+  cadtest::TemporaryFolder folder;
+
+  cadtest::FilterRun filters() const
+  {
+    return cadtest::FilterRun(cadtest::writeInto(folder, solid.shape, GetParam().extension));
+  }
+
+  /// How far a vertex may lie off the solid's surface: rounding; on an edge, as far as the file's
+  /// edge does (IGES: Open CASCADE writes the torus' circles as approximations).
+  std::vector<double> tolerances(const cadtest::FilterRun& run, vtkPointSet* data) const
+  {
+    const auto model = vtkCADModelCache::Get(run.cad());
+    vtkDataArray* dimensions = data->GetPointData()->GetArray("CADDimension");
+    vtkDataArray* entities = data->GetPointData()->GetArray("CADEntity");
+    std::vector<double> result(data->GetNumberOfPoints(), 1e-12 * solid.size);
+    for (std::size_t p = 0; p < result.size(); ++p)
+    {
+      const auto index = static_cast<std::size_t>(std::max(entities->GetTuple1(p), 0.0));
+      const double dimension = dimensions->GetTuple1(p);
+      const double ofFile = dimension == 1   ? model->nurbs().edges.at(index).tolerance
+                            : dimension == 0 ? model->nurbs().vertices.at(index).tolerance
+                                             : 0;
+      result[p] = ofFile > 1e-7 ? ofFile : result[p]; // 1e-7: Open CASCADE's for exact edges
+    }
+    return result;
+  }
+
+  void expectSound(const cadtest::FilterRun& run, vtkPointSet* data) const
+  {
+    const SimplexMesh mesh = cadtest::toMesh(data);
+    EXPECT_TRUE(cadtest::isValid(mesh));
+    EXPECT_TRUE(cadtest::hasNoHangingVertex(mesh));
+    EXPECT_TRUE(cadtest::isWatertight(mesh,
+      [&](const std::vector<Point3>& side)
+      {
+        return std::all_of(side.begin(), side.end(),
+          [&](const Point3& p) { return solid.distance(p) <= 1e-5 * solid.size; });
+      }));
+    EXPECT_EQ(cadtest::fieldValue(data, "InvalidCells"), 0);
+    EXPECT_EQ(cadtest::fieldValue(data, "UnprojectedVertices"), 0);
+    const std::vector<double> tolerance = tolerances(run, data);
+    for (const Index vertex : cadtest::outerVertices(mesh))
+    {
+      EXPECT_LE(solid.distance(mesh.points[vertex]), tolerance[vertex]) << "vertex " << vertex;
+    }
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Solids, Convergence,
+  testing::Values(Case{ ball, ".step" }, Case{ ball, ".igs" }, Case{ solidTorus, ".step" },
+    Case{ solidTorus, ".igs" }),
+  [](const auto& solid) { return solid.param.solid().name + (solid.param.extension + 1); });
+
+TEST_P(Convergence, isOfSecondOrderOverThreeLevels)
+{
+  const cadtest::FilterRun filters = this->filters();
+  auto data = filters.project(cadtest::toGrid(solid.mesh));
+  expectSound(filters, data);
+  double before = 0;
+  for (int level = 1; level <= 3; ++level)
+  {
+    data = filters.refineUniformly(data);
+    expectSound(filters, data);
+    const double deficit = solid.volume - cadtest::measureOf(cadtest::toMesh(data));
+    EXPECT_GT(deficit, 0);
+    if (level > 1)
+    {
+      const double order = std::log2(before / deficit);
+      EXPECT_GT(order, 1.8) << "level " << level;
+      EXPECT_LT(order, 2.2) << "level " << level;
+    }
+    before = deficit;
+  }
+}
+
+/// The error filter's estimate is the true volume between mesh and CAD.
+TEST_P(Convergence, errorIsTheVolumeDeficit)
+{
+  const cadtest::FilterRun filters = this->filters();
+  const auto data =
+    filters.measure(filters.refineUniformly(filters.project(cadtest::toGrid(solid.mesh))), 4);
+  const double deficit = solid.volume - cadtest::measureOf(cadtest::toMesh(data));
+  const double error = cadtest::fieldValue(data, "GlobalGeometricError");
+  EXPECT_GE(error, 0.98 * deficit);
+  if (solid.name == "Ball")
+  {
+    EXPECT_LE(error, 1.001 * deficit);
+  }
+}
+
+} // namespace

@@ -1,0 +1,199 @@
+#include "DataSets.h"
+
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkCellType.h>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkFloatArray.h>
+#include <vtkIdList.h>
+#include <vtkIdTypeArray.h>
+#include <vtkIntArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLUnstructuredGridReader.h>
+
+#include <stdexcept>
+
+namespace cadtest
+{
+
+using namespace cadrefine;
+
+namespace
+{
+
+vtkNew<vtkPoints> pointsOf(const SimplexMesh& mesh)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (const Point3& point : mesh.points)
+  {
+    points->InsertNextPoint(point.data());
+  }
+  return points;
+}
+
+template<std::size_t Corners>
+void insertCells(const Simplices<Corners>& cells, int type, vtkUnstructuredGrid* grid)
+{
+  for (const auto& cell : cells)
+  {
+    vtkIdType points[Corners];
+    std::copy(cell.begin(), cell.end(), points);
+    grid->InsertNextCell(type, static_cast<vtkIdType>(Corners), points);
+  }
+}
+
+template<std::size_t Corners>
+void readCell(vtkIdList* points, Simplices<Corners>& cells)
+{
+  auto& cell = cells.emplace_back();
+  for (std::size_t k = 0; k < Corners; ++k)
+  {
+    cell[k] = static_cast<Index>(points->GetId(static_cast<vtkIdType>(k)));
+  }
+}
+
+void readCell(int type, vtkIdList* points, SimplexMesh& mesh)
+{
+  switch (type)
+  {
+    case VTK_TETRA:
+      return readCell(points, mesh.tetrahedra);
+    case VTK_TRIANGLE:
+      return readCell(points, mesh.triangles);
+    case VTK_LINE:
+      return readCell(points, mesh.segments);
+    case VTK_VERTEX:
+      return readCell(points, mesh.vertices);
+    default:
+      throw std::runtime_error("a cell of type " + std::to_string(type));
+  }
+}
+
+template<class Array>
+vtkNew<Array> named(const char* name, int components = 1)
+{
+  vtkNew<Array> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  return array;
+}
+
+/// A permutation of 0 ... count - 1, spread out.
+vtkNew<vtkIdTypeArray> scatteredIds(const char* name, vtkIdType count)
+{
+  auto ids = named<vtkIdTypeArray>(name);
+  const vtkIdType step = 7919; // a prime larger than any count of these tests' inputs
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    ids->InsertNextValue(3 * (i * step % count) + 5);
+  }
+  return ids;
+}
+
+} // namespace
+
+vtkSmartPointer<vtkUnstructuredGrid> toGrid(const SimplexMesh& mesh)
+{
+  auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  grid->SetPoints(pointsOf(mesh));
+  grid->Allocate(static_cast<vtkIdType>(mesh.cellCount()));
+  insertCells(mesh.vertices, VTK_VERTEX, grid);
+  insertCells(mesh.segments, VTK_LINE, grid);
+  insertCells(mesh.triangles, VTK_TRIANGLE, grid);
+  insertCells(mesh.tetrahedra, VTK_TETRA, grid);
+  return grid;
+}
+
+vtkSmartPointer<vtkPolyData> toPolyData(const SimplexMesh& mesh)
+{
+  vtkNew<vtkCellArray> triangles;
+  for (const auto& [a, b, c] : mesh.triangles)
+  {
+    triangles->InsertNextCell({ a, b, c });
+  }
+  auto result = vtkSmartPointer<vtkPolyData>::New();
+  result->SetPoints(pointsOf(mesh));
+  result->SetPolys(triangles);
+  return result;
+}
+
+SimplexMesh toMesh(vtkPointSet* dataSet)
+{
+  SimplexMesh mesh;
+  for (vtkIdType p = 0; p < dataSet->GetNumberOfPoints(); ++p)
+  {
+    dataSet->GetPoint(p, mesh.points.emplace_back().data());
+    mesh.ids.push_back(p);
+  }
+  vtkNew<vtkIdList> points;
+  for (vtkIdType c = 0; c < dataSet->GetNumberOfCells(); ++c)
+  {
+    dataSet->GetCellPoints(c, points);
+    readCell(dataSet->GetCellType(c), points, mesh);
+  }
+  mesh.dimension = mesh.tetrahedra.empty() ? 2 : 3;
+  return mesh;
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> readGrid(const std::string& path)
+{
+  vtkNew<vtkXMLUnstructuredGridReader> reader;
+  reader->SetFileName(path.c_str());
+  reader->Update();
+  if (reader->GetErrorCode() != 0 || reader->GetOutput()->GetNumberOfCells() == 0)
+  {
+    throw std::runtime_error("cannot read " + path);
+  }
+  return reader->GetOutput();
+}
+
+double fieldValue(vtkPointSet* dataSet, const char* name)
+{
+  vtkDataArray* array = dataSet->GetFieldData()->GetArray(name);
+  if (!array || array->GetNumberOfValues() != 1)
+  {
+    throw std::runtime_error(std::string("no field value ") + name);
+  }
+  return array->GetTuple1(0);
+}
+
+double linearAt(const double point[3])
+{
+  return 1 + 2 * point[0] - 3 * point[1] + 0.5 * point[2];
+}
+
+void addArrays(vtkPointSet* dataSet)
+{
+  auto linear = named<vtkDoubleArray>("Linear");
+  auto region = named<vtkIntArray>("Region");
+  for (vtkIdType p = 0; p < dataSet->GetNumberOfPoints(); ++p)
+  {
+    linear->InsertNextValue(linearAt(dataSet->GetPoint(p)));
+    region->InsertNextValue(static_cast<int>(p % 4));
+  }
+  auto tag = named<vtkIntArray>("Tag");
+  auto colour = named<vtkFloatArray>("Colour", 3);
+  for (vtkIdType c = 0; c < dataSet->GetNumberOfCells(); ++c)
+  {
+    tag->InsertNextValue(static_cast<int>(c));
+    colour->InsertNextTuple3(0.25 * static_cast<double>(c), 1, -1);
+  }
+  dataSet->GetPointData()->AddArray(linear);
+  dataSet->GetPointData()->AddArray(region);
+  dataSet->GetCellData()->AddArray(tag);
+  dataSet->GetCellData()->AddArray(colour);
+}
+
+void addGlobalIds(vtkPointSet* dataSet)
+{
+  dataSet->GetPointData()->SetGlobalIds(scatteredIds("PointIds", dataSet->GetNumberOfPoints()));
+  dataSet->GetCellData()->SetGlobalIds(scatteredIds("CellIds", dataSet->GetNumberOfCells()));
+}
+
+} // namespace cadtest

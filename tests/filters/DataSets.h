@@ -1,0 +1,40 @@
+// Between the tests' meshes and VTK's data sets.
+#pragma once
+
+#include "SimplexMesh.h"
+
+#include <vtkSmartPointer.h>
+
+#include <string>
+
+class vtkPointSet;
+class vtkPolyData;
+class vtkUnstructuredGrid;
+
+namespace cadtest
+{
+
+/// All cells of the mesh: vertices, segments, triangles, tetrahedra. No arrays.
+vtkSmartPointer<vtkUnstructuredGrid> toGrid(const cadrefine::SimplexMesh& mesh);
+/// The triangles of the mesh. No arrays.
+vtkSmartPointer<vtkPolyData> toPolyData(const cadrefine::SimplexMesh& mesh);
+/// Points and cells of a data set; the points' numbers are the ids.
+cadrefine::SimplexMesh toMesh(vtkPointSet* dataSet);
+
+/// Reads a .vtu file; throws where it cannot be read or is empty.
+vtkSmartPointer<vtkUnstructuredGrid> readGrid(const std::string& path);
+
+/// The only value of a field array; throws where there is none.
+double fieldValue(vtkPointSet* dataSet, const char* name);
+
+/// Adds arrays that tell whether they were carried over: Linear (point, double: a linear function
+/// of the coordinates), Region (point, int), Tag (cell, int: the number of the cell), Colour (cell,
+/// three floats).
+void addArrays(vtkPointSet* dataSet);
+/// The linear function.
+double linearAt(const double point[3]);
+
+/// Sets global ids of points and cells, in an order that is not that of the points and cells.
+void addGlobalIds(vtkPointSet* dataSet);
+
+} // namespace cadtest

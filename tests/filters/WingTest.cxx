@@ -1,0 +1,133 @@
+// The NACA 0012 section in its box of coarse tetrahedra.
+
+#include "DataSets.h"
+#include "FilterRun.h"
+#include "MeshChecks.h"
+
+#include <gtest/gtest.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <algorithm>
+
+namespace
+{
+
+using namespace cadrefine;
+
+class Wing : public testing::TestWithParam<const char*>
+{
+protected:
+  cadtest::FilterRun filters{ CADREFINE_DATA "/naca0012_" + std::string(GetParam()) + ".igs" };
+  vtkSmartPointer<vtkUnstructuredGrid> coarse = cadtest::readGrid(
+    std::string(CADREFINE_DATA) +
+    (GetParam() == std::string("blunt") ? "/naca0012_blunt_coarse.vtu" : "/naca0012_coarse.vtu"));
+
+  static double error(const cadtest::FilterRun::Data& data)
+  {
+    return cadtest::fieldValue(data, "GlobalGeometricError");
+  }
+
+  static void expectValid(const cadtest::FilterRun::Data& data)
+  {
+    EXPECT_TRUE(cadtest::isValid(cadtest::toMesh(data)));
+    EXPECT_EQ(cadtest::fieldValue(data, "InvalidCells"), 0);
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(TrailingEdges, Wing, testing::Values("sharp", "blunt"),
+  [](const auto& edge) { return std::string(edge.param); });
+
+/// Three uniform levels, and then six longest edge steps of the cells with a local error above
+/// 1e-7.
+TEST_P(Wing, errorFallsByFourAndNeverRises)
+{
+  auto data = filters.measure(filters.project(coarse), 1);
+  expectValid(data);
+  double before = error(data);
+  EXPECT_GT(before, 0);
+  for (int level = 1; level <= 3; ++level)
+  {
+    data = filters.measure(filters.refineUniformly(data), 1);
+    expectValid(data);
+    if (level > 1) // before, the section is not resolved
+    {
+      EXPECT_GT(before / error(data), 3.6) << "level " << level;
+      EXPECT_LT(before / error(data), 4.4) << "level " << level;
+    }
+    EXPECT_LE(error(data), before);
+    before = error(data);
+  }
+  for (int step = 1; step <= 6; ++step)
+  {
+    data = filters.measure(filters.refineWhereErrorExceeds(data, 1e-7), 1);
+    expectValid(data);
+    EXPECT_LE(error(data), before) << "step " << step;
+    before = error(data);
+  }
+  EXPECT_TRUE(cadtest::hasNoHangingVertex(cadtest::toMesh(data)));
+}
+
+TEST_P(Wing, everyVertexOnTheCadIsThere)
+{
+  const auto data = filters.refineUniformly(filters.project(coarse), 2);
+  EXPECT_EQ(cadtest::fieldValue(data, "UnprojectedVertices"), 0);
+  const auto again = filters.project(data);
+  const SimplexMesh mesh = cadtest::toMesh(data);
+  const SimplexMesh projected = cadtest::toMesh(again);
+  ASSERT_EQ(mesh.points.size(), projected.points.size());
+  double farthest = 0;
+  for (std::size_t v = 0; v < mesh.points.size(); ++v)
+  {
+    farthest = std::max(farthest, distance(mesh.points[v], projected.points[v]));
+  }
+  EXPECT_LE(farthest, 1e-12 * 3) << "a second projection finds nothing left to do";
+}
+
+/// Straight refinement leaves the gap between mesh and CAD as it is.
+TEST_P(Wing, errorStaysWithoutProjection)
+{
+  auto data = filters.project(coarse);
+  const double before = error(filters.measure(data, 5));
+  for (int level = 1; level <= 2; ++level)
+  {
+    data = filters.refineStraight(data);
+    EXPECT_NEAR(error(filters.measure(data, 5 - level)), before, 0.01 * before);
+    expectValid(data);
+  }
+}
+
+TEST_P(Wing, wallsAndFarFieldStay)
+{
+  const SimplexMesh before = cadtest::toMesh(coarse);
+  const SimplexMesh after = cadtest::toMesh(filters.project(coarse));
+  ASSERT_EQ(before.points.size(), after.points.size());
+  for (std::size_t v = 0; v < before.points.size(); ++v)
+  {
+    EXPECT_EQ(before.points[v][1], after.points[v][1]) << "it left its wall";
+    if (before.points[v][0] < -0.5 || before.points[v][0] > 3.5)
+    {
+      EXPECT_EQ(before.points[v], after.points[v]) << "far field";
+    }
+  }
+}
+
+TEST_P(Wing, projectionIsLimitedToItsRegion)
+{
+  const auto data = filters.run<vtkProjectOntoCAD>(coarse,
+    [](vtkProjectOntoCAD* filter)
+    {
+      filter->UseRegionOn();
+      filter->SetRegion(-1, 1.5, -1, 5, -1, 1);
+    });
+  const SimplexMesh before = cadtest::toMesh(coarse);
+  const SimplexMesh after = cadtest::toMesh(data);
+  std::size_t moved = 0;
+  for (std::size_t v = 0; v < before.points.size(); ++v)
+  {
+    moved += before.points[v] != after.points[v];
+    EXPECT_TRUE(before.points[v][0] <= 1.5 || before.points[v] == after.points[v]);
+  }
+  EXPECT_GT(moved, 5u);
+}
+
+} // namespace
