@@ -10,6 +10,7 @@
 #include <vtkSignedCharArray.h>
 
 #include <limits>
+#include <sstream>
 #include <string>
 
 namespace cadrefine
@@ -36,22 +37,29 @@ vtkDataArray* requireArray(vtkPointSet* input, const char* name, int components)
   return array;
 }
 
+std::string entityText(double dimension, double index)
+{
+  std::ostringstream text;
+  text << "(" << dimension << ", " << index << ")";
+  return text.str();
+}
+
+/// The arrays may be of any type: what is no number is refused like what is out of range.
 EntityId readEntity(double dimension, double index, const CADModel& model)
 {
-  EntityId entity;
   if (dimension < 0)
   {
-    return entity;
+    return {};
   }
-  entity.dimension = static_cast<std::int8_t>(dimension);
-  entity.index = static_cast<std::int32_t>(index);
-  if (entity.dimension > 2 || index < 0 || index >= model.count(entity.dimension))
+  const bool known = (dimension == 0 || dimension == 1 || dimension == 2) && index >= 0 &&
+                     index < model.count(static_cast<int>(dimension));
+  if (!known)
   {
-    throw Error("the point arrays CADDimension and CADEntity name an entity (" +
-                std::to_string(static_cast<int>(dimension)) + ", " + std::to_string(entity.index) +
-                ") that the CAD model does not have; were they made with another CAD file?");
+    throw Error("the point arrays CADDimension and CADEntity name an entity " +
+                entityText(dimension, index) +
+                " that the CAD model does not have; were they made with another CAD file?");
   }
-  return entity;
+  return { static_cast<std::int8_t>(dimension), static_cast<std::int32_t>(index) };
 }
 
 template<class Array>
@@ -98,7 +106,7 @@ Classification readClassification(
     result.entities[v] =
       readEntity(dimensions->GetTuple1(point), entities->GetTuple1(point), model);
     parameters->GetTuple(point, result.parameters[v].data());
-    result.distances[v] = distances->GetTuple1(point);
+    result.distances[v] = result.entities[v] ? distances->GetTuple1(point) : 0;
   }
   return result;
 }

@@ -39,8 +39,8 @@ constexpr const char* errorDistance = "GeometricDistance";
 } // namespace arrays
 
 /// Reads the arrays of a projected mesh for the vertices that come from its points `pointOf`.
-/// Throws Error where an array is missing, has the wrong number of components, or names an entity
-/// that `model` does not have.
+/// The distance of a vertex without an entity is 0. Throws Error where an array is missing, has the
+/// wrong number of components, or names an entity that `model` does not have.
 Classification readClassification(
   vtkPointSet* input, const std::vector<vtkIdType>& pointOf, const CADModel& model);
 

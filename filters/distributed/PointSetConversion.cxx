@@ -216,10 +216,31 @@ void makeCells(
   }
 }
 
+/// Vertices for the points that cells use, in the order of the points.
+void makeVertices(const RawCells& raw, std::size_t pointCount, VertexMaker& maker)
+{
+  std::vector<unsigned char> used(pointCount, 0);
+  for (const auto& points : raw.points)
+  {
+    for (const vtkIdType point : points)
+    {
+      used[point] = 1;
+    }
+  }
+  for (std::size_t p = 0; p < pointCount; ++p)
+  {
+    if (used[p])
+    {
+      maker.vertex(static_cast<vtkIdType>(p));
+    }
+  }
+}
+
 void makeMesh(
   vtkPointSet* input, const RawCells& raw, const std::vector<GlobalId>& ids, ConvertedMesh& result)
 {
   VertexMaker maker(input, ids, result);
+  makeVertices(raw, ids.size(), maker);
   makeCells(raw, maker, result.mesh.vertices);
   makeCells(raw, maker, result.mesh.segments);
   makeCells(raw, maker, result.mesh.triangles);

@@ -29,9 +29,10 @@ struct ConvertedMesh
 
 /// Reads tetrahedra, triangles, lines and vertices from a vtkUnstructuredGrid or vtkPolyData on
 /// each rank. Ghost cells and points that no cell uses are left out; points with the same global id
-/// on a rank become one vertex. Ids come from the data set's global ids if every rank has them, and
-/// otherwise from coordinates (vertices) and vertices (cells): they then do not depend on the
-/// partition, and points that coincide are one vertex. Collective.
+/// on a rank become one vertex. Vertices come in the order of the points. Ids come from the data
+/// set's global ids if every rank has them, and otherwise from coordinates (vertices) and vertices
+/// (cells): they then do not depend on the partition, and points that coincide are one vertex.
+/// Collective.
 ///
 /// Without cells, every point becomes a cell of dimension 0. The mesh's dimension is that of its
 /// cells of highest dimension on any rank, and 0 for points alone.

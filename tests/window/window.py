@@ -3,13 +3,13 @@
 The window is started with folders of settings of its own, so that it neither sees nor changes the user's.
 """
 
+import glob
 import os
+import re
 import shutil
 import signal
 import struct
 import subprocess
-import threading
-import time
 import zlib
 from xml.sax.saxutils import quoteattr
 
@@ -23,8 +23,7 @@ Position=@Point(0 0)
 Size=@Size({SIZE[0]} {SIZE[1]})
 """
 
-# The first events of each script do nothing: time to take the picture that the script before left.
-IDLE = [("event", "", "comment", "")] * 5
+CONSOLE = "pythonShellDock/pythonShell/consoleWidget"
 
 
 def event(widget, command, arguments=""):
@@ -37,22 +36,18 @@ def check(widget, qt_property, value):
     return ("check", widget, qt_property, value)
 
 
-class Result:
-    """What became of a run."""
-
-    def __init__(self, status, log, pictures):
-        self.status = status
-        self.log = log
-        self.pictures = pictures
+def python(statement):
+    """A statement that the Python of the window executes."""
+    return event(CONSOLE, "executeCommand", statement)
 
 
 class Window:
-    """One run of the window; `folder` is emptied and takes scripts, settings, log and pictures."""
+    """One run of the window; `folder` is emptied and takes events, settings, log and pictures."""
 
     def __init__(self, plugin, folder):
         self.plugin = plugin
         self.folder = folder
-        self.scripts = []
+        self.events = []
         shutil.rmtree(folder, ignore_errors=True)
         for name in ("display", "runtime", "settings/ParaView", "output"):
             os.makedirs(os.path.join(folder, name), mode=0o700)
@@ -60,54 +55,57 @@ class Window:
     def path(self, *names):
         return os.path.join(self.folder, *names)
 
-    def stage(self, name, *events):
-        """Adds events to play; a picture of the window is taken after the last of them."""
-        path = self.path(f"{len(self.scripts):02d}_{name}.xml")
-        with open(path, "w", encoding="utf-8") as file:
-            file.write("<?xml version=\"1.0\" ?>\n<pqevents>\n")
-            file.writelines(as_xml(*item) for item in IDLE + list(events))
-            file.write("</pqevents>\n")
-        self.scripts.append(path)
+    def play(self, *events):
+        """Adds events to play."""
+        self.events += events
+
+    def picture(self, name):
+        """Has a picture of the whole window taken now, also while a dialog is open."""
+        dump = self.path("display", "Xvfb_screen0")
+        self.play(event("", "pause", "300"), python(f"import shutil; shutil.copy({dump!r}, {self.dump(name)!r})"))
+
+    def dump(self, name):
+        return self.path("output", name + ".xwd")
 
     def run(self, timeout):
-        """Plays all stages; the status is None where the window had to be killed."""
-        self.stage("end")
+        """Plays the events; returns the exit status, None where the window had to be killed."""
         self.write_settings()
-        process = subprocess.Popen(self.command(), env=self.environment(), stdout=subprocess.PIPE,
-                                   stderr=subprocess.STDOUT, text=True, errors="replace", start_new_session=True)
-        killed = []
+        self.write_events()
+        with open(self.path("log.txt"), "w", encoding="utf-8") as log:
+            process = subprocess.Popen(self.command(), env=self.environment(), stdout=log, stderr=subprocess.STDOUT,
+                                       start_new_session=True)
+            try:
+                return process.wait(timeout)
+            except subprocess.TimeoutExpired:
+                shutil.copy(self.path("display", "Xvfb_screen0"), self.dump("killed"))
+                return None
+            finally:
+                kill_all_of(process)
 
-        def kill():
-            killed.append(True)
-            self.take_picture(self.path("killed.png"))
-            os.killpg(process.pid, signal.SIGKILL)
+    def log(self):
+        with open(self.path("log.txt"), encoding="utf-8", errors="replace") as file:
+            return file.read()
 
-        timer = threading.Timer(timeout, kill)
-        timer.start()
-        lines, pictures = self.follow(process.stdout)
-        status = process.wait()
-        timer.cancel()
-        with open(self.path("log.txt"), "w", encoding="utf-8") as file:
-            file.writelines(lines)
-        return Result(None if killed else status, lines, pictures)
+    def pictures(self):
+        """The pictures taken, by name; each is also left as PNG."""
+        taken = {}
+        for path in sorted(glob.glob(self.path("output", "*.xwd"))):
+            name = os.path.splitext(os.path.basename(path))[0]
+            with open(path, "rb") as file:
+                taken[name] = Picture(file.read())
+            taken[name].save(self.path(name + ".png"))
+            os.remove(path)
+        return taken
 
-    def follow(self, stream):
-        """Reads what the window says; where it begins a script, the one before is pictured."""
-        lines, pictures = [], {}
-        for line in stream:
-            lines.append(line)
-            if line.startswith("Playing:"):
-                number = sum(line.startswith("Playing:") for line in lines) - 2
-                if number >= 0:
-                    name = os.path.basename(self.scripts[number])[3:-4]
-                    time.sleep(0.1)
-                    pictures[name] = self.take_picture(os.path.splitext(self.scripts[number])[0] + ".png")
-        return lines, pictures
+    def write_events(self):
+        with open(self.path("events.xml"), "w", encoding="utf-8") as file:
+            file.write("<?xml version=\"1.0\" ?>\n<pqevents>\n")
+            file.writelines(as_xml(*item) for item in self.events)
+            file.write("</pqevents>\n")
 
     def write_settings(self):
-        version = subprocess.run(["paraview", "--version"], env={**self.environment(), "QT_QPA_PLATFORM": "offscreen"},
-                                 capture_output=True, text=True, timeout=60, check=False)
-        number = (version.stdout + version.stderr).strip().split()[-1]
+        said = subprocess.run(["pvserver", "--version"], capture_output=True, text=True, timeout=60, check=True).stdout
+        number = re.search(r"\d+\.\d+\.\d+", said).group()
         with open(self.path("settings", "ParaView", f"ParaView{number}.ini"), "w", encoding="utf-8") as file:
             file.write(SETTINGS)
 
@@ -116,18 +114,21 @@ class Window:
         screen = f"-screen 0 {SIZE[0]}x{SIZE[1]}x24 -fbdir {self.path('display')}"
         return ["xvfb-run", "--auto-servernum", "--server-args", screen, "paraview", "--plugin-search-paths", folder,
                 "--plugins", os.path.splitext(name)[0], "--test-directory", self.path("output"),
-                *[f"--test-script={script}" for script in self.scripts], "--exit"]
+                "--test-script", self.path("events.xml"), "--exit"]
 
     def environment(self):
         return {**os.environ, "HOME": self.path("settings"), "XDG_CONFIG_HOME": self.path("settings"),
                 "XDG_RUNTIME_DIR": self.path("runtime"), "QT_QPA_PLATFORM": "xcb", "PQOBJECTNAMING_MATCH_LIMIT": "0",
                 "LC_ALL": "C.UTF-8"}
 
-    def take_picture(self, path):
-        with open(self.path("display", "Xvfb_screen0"), "rb") as file:
-            picture = Picture(file.read())
-        picture.save(path)
-        return picture
+
+def kill_all_of(process):
+    """Ends the processes that `process` started, the display among them."""
+    try:
+        os.killpg(process.pid, signal.SIGKILL)
+    except ProcessLookupError:
+        pass
+    process.wait()
 
 
 def as_xml(kind, widget, command, arguments):

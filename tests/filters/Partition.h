@@ -1,0 +1,50 @@
+// Meshes in pieces, and meshes put together again to be compared.
+#pragma once
+
+#include "RankExchange.h"
+#include "SimplexMesh.h"
+
+#include <vtkSmartPointer.h>
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+class vtkPointSet;
+
+namespace cadtest
+{
+
+/// How a mesh is dealt out to ranks.
+enum class Dealing
+{
+  Blocks,   ///< Cells in their order, as many to each rank.
+  Random,   ///< Each cell to any rank.
+  EmptyRank ///< At random, but nothing to rank 0 (unless it is alone).
+};
+
+/// The rank of each cell; the same on every rank.
+std::vector<int> deal(Dealing dealing, std::int64_t cellCount, int ranks);
+
+/// A rank's piece of `whole`: its cells with their points and arrays. With ghosts, the cells of
+/// other ranks that touch them are there too, marked as duplicates.
+vtkSmartPointer<vtkPointSet> pieceOf(
+  vtkPointSet* whole, const std::vector<int>& rankOfCell, int rank, bool ghosts);
+
+/// A mesh in a form that does not depend on numbering: by global id, the bytes of each point
+/// (coordinates and arrays) and cell (type, ids of points, arrays). All NaNs count as the same.
+struct CanonicalMesh
+{
+  std::map<std::int64_t, std::string> points;
+  std::map<std::int64_t, std::string> cells;
+  int contradictions = 0; ///< Points that two ranks hold with different values, cells held twice.
+};
+
+/// Puts the pieces together on rank 0 (on others the result is empty). Collective.
+CanonicalMesh gather(cadrefine::RankExchange& exchange, vtkPointSet* piece);
+
+/// Triangles and tetrahedra of the mesh; ids are the global ids.
+cadrefine::SimplexMesh toMesh(const CanonicalMesh& canonical);
+
+} // namespace cadtest

@@ -1,0 +1,264 @@
+// The same mesh, bit for bit, on any number of ranks and however it is split.
+
+#include "Partition.h"
+#include "DataSets.h"
+#include "FilterRun.h"
+#include "MeshChecks.h"
+#include "ParallelTest.h"
+#include "TestMeshes.h"
+#include "TestShapes.h"
+
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
+#include <vtkPolyData.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace cadrefine
+{
+
+namespace
+{
+
+/// A mesh, its CAD file, and where its boundary may lie.
+struct Problem
+{
+  std::string name;
+  std::string cadFile; ///< In the folder of the data; empty: a sphere of radius 2.
+  vtkSmartPointer<vtkPointSet> (*mesh)();
+  double threshold; ///< Cells with a larger error are bisected.
+  bool (*onBoundary)(const std::vector<Point3>& side);
+};
+
+vtkSmartPointer<vtkPointSet> taggedBall()
+{
+  SimplexMesh mesh = cadtest::ballMesh(2, 0.03);
+  mesh.triangles = cadtest::sphereMesh(2, 0.03).triangles;
+  mesh.segments = { { mesh.triangles[0][0], mesh.triangles[0][1] } };
+  mesh.vertices = { { 3 }, { 7 } };
+  return cadtest::toGrid(mesh);
+}
+
+vtkSmartPointer<vtkPointSet> surface()
+{
+  return cadtest::toPolyData(cadtest::sphereMesh(2, 0.03));
+}
+
+vtkSmartPointer<vtkPointSet> wing()
+{
+  return cadtest::readGrid(CADREFINE_DATA "/naca0012_coarse.vtu");
+}
+
+vtkSmartPointer<vtkPointSet> arcs()
+{
+  return cadtest::readGrid(CADREFINE_DATA "/three_arcs_coarse.vtu");
+}
+
+bool onSphere(const std::vector<Point3>& side)
+{
+  return std::all_of(
+    side.begin(), side.end(), [](const Point3& p) { return std::abs(norm(p) - 2) < 1e-11; });
+}
+
+bool nowhere(const std::vector<Point3>&)
+{
+  return false;
+}
+
+/// On the section, or on one of the planes round it.
+bool roundWing(const std::vector<Point3>& side)
+{
+  const auto isWall = [&](int k)
+  {
+    return std::all_of(side.begin(), side.end(),
+      [&](const Point3& p) { return std::abs(p[k] - side[0][k]) < 1e-11; });
+  };
+  const bool nearSection = std::all_of(side.begin(), side.end(),
+    [](const Point3& p) { return p[0] > -0.01 && p[0] < 3.01 && std::abs(p[2]) < 0.2; });
+  return nearSection || isWall(0) || isWall(1) || isWall(2);
+}
+
+bool roundArcs(const std::vector<Point3>& side)
+{
+  const std::array<Point3, 3> centres{ { { 2, 3.75, 0 }, { -0.8125, -2.25, 0 }, { 2, 1.5, 0 } } };
+  const std::array<double, 3> radii{ 4.25, 5.3125, 2.5 };
+  for (std::size_t arc = 0; arc < 3; ++arc)
+  {
+    if (std::all_of(side.begin(), side.end(),
+          [&](const Point3& p)
+          { return std::abs(distance(p, centres[arc]) - radii[arc]) < 1e-11; }))
+    {
+      return true;
+    }
+  }
+  return side[0][0] == side[1][0] || side[0][1] == side[1][1];
+}
+
+const std::array<Problem, 4> problems{ { { "Ball", "", taggedBall, 0.01, onSphere },
+  { "Surface", "", surface, 0.01, nowhere },
+  { "Wing", "/naca0012_sharp.igs", wing, 1e-4, roundWing },
+  { "Arcs", "/three_arcs.igs", arcs, 1e-3, roundArcs } } };
+
+struct Case
+{
+  std::size_t problem;
+  cadtest::Dealing dealing;
+  bool ids;
+  bool ghosts;
+  bool balance;
+};
+
+std::string nameOf(const Case& c)
+{
+  const char* dealings[] = { "Blocks", "Random", "EmptyRank" };
+  return problems[c.problem].name + dealings[static_cast<int>(c.dealing)] +
+         (c.ids ? "Ids" : "NoIds") + (c.ghosts ? "Ghosts" : "") + (c.balance ? "Balanced" : "");
+}
+
+std::vector<Case> cases()
+{
+  using cadtest::Dealing;
+  std::vector<Case> result;
+  for (std::size_t problem = 0; problem < problems.size(); ++problem)
+  {
+    result.push_back({ problem, Dealing::Blocks, true, false, true });
+    result.push_back({ problem, Dealing::Blocks, false, true, false });
+    result.push_back({ problem, Dealing::Random, true, true, false });
+    result.push_back({ problem, Dealing::Random, false, false, true });
+    result.push_back({ problem, Dealing::EmptyRank, true, false, true });
+    result.push_back({ problem, Dealing::EmptyRank, false, false, false });
+  }
+  return result;
+}
+
+class Partition
+  : public ParallelTest
+  , public testing::WithParamInterface<Case>
+{
+protected:
+  const Problem& problem = problems[GetParam().problem];
+  cadtest::TemporaryFolder folder;
+
+  /// The CAD file; rank 0 alone reads it.
+  std::string cadFile() const
+  {
+    return problem.cadFile.empty() ? cadtest::writeInto(folder, cadtest::sphere(2), ".step")
+                                   : CADREFINE_DATA + problem.cadFile;
+  }
+
+  vtkSmartPointer<vtkPointSet> wholeMesh() const
+  {
+    auto mesh = problem.mesh();
+    cadtest::addArrays(mesh);
+    if (GetParam().ids)
+    {
+      cadtest::addGlobalIds(mesh);
+    }
+    return mesh;
+  }
+
+  using Steps = std::vector<cadtest::FilterRun::Data>;
+
+  /// The mesh after each filter: projected, measured, refined locally, refined uniformly, measured.
+  Steps run(vtkPointSet* mesh, vtkMultiProcessController* controller) const
+  {
+    const cadtest::FilterRun filters(cadFile(), controller);
+    Steps steps{ filters.project(mesh) };
+    steps.push_back(filters.measure(steps.back(), 2));
+    steps.push_back(filters.run<vtkRefineWithCAD>(steps.back(),
+      [&](vtkRefineWithCAD* filter)
+      {
+        filter->SetMarkingArray("GeometricError");
+        filter->SetThreshold(problem.threshold);
+        filter->SetLevels(3);
+        filter->SetBalance(GetParam().balance);
+      }));
+    steps.push_back(filters.run<vtkRefineWithCAD>(steps.back(),
+      [&](vtkRefineWithCAD* filter)
+      {
+        filter->SetMethod(vtkRefineWithCAD::UNIFORM_BISECTION);
+        filter->SetBalance(GetParam().balance);
+      }));
+    steps.push_back(filters.measure(steps.back(), 1));
+    return steps;
+  }
+
+  static std::map<std::string, double> fieldValues(vtkPointSet* mesh)
+  {
+    std::map<std::string, double> values;
+    vtkFieldData* fields = mesh->GetFieldData();
+    for (int a = 0; a < fields->GetNumberOfArrays(); ++a)
+    {
+      values[fields->GetArrayName(a)] = fields->GetArray(a)->GetTuple1(0);
+    }
+    return values;
+  }
+
+  void expectSame(vtkPointSet* piece, vtkPointSet* serial, std::size_t step)
+  {
+    const cadtest::CanonicalMesh mesh = cadtest::gather(exchange, piece);
+    if (exchange.rank() > 0)
+    {
+      return;
+    }
+    RankExchange alone(nullptr);
+    const cadtest::CanonicalMesh expected = cadtest::gather(alone, serial);
+    EXPECT_EQ(mesh.contradictions, 0) << "after step " << step;
+    EXPECT_TRUE(mesh.points == expected.points) << "after step " << step;
+    EXPECT_TRUE(mesh.cells == expected.cells) << "after step " << step;
+    for (auto&[i,b] : mesh.cells) if (auto f = expected.cells.find(i); f==expected.cells.end() || f->second != b) { std::cerr << "DIFF " << i << " " << b << "\n VERSUS " << (f==expected.cells.end()?"":f->second) << "\n"; break; }
+    EXPECT_EQ(mesh.points.size(), static_cast<std::size_t>(serial->GetNumberOfPoints()));
+    EXPECT_EQ(fieldValues(piece), fieldValues(serial)) << "after step " << step;
+  }
+
+  /// Of the mesh put together from all ranks.
+  void expectSound(vtkPointSet* piece)
+  {
+    const cadtest::CanonicalMesh gathered = cadtest::gather(exchange, piece);
+    if (exchange.rank() > 0)
+    {
+      return;
+    }
+    const SimplexMesh mesh = cadtest::toMesh(gathered);
+    EXPECT_TRUE(cadtest::isValid(mesh));
+    EXPECT_TRUE(cadtest::hasNoHangingVertex(mesh));
+    EXPECT_TRUE(cadtest::isWatertight(mesh, problem.onBoundary));
+  }
+
+  /// Field values are the same on every rank, also on one that holds nothing.
+  void expectFieldValuesAgree(vtkPointSet* piece)
+  {
+    for (const char* name :
+      { "GlobalGeometricError", "MaximumGeometricDistance", "InvalidCells", "UnprojectedVertices" })
+    {
+      const double value = cadtest::fieldValue(piece, name);
+      EXPECT_EQ(exchange.min(value), exchange.max(value)) << name;
+    }
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Problems, Partition, testing::ValuesIn(cases()),
+  [](const auto& each) { return nameOf(each.param); });
+
+TEST_P(Partition, givesTheSameMeshAsOneRank)
+{
+  const auto whole = wholeMesh();
+  const auto rankOfCell =
+    cadtest::deal(GetParam().dealing, whole->GetNumberOfCells(), exchange.size());
+  const auto piece = cadtest::pieceOf(whole, rankOfCell, exchange.rank(), GetParam().ghosts);
+  const Steps pieces = run(piece, worldController());
+  const Steps serial = exchange.rank() == 0 ? run(whole, nullptr) : Steps(pieces.size());
+  for (std::size_t step = 0; step < pieces.size(); ++step)
+  {
+    expectSame(pieces[step], serial[step], step);
+  }
+  expectSound(pieces.back());
+  expectFieldValuesAgree(pieces.back());
+}
+
+} // namespace
+
+} // namespace cadrefine
