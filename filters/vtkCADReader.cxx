@@ -45,8 +45,9 @@ std::vector<std::string> UnreadLines(const cadrefine::CADModel& model)
   std::vector<std::string> lines;
   for (const auto& unread : model.unread())
   {
+    const char* prefix = unread.type.rfind("IGES", 0) == 0 ? "DE " : "#"; // as the formats do
     const std::string number =
-      unread.entity > 0 ? "DE " + std::to_string(unread.entity) : std::string("file");
+      unread.entity > 0 ? prefix + std::to_string(unread.entity) : std::string("file");
     lines.push_back(number + ": " + unread.type + ": " + unread.reason);
   }
   return lines;

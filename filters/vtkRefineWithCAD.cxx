@@ -8,7 +8,6 @@
 #include "MeshSummary.h"
 
 #include <vtkCellData.h>
-#include <vtkMultiProcessController.h>
 #include <vtkObjectFactory.h>
 #include <vtkPointSet.h>
 
@@ -30,7 +29,7 @@ public:
 
   vtkSmartPointer<vtkPointSet> Run(vtkPointSet* input)
   {
-    this->Load(input);
+    this->Load(input, input);
     if (this->Settings->GetBalance() && this->Exchange.size() > 1)
     {
       this->BalanceCells();
@@ -55,15 +54,16 @@ public:
   }
 
 private:
-  /// Makes the data set with ids, and cells in the order of their dimension, current.
-  void Load(vtkPointSet* input)
+  /// Makes the data set with ids, and cells in the order of their dimension, current; in the class
+  /// of `prototype`.
+  void Load(vtkPointSet* input, vtkPointSet* prototype)
   {
     this->Mesh = makeDistributedMesh(this->Exchange, input);
     if (this->Mesh.mesh().dimension == 0)
     {
       throw Error("the mesh has no triangles or tetrahedra to refine");
     }
-    this->Current = makePointSet(input, this->Mesh.mesh());
+    this->Current = makePointSet(prototype, this->Mesh.mesh());
     copyArrays(input, this->Mesh.converted, this->Current);
     this->PointOfVertexIsIdentity();
   }
@@ -81,12 +81,13 @@ private:
   void BalanceCells()
   {
     const RefinementPlan plan = this->MakePlan();
-    std::vector<int> weights;
+    std::vector<std::int64_t> weights;
     for (const auto& children : countChildren(this->Mesh.mesh(), plan))
     {
       weights.insert(weights.end(), children.begin(), children.end());
     }
-    this->Load(redistribute(this->Settings->GetController(), this->Current, weights));
+    const auto coarse = this->Current;
+    this->Load(redistribute(this->Exchange, this->Mesh, coarse, weights), coarse);
   }
 
   std::vector<unsigned char> MarkCells() const

@@ -185,8 +185,7 @@ def write_one_file(grid, path):
     writer = vtkXMLUnstructuredGridWriter()
     writer.SetInputData(merged_grid(grid))
     writer.SetFileName(path + ".part")
-    writer.SetDataModeToAppended()
-    writer.EncodeAppendedDataOff()
+    writer.SetDataModeToBinary()  # VTK 9.2 cannot read appended data back where libexpat has the corrections of 2024.
     if not writer.Write() or session.messages.errors:
         if os.path.exists(path + ".part"):
             os.remove(path + ".part")
@@ -197,7 +196,7 @@ def write_one_file(grid, path):
 
 def write_pieces(mesh, path):
     try:
-        simple.SaveData(path, proxy=mesh)
+        simple.SaveData(path, proxy=mesh, DataMode="Binary")
     except RuntimeError as error:
         session.messages.errors.append(str(error))
     if session.messages.errors:

@@ -4,8 +4,10 @@
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
+#include <vtkFloatArray.h>
 #include <vtkIntArray.h>
 #include <vtkNew.h>
+#include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 
@@ -14,25 +16,48 @@ namespace cadrefine
 namespace
 {
 
+/// A face that holds the entity, for the normals there; -1 in a model of curves.
+int faceAt(const NurbsModel& model, EntityId id)
+{
+  if (id.dimension == 2)
+  {
+    return id.index;
+  }
+  if (id.dimension == 1)
+  {
+    const auto& faces = model.edges[id.index].faces;
+    return faces.empty() ? -1 : faces.front();
+  }
+  const auto& edges = model.vertices[id.index].edges;
+  return edges.empty() ? -1 : faceAt(model, { 1, edges.front() });
+}
+
+/// Poly data in the making. All parts have normals if the model has faces: ParaView shades a
+/// collection smoothly only where all of it has them.
 class Drawing
 {
 public:
-  Drawing()
+  Drawing(const CADModel& model, double deflection) : model_(model), deflection_(deflection)
   {
     points_->SetDataTypeToDouble();
     entities_->SetName(arrays::entity);
+    normals_->SetName("Normals");
+    normals_->SetNumberOfComponents(3);
   }
 
-  void addVertex(int entity, const Point3& point)
+  void addVertex(int entity)
   {
-    const vtkIdType id = points_->InsertNextPoint(point.data());
+    Tessellation drawing;
+    drawing.points.push_back(model_.nurbs().vertices[entity].point);
+    const vtkIdType id = addPoints({ 0, entity }, drawing);
     cells_->InsertNextCell(1, &id);
     entities_->InsertNextValue(entity);
   }
 
-  void addLine(int entity, const Tessellation& drawing)
+  void addEdge(int entity)
   {
-    const vtkIdType first = addPoints(drawing);
+    const Tessellation drawing = model_.tessellate({ 1, entity }, deflection_);
+    const vtkIdType first = addPoints({ 1, entity }, drawing);
     cells_->InsertNextCell(static_cast<vtkIdType>(drawing.line.size()));
     for (const int point : drawing.line)
     {
@@ -41,9 +66,10 @@ public:
     entities_->InsertNextValue(entity);
   }
 
-  void addTriangles(int entity, const Tessellation& drawing)
+  void addFace(int entity)
   {
-    const vtkIdType first = addPoints(drawing);
+    const Tessellation drawing = model_.tessellate({ 2, entity }, deflection_);
+    const vtkIdType first = addPoints({ 2, entity }, drawing);
     for (const auto& triangle : drawing.triangles)
     {
       cells_->InsertNextCell({ first + triangle[0], first + triangle[1], first + triangle[2] });
@@ -59,46 +85,49 @@ public:
     : (dimension == 1) ? result->SetLines(cells_)
                        : result->SetPolys(cells_);
     result->GetCellData()->AddArray(entities_);
+    if (model_.count(2) > 0)
+    {
+      result->GetPointData()->SetNormals(normals_);
+    }
     return result;
   }
 
 private:
-  vtkIdType addPoints(const Tessellation& drawing)
+  vtkIdType addPoints(EntityId entity, const Tessellation& drawing)
   {
     const vtkIdType first = points_->GetNumberOfPoints();
-    for (const Point3& point : drawing.points)
+    const int face = faceAt(model_.nurbs(), entity);
+    for (std::size_t i = 0; i < drawing.points.size(); ++i)
     {
-      points_->InsertNextPoint(point.data());
+      Vector3 normal = i < drawing.normals.size() ? drawing.normals[i] : Vector3{};
+      if (face >= 0 && norm(normal) == 0)
+      {
+        normal = model_.normalNear(face, drawing.points[i]);
+      }
+      points_->InsertNextPoint(drawing.points[i].data());
+      normals_->InsertNextTuple(normal.data());
     }
     return first;
   }
 
+  const CADModel& model_;
+  double deflection_;
   vtkNew<vtkPoints> points_;
   vtkNew<vtkCellArray> cells_;
   vtkNew<vtkIntArray> entities_;
+  vtkNew<vtkFloatArray> normals_;
 };
 
 } // namespace
 
 vtkSmartPointer<vtkPolyData> draw(const CADModel& model, int dimension, const DrawingShare& share)
 {
-  Drawing drawing;
-  const double deflection = share.tolerance * model.size();
+  Drawing drawing(model, share.tolerance * model.size());
   for (int entity = share.rank; entity < model.count(dimension); entity += share.size)
   {
-    const EntityId id{ static_cast<std::int8_t>(dimension), entity };
-    if (dimension == 0)
-    {
-      drawing.addVertex(entity, model.nurbs().vertices[entity].point);
-    }
-    else if (dimension == 1)
-    {
-      drawing.addLine(entity, model.tessellate(id, deflection));
-    }
-    else
-    {
-      drawing.addTriangles(entity, model.tessellate(id, deflection));
-    }
+    (dimension == 0)   ? drawing.addVertex(entity)
+    : (dimension == 1) ? drawing.addEdge(entity)
+                       : drawing.addFace(entity);
   }
   return drawing.finish(dimension);
 }

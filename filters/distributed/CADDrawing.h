@@ -19,7 +19,8 @@ struct DrawingShare
 };
 
 /// This rank's share of the entities of a dimension (indices rank, rank + size, ...) as vertices,
-/// lines or triangles with the cell array CADEntity.
+/// lines or triangles with the cell array CADEntity, and with the normals of the faces if there
+/// are.
 vtkSmartPointer<vtkPolyData> draw(const CADModel& model, int dimension, const DrawingShare& share);
 
 } // namespace cadrefine

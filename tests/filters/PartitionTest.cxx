@@ -47,6 +47,11 @@ vtkSmartPointer<vtkPointSet> surface()
   return cadtest::toPolyData(cadtest::sphereMesh(2, 0.03));
 }
 
+vtkSmartPointer<vtkPointSet> crowdedBall()
+{
+  return cadtest::toGrid(cadtest::crowdedBallMesh(2));
+}
+
 vtkSmartPointer<vtkPointSet> wing()
 {
   return cadtest::readGrid(CADREFINE_DATA "/naca0012_coarse.vtu");
@@ -97,10 +102,11 @@ bool roundArcs(const std::vector<Point3>& side)
   return side[0][0] == side[1][0] || side[0][1] == side[1][1];
 }
 
-const std::array<Problem, 4> problems{ { { "Ball", "", taggedBall, 0.01, onSphere },
+const std::array<Problem, 5> problems{ { { "Ball", "", taggedBall, 0.01, onSphere },
   { "Surface", "", surface, 0.01, nowhere },
   { "Wing", "/naca0012_sharp.igs", wing, 1e-4, roundWing },
-  { "Arcs", "/three_arcs.igs", arcs, 1e-3, roundArcs } } };
+  { "Arcs", "/three_arcs.igs", arcs, 1e-3, roundArcs },
+  { "Crowded", "", crowdedBall, 0.01, onSphere } } };
 
 struct Case
 {
@@ -209,7 +215,6 @@ protected:
     EXPECT_EQ(mesh.contradictions, 0) << "after step " << step;
     EXPECT_TRUE(mesh.points == expected.points) << "after step " << step;
     EXPECT_TRUE(mesh.cells == expected.cells) << "after step " << step;
-    for (auto&[i,b] : mesh.cells) if (auto f = expected.cells.find(i); f==expected.cells.end() || f->second != b) { std::cerr << "DIFF " << i << " " << b << "\n VERSUS " << (f==expected.cells.end()?"":f->second) << "\n"; break; }
     EXPECT_EQ(mesh.points.size(), static_cast<std::size_t>(serial->GetNumberOfPoints()));
     EXPECT_EQ(fieldValues(piece), fieldValues(serial)) << "after step " << step;
   }
@@ -257,6 +262,70 @@ TEST_P(Partition, givesTheSameMeshAsOneRank)
   }
   expectSound(pieces.back());
   expectFieldValuesAgree(pieces.back());
+}
+
+/// Points alone, and filters that the pipeline above does not use.
+class SinglePieces : public ParallelTest
+{
+protected:
+  cadtest::TemporaryFolder folder;
+  std::string cadFile = cadtest::writeInto(folder, cadtest::sphere(2), ".step");
+
+  vtkSmartPointer<vtkPointSet> ownPieceOf(vtkPointSet* whole) const
+  {
+    return cadtest::pieceOf(whole,
+      cadtest::deal(cadtest::Dealing::Random, whole->GetNumberOfCells(), exchange.size()),
+      exchange.rank(), false);
+  }
+
+  /// Runs a filter on the pieces and on the whole, and compares.
+  template<class Filter, class Configure>
+  void expectSame(vtkPointSet* whole, const Configure& configure)
+  {
+    const cadtest::FilterRun filters(cadFile, worldController());
+    const auto pieces =
+      cadtest::gather(exchange, filters.run<Filter>(ownPieceOf(whole), configure));
+    if (exchange.rank() == 0)
+    {
+      RankExchange alone(nullptr);
+      const auto serial =
+        cadtest::gather(alone, cadtest::FilterRun(cadFile).run<Filter>(whole, configure));
+      EXPECT_EQ(pieces.contradictions, 0);
+      EXPECT_TRUE(pieces.points == serial.points);
+      EXPECT_TRUE(pieces.cells == serial.cells);
+      EXPECT_FALSE(serial.points.empty());
+    }
+  }
+};
+
+TEST_F(SinglePieces, projectAPointCloud)
+{
+  SimplexMesh cloud = cadtest::cubeMesh(4, 0.2, 1);
+  cloud.tetrahedra.clear();
+  for (Index v = 0; v < static_cast<Index>(cloud.points.size()); ++v)
+  {
+    cloud.vertices.push_back({ v });
+  }
+  expectSame<vtkProjectOntoCAD>(cadtest::toGrid(cloud), [](vtkProjectOntoCAD*) {});
+}
+
+TEST_F(SinglePieces, measureValidity)
+{
+  SimplexMesh mesh = cadtest::cubeMesh(3, 0.1, 1);
+  std::swap(mesh.tetrahedra[7][0], mesh.tetrahedra[7][1]);
+  expectSame<vtkMeshValidity>(cadtest::toGrid(mesh), [](vtkMeshValidity*) {});
+}
+
+TEST_F(SinglePieces, refineStraight)
+{
+  auto mesh = taggedBall();
+  cadtest::addArrays(mesh);
+  expectSame<vtkRefineWithCAD>(mesh,
+    [](vtkRefineWithCAD* filter)
+    {
+      filter->ProjectNewVerticesOff();
+      filter->SetLevels(4);
+    });
 }
 
 } // namespace

@@ -227,6 +227,19 @@ SimplexMesh ballMesh(double radius, double offset)
   return mesh;
 }
 
+SimplexMesh crowdedBallMesh(double radius)
+{
+  SimplexMesh mesh = ballMesh(radius, 0);
+  const auto side = sphereMesh(radius, 0).triangles.front();
+  Point3& centre = mesh.points[12];
+  for (const Index corner : side)
+  {
+    mesh.points[corner] = 1.1 * mesh.points[corner];
+    centre = centre + (1.0 / 3.0 * 0.95) * mesh.points[corner];
+  }
+  return mesh;
+}
+
 SimplexMesh torusMesh(double majorRadius, double minorRadius, int around, int corners)
 {
   SimplexMesh mesh;

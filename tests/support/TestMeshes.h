@@ -25,6 +25,9 @@ cadrefine::SimplexMesh withShuffledCells(cadrefine::SimplexMesh mesh, std::uint6
 /// Ball round the origin: the 20 tetrahedra between an icosahedron and its centre. Vertices lie off
 /// the sphere by up to `offset` times the radius, in and out.
 cadrefine::SimplexMesh ballMesh(double radius, double offset);
+/// A valid ball whose inner vertex stands so near to one side that the side's cell inverts when the
+/// side's corners are put onto the sphere, unless the inner vertex makes way.
+cadrefine::SimplexMesh crowdedBallMesh(double radius);
 /// The 20 triangles of its surface; vertices are those of ballMesh but for the centre.
 cadrefine::SimplexMesh sphereMesh(double radius, double offset);
 /// Solid torus round the z axis: `around` sections of `corners` corners and a centre each.

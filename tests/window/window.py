@@ -7,7 +7,6 @@ import glob
 import os
 import re
 import shutil
-import signal
 import struct
 import subprocess
 import zlib
@@ -71,16 +70,17 @@ class Window:
         """Plays the events; returns the exit status, None where the window had to be killed."""
         self.write_settings()
         self.write_events()
-        with open(self.path("log.txt"), "w", encoding="utf-8") as log:
-            process = subprocess.Popen(self.command(), env=self.environment(), stdout=log, stderr=subprocess.STDOUT,
-                                       start_new_session=True)
+        with open(self.path("log.txt"), "w", encoding="utf-8") as log, Display(self.path("display")) as display:
+            process = subprocess.Popen(self.command(), env=self.environment(display), stdout=log,
+                                       stderr=subprocess.STDOUT)
             try:
                 return process.wait(timeout)
             except subprocess.TimeoutExpired:
                 shutil.copy(self.path("display", "Xvfb_screen0"), self.dump("killed"))
                 return None
             finally:
-                kill_all_of(process)
+                process.kill()
+                process.wait()
 
     def log(self):
         with open(self.path("log.txt"), encoding="utf-8", errors="replace") as file:
@@ -111,24 +111,32 @@ class Window:
 
     def command(self):
         folder, name = os.path.split(self.plugin)
-        screen = f"-screen 0 {SIZE[0]}x{SIZE[1]}x24 -fbdir {self.path('display')}"
-        return ["xvfb-run", "--auto-servernum", "--server-args", screen, "paraview", "--plugin-search-paths", folder,
-                "--plugins", os.path.splitext(name)[0], "--test-directory", self.path("output"),
-                "--test-script", self.path("events.xml"), "--exit"]
+        return ["paraview", "--plugin-search-paths", folder, "--plugins", os.path.splitext(name)[0],
+                "--test-directory", self.path("output"), "--test-script", self.path("events.xml"), "--exit"]
 
-    def environment(self):
-        return {**os.environ, "HOME": self.path("settings"), "XDG_CONFIG_HOME": self.path("settings"),
-                "XDG_RUNTIME_DIR": self.path("runtime"), "QT_QPA_PLATFORM": "xcb", "PQOBJECTNAMING_MATCH_LIMIT": "0",
-                "LC_ALL": "C.UTF-8"}
+    def environment(self, display):
+        return {**os.environ, "DISPLAY": display.name, "HOME": self.path("settings"),
+                "XDG_CONFIG_HOME": self.path("settings"), "XDG_RUNTIME_DIR": self.path("runtime"),
+                "QT_QPA_PLATFORM": "xcb", "PQOBJECTNAMING_MATCH_LIMIT": "0", "LC_ALL": "C.UTF-8"}
 
 
-def kill_all_of(process):
-    """Ends the processes that `process` started, the display among them."""
-    try:
-        os.killpg(process.pid, signal.SIGKILL)
-    except ProcessLookupError:
-        pass
-    process.wait()
+class Display:
+    """An X server whose screen is the file Xvfb_screen0 of a folder. It chooses a free number itself, unlike
+    xvfb-run, which may choose the same one twice where two start at once."""
+
+    def __init__(self, folder):
+        screen = f"{SIZE[0]}x{SIZE[1]}x24"
+        self.server = subprocess.Popen(["Xvfb", "-displayfd", "1", "-screen", "0", screen, "-fbdir", folder,
+                                        "-nolisten", "tcp"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+        self.name = ":" + self.server.stdout.readline().decode().strip()
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.server.terminate()
+        self.server.wait()
+        self.server.stdout.close()
 
 
 def as_xml(kind, widget, command, arguments):

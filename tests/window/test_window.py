@@ -1,0 +1,196 @@
+"""Uses the plugin in the real ParaView window, as a person would: File > Open, Filters > CAD Refinement, the dialog
+that asks for the CAD, the panels, Apply. ParaView's own test player presses the buttons and compares the panels'
+fields; what came out is asked of the window's Python.
+
+usage: test_window.py PLUGIN DATA OUTPUT
+"""
+
+import json
+import os
+import sys
+
+from window import Window, check, event, python
+
+TIMEOUT = 150
+
+PROPERTIES = "propertiesDock/propertiesPanel/"
+PANEL = PROPERTIES + "scrollArea/qt_scrollarea_viewport/scrollAreaWidgetContents/PropertiesFrame/ProxyPanel/"
+APPLY = event(PROPERTIES + "Accept", "activate")
+DIALOG = "SelectInputDialog/"
+RENDER_AREA = (310, 210, 1590, 1060)
+
+# Runs in the window at the end: what its pipeline holds, as JSON.
+REPORT = """
+import json
+from paraview import simple, servermanager
+
+def definition(group, name):
+    hints = servermanager.ProxyManager().SMProxyManager.GetPrototypeProxy(group, name).GetHints()
+    menu = hints.FindNestedElementByName("ShowInMenu") if hints else None
+    return menu.GetAttribute("category") if menu else None
+
+def describe(source):
+    source.UpdatePipeline()
+    information = source.GetDataInformation()
+    return {"type": source.GetXMLName(), "label": source.GetXMLLabel(), "cells": information.GetNumberOfCells(),
+            "properties": {name: text(source, name) for name in source.ListProperties()},
+            "cell_arrays": source.CellData.keys(),
+            "fields": {name: source.FieldData[name].GetRange(0)[0] for name in source.FieldData.keys()}}
+
+def text(source, name):
+    return str(source.GetPropertyValue(name)) if name not in ("Input", "CAD") else ""
+
+report = {"sources": {key[0]: describe(source) for key, source in simple.GetSources().items()},
+          "menu": {name: definition("filters", name) for name in FILTERS},
+          "functions": [name for name in FUNCTIONS if hasattr(simple, name)]}
+with open(FILE, "w") as file:
+    json.dump(report, file)
+"""
+
+FILTERS = {"ProjectOntoCAD": "Project onto CAD", "CADGeometricError": "CAD Geometric Error",
+           "RefineWithCAD": "Refine with CAD", "MeshValidity": "Mesh Validity"}
+FUNCTIONS = ["CADReader"] + [label.replace(" ", "") for label in FILTERS.values()]
+
+
+def open_file(path):
+    return [event("menubar/menu_File", "activate", "actionFileOpen"), event("FileOpenDialog", "filesSelected", path)]
+
+
+def choose_from_menu(name):
+    return [event("menubar", "activate", "menuFilters"),
+            event("menubar/menuFilters/CAD Refinement", "activate", name)]
+
+
+def choose_cad():
+    """In the dialog that asks for the inputs: the mesh is chosen, the CAD is the first of the pipeline."""
+    click = "50,7,/0:0/0:0"
+    return [check(DIALOG + "buttonFrame/CAD", "text", "CAD"),
+            event(DIALOG + "buttonFrame/CAD", "set_boolean", "true"),
+            event(DIALOG + "pipelineView", "mousePress", "1,1,0," + click),
+            event(DIALOG + "pipelineView", "mouseRelease", "1,0,0," + click)]
+
+
+def panel(*fields):
+    """The fields of the panel and what they must hold: (name, Qt property, value)."""
+    return [check(PANEL + name, qt_property, value) for name, qt_property, value in fields]
+
+
+def use(window, name, *actions):
+    """Makes a filter from the menu, looks at its panel, changes it, and applies it."""
+    window.play(*choose_from_menu(name))
+    if name != "MeshValidity":
+        window.play(*choose_cad())
+        window.picture("dialog_" + name)
+        window.play(event(DIALOG + "buttonBox/1QPushButton0", "activate"))
+    window.play(*actions)
+    window.picture("panel_" + name)
+    window.play(APPLY)
+    window.picture("applied_" + name)
+
+
+def play_all(window, data):
+    window.play(*open_file(os.path.join(data, "naca0012_sharp.igs")),
+                event(PROPERTIES + "SearchBox/AdvancedButton", "set_boolean", "true"),
+                *panel(("TessellationTolerance/DoubleRangeWidget/DoubleLineEdit", "text", "0.001")), APPLY)
+    window.picture("cad")
+    window.play(*open_file(os.path.join(data, "naca0012_coarse.vtu")), APPLY,
+                event("cameraToolbar/actionResetCamera", "activate"))
+    window.picture("mesh")
+    window.play(event("menubar", "activate", "menuFilters"),
+                event("menubar/menuFilters", "activate", "CAD Refinement"))
+    window.picture("menu")
+    use(window, "ProjectOntoCAD",
+        *panel(("UseRegion/CheckBox", "checked", "false"), ("MaximumDistance/DoubleLineEdit0", "text", "0")),
+        event(PANEL + "UseRegion/CheckBox", "set_boolean", "true"),
+        event(PANEL + "Region/DoubleLineEdit1", "set_string", "6.5"),
+        event(PANEL + "Region/DoubleLineEdit5", "set_string", "4.25"),
+        *panel(("Region", "visible", "true"), ("Region/DoubleLineEdit1", "text", "6.5"),
+               ("Region/DoubleLineEdit5", "text", "4.25")))
+    use(window, "CADGeometricError",
+        *panel(("RecursionDepth/IntRangeWidget/LineEdit", "text", "1")),
+        event(PANEL + "RecursionDepth/IntRangeWidget/LineEdit", "set_string", "2"))
+    use(window, "RefineWithCAD",
+        *panel(("Method/ComboBox", "currentText", "Longest Edge Bisection"), ("Method/ComboBox", "count", "2"),
+               ("Levels/IntRangeWidget/LineEdit", "text", "1"), ("MarkingArray/ComboBox", "currentText", "None"),
+               ("Threshold/DoubleLineEdit0", "text", "0"), ("ProjectNewVertices/CheckBox", "checked", "true"),
+               ("Balance/CheckBox", "checked", "true")),
+        event(PANEL + "MarkingArray/ComboBox", "activated", "GeometricError"),
+        event(PANEL + "Threshold/DoubleLineEdit0", "set_string", "1e-5"))
+    use(window, "MeshValidity")
+
+
+def report_of(window):
+    """Has the window write its report after all other events; returns the report's path."""
+    path = window.path("output", "report.json")
+    script = window.path("report.py")
+    with open(script, "w", encoding="utf-8") as file:
+        file.write(f"FILTERS, FUNCTIONS, FILE = {list(FILTERS)!r}, {FUNCTIONS!r}, {path!r}\n{REPORT}")
+    window.play(python(f"exec(open({script!r}).read(), {{}})"), event("", "file_exists", path))
+    return path
+
+
+def by_type(report, name):
+    found = [source for source in report["sources"].values() if source["type"] == name]
+    assert len(found) == 1, f"{len(found)} of {name} in the pipeline: {list(report['sources'])}"
+    return found[0]
+
+
+def check_registered(report):
+    for name, label in FILTERS.items():
+        assert by_type(report, name)["label"] == label
+        assert report["menu"][name] == "CAD Refinement", f"{name} is in the menu {report['menu'][name]}"
+    assert by_type(report, "CADReader")["label"] == "CAD Reader"
+    assert report["functions"] == FUNCTIONS, f"paraview.simple has only {report['functions']}"
+
+
+def check_results(report):
+    project = by_type(report, "ProjectOntoCAD")
+    assert project["properties"]["UseRegion"] == "1", project["properties"]
+    assert "6.5" in project["properties"]["Region"] and "4.25" in project["properties"]["Region"], project["properties"]
+    error = by_type(report, "CADGeometricError")
+    assert error["properties"]["RecursionDepth"] == "2", error["properties"]
+    assert {"GeometricError", "GeometricDistance"} <= set(error["cell_arrays"])
+    assert error["fields"]["GlobalGeometricError"] > 0
+    refine = by_type(report, "RefineWithCAD")
+    assert refine["properties"]["MarkingArray"] == "GeometricError", refine["properties"]
+    assert float(refine["properties"]["Threshold"]) == 1e-5, refine["properties"]
+    assert refine["cells"] > project["cells"] > 0
+    validity = by_type(report, "MeshValidity")
+    assert {"CellValidity", "CellQuality"} <= set(validity["cell_arrays"])
+    assert validity["fields"]["InvalidCells"] == 0 and validity["cells"] == refine["cells"]
+
+
+def check_pictures(pictures):
+    """No picture is empty, and each shows something else than the one before it."""
+    expected = {"cad", "mesh", "menu"} | {f"{kind}_{name}" for name in FILTERS for kind in ("panel", "applied")}
+    assert expected <= set(pictures), f"no pictures {expected - set(pictures)}"
+    for name, picture in pictures.items():
+        assert picture.colors() > 100, f"the picture {name} has {picture.colors()} colours"
+    assert pictures["cad"].colors(RENDER_AREA) > 20, "the CAD is not drawn"
+    for name in FILTERS:
+        before, after = pictures["panel_" + name], pictures["applied_" + name]
+        assert before.rows != after.rows, f"nothing changed when {name} was applied"
+
+
+def main():
+    plugin, data, output = map(os.path.abspath, sys.argv[1:])
+    window = Window(plugin, output)
+    play_all(window, data)
+    report_path = report_of(window)
+    status = window.run(TIMEOUT)
+    pictures = window.pictures()
+    log = window.log()
+    if status != 0 or "ERR|" in log:
+        print("\n".join(line for line in log.splitlines() if "Available widget" not in line))
+        reason = f"still ran after {TIMEOUT} s and was ended" if status is None else f"ended with status {status}"
+        sys.exit(f"the window {reason}, or reported an error; pictures and log are in {output}")
+    with open(report_path, encoding="utf-8") as file:
+        report = json.load(file)
+    check_registered(report)
+    check_results(report)
+    check_pictures(pictures)
+    print(f"{len(window.events)} events played and {len(pictures)} pictures taken; they are in {output}")
+
+
+if __name__ == "__main__":
+    main()
