@@ -38,7 +38,7 @@ def describe(source):
             "fields": {name: source.FieldData[name].GetRange(0)[0] for name in source.FieldData.keys()}}
 
 def text(source, name):
-    return str(source.GetPropertyValue(name)) if name not in ("Input", "CAD") else ""
+    return str(source.GetPropertyValue(name)).strip("'") if name not in ("Input", "CAD") else ""
 
 report = {"sources": {key[0]: describe(source) for key, source in simple.GetSources().items()},
           "menu": {name: definition("filters", name) for name in FILTERS},
