@@ -15,37 +15,14 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
-#include <limits>
 
 namespace cadrefine
 {
 namespace
 {
 
-/// Box round the whole mesh.
-struct Bounds
-{
-  std::vector<double> low;
-  std::vector<double> high;
-};
-
-Bounds findBounds(RankExchange& exchange, const SimplexMesh& mesh)
-{
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  Bounds bounds{ std::vector<double>(3, infinity), std::vector<double>(3, -infinity) };
-  for (const Point3& point : mesh.points)
-  {
-    for (int k = 0; k < 3; ++k)
-    {
-      bounds.low[k] = std::min(bounds.low[k], point[k]);
-      bounds.high[k] = std::max(bounds.high[k], point[k]);
-    }
-  }
-  return { exchange.min(bounds.low), exchange.max(bounds.high) };
-}
-
 /// Place on the Morton curve: the bits of the three coordinates in turn, 21 of each.
-std::int64_t mortonCode(const Bounds& bounds, const Point3& point)
+std::int64_t mortonCode(const MeshBounds& bounds, const Point3& point)
 {
   constexpr int bits = 21;
   std::int64_t code = 0;
@@ -63,7 +40,7 @@ std::int64_t mortonCode(const Bounds& bounds, const Point3& point)
 }
 
 template<std::size_t Corners>
-void appendKeys(const SimplexMesh& mesh, const Bounds& bounds,
+void appendKeys(const SimplexMesh& mesh, const MeshBounds& bounds,
   const std::vector<std::array<Index, Corners>>& cells, const std::vector<GlobalId>& ids,
   std::vector<Key<2>>& keys)
 {
@@ -83,7 +60,7 @@ std::vector<int> chooseRanks(
   RankExchange& exchange, const DistributedMesh& mesh, const std::vector<std::int64_t>& weights)
 {
   const SimplexMesh& piece = mesh.mesh();
-  const Bounds bounds = findBounds(exchange, piece);
+  const MeshBounds bounds = findBounds(exchange, piece);
   const auto& ids = mesh.converted.cellIds;
   std::vector<Key<2>> keys;
   appendKeys(piece, bounds, piece.vertices, ids[0], keys);

@@ -14,18 +14,7 @@ namespace
 /// Whether all vertices of all ranks have a coordinate in common.
 bool liesInCoordinatePlane(RankExchange& exchange, const SimplexMesh& mesh)
 {
-  std::vector<double> low(3, std::numeric_limits<double>::infinity());
-  std::vector<double> high(3, -std::numeric_limits<double>::infinity());
-  for (const Point3& point : mesh.points)
-  {
-    for (int k = 0; k < 3; ++k)
-    {
-      low[k] = std::min(low[k], point[k]);
-      high[k] = std::max(high[k], point[k]);
-    }
-  }
-  low = exchange.min(low);
-  high = exchange.max(high);
+  const auto [low, high] = findBounds(exchange, mesh);
   return low[0] == high[0] || low[1] == high[1] || low[2] == high[2];
 }
 

@@ -3,6 +3,7 @@
 #include "Facets.h"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 namespace cadrefine
@@ -53,6 +54,24 @@ DistributedMesh makeDistributedMesh(RankExchange& exchange, vtkPointSet* input)
   const GlobalId largest = ids.empty() ? -1 : *std::max_element(ids.begin(), ids.end());
   result.vertexIdBound = exchange.max(largest) + 1;
   return result;
+}
+
+MeshBounds findBounds(RankExchange& exchange, const SimplexMesh& mesh)
+{
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  std::vector<double> low(3, infinity);
+  std::vector<double> high(3, -infinity);
+  for (const Point3& point : mesh.points)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      low[k] = std::min(low[k], point[k]);
+      high[k] = std::max(high[k], point[k]);
+    }
+  }
+  low = exchange.min(low);
+  high = exchange.max(high);
+  return { { low[0], low[1], low[2] }, { high[0], high[1], high[2] } };
 }
 
 MeshCounts countMesh(RankExchange& exchange, const DistributedMesh& mesh)

@@ -27,6 +27,16 @@ DistributedMesh makeDistributedMesh(RankExchange& exchange, vtkPointSet* input);
 /// dimension, only ids of vertices on the surface of each piece are sent, otherwise all.
 SharedVertices findShared(RankExchange& exchange, const SimplexMesh& mesh);
 
+/// Box round the whole mesh: low above high where it has no points.
+struct MeshBounds
+{
+  Point3 low;
+  Point3 high;
+};
+
+/// Collective; two reductions of three numbers.
+MeshBounds findBounds(RankExchange& exchange, const SimplexMesh& mesh);
+
 /// Counts of the whole mesh, no vertex or cell twice.
 struct MeshCounts
 {

@@ -32,23 +32,8 @@ void settle(RankExchange& exchange, DistributedMesh& mesh, Moves& moves)
 
 ProposalGrid makeGrid(RankExchange& exchange, const SimplexMesh& mesh)
 {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  std::vector<double> low(3, infinity);
-  std::vector<double> high(3, -infinity);
-  for (const Point3& point : mesh.points)
-  {
-    for (int k = 0; k < 3; ++k)
-    {
-      low[k] = std::min(low[k], point[k]);
-      high[k] = std::max(high[k], point[k]);
-    }
-  }
-  low = exchange.min(low);
-  high = exchange.max(high);
-  ProposalGrid grid;
-  grid.origin = { low[0], low[1], low[2] };
-  grid.size = std::max({ high[0] - low[0], high[1] - low[1], high[2] - low[2] });
-  return grid;
+  const auto [low, high] = findBounds(exchange, mesh);
+  return { low, std::max({ high[0] - low[0], high[1] - low[1], high[2] - low[2] }) };
 }
 
 /// Vertices that did not reach their targets, and the number of them over all ranks.

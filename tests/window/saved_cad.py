@@ -6,6 +6,7 @@ usage: saved_cad.py PLUGIN DATA FOLDER
 import os
 import shutil
 import sys
+import traceback
 
 from paraview import simple
 
@@ -46,4 +47,7 @@ def main():
         pass
 
 
-main()
+try:
+    main()
+except Exception:  # under mpirun pvbatch would hang
+    traceback.print_exc()
