@@ -1,6 +1,7 @@
 #include "vtkProjectOntoCAD.h"
 
 #include "ArrayTransfer.h"
+#include "Error.h"
 #include "InitialProjection.h"
 #include "MeshSummary.h"
 
@@ -23,6 +24,13 @@ void vtkProjectOntoCAD::Execute(cadrefine::RankExchange& exchange, vtkPointSet* 
   options.maximumDistance = this->MaximumDistance;
   if (this->UseRegion)
   {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      if (!(this->Region[2 * axis] <= this->Region[2 * axis + 1]))
+      {
+        throw Error("the region is empty (Region): a lower bound is above its upper one");
+      }
+    }
     std::copy_n(this->Region, 6, options.region.emplace().begin());
   }
 

@@ -91,6 +91,17 @@ protected:
   }
 };
 
+TEST_F(BadInput, emptyRegion)
+{
+  const auto outcome = filters.attempt<vtkProjectOntoCAD>(goodMesh(),
+    [](vtkProjectOntoCAD* filter)
+    {
+      filter->UseRegionOn();
+      filter->SetRegion(1, -1, 1, -1, 1, -1);
+    });
+  expectFailure(outcome, "region is empty");
+}
+
 TEST_F(BadInput, hexahedra)
 {
   expectProjectionFails(withCell(VTK_HEXAHEDRON, { 0, 1, 2, 3, 4, 5, 6, 7 }), "hexahedron");
