@@ -202,8 +202,9 @@ inline NurbsFace bumpyFace(int n, double height, std::uint64_t seed)
   for (int i = 0; i < side * side; ++i)
   {
     const double w = 1.0 + 0.3 * random();
-    const double x = (i / side + 0.3 * random()) / 3.0;
-    const double y = (i % side + 0.3 * random()) / 3.0;
+    const int row = i / side;
+    const double x = (row + 0.3 * random()) / 3.0;
+    const double y = (i - row * side + 0.3 * random()) / 3.0;
     net.push_back({ w * x, w * y, w * height * random(), w });
   }
   NurbsFace face;
