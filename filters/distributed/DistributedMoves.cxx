@@ -9,12 +9,15 @@ namespace cadrefine
 namespace
 {
 
-constexpr int maximumRounds = 10;
+constexpr int maximumRounds = 20;
+/// After so many rounds the region that gives way grows by a ring of cells.
+constexpr int roundsARing = 4;
 
 /// Halves the moves until every cell of every rank accepts them, then makes them.
-void settle(RankExchange& exchange, DistributedMesh& mesh, Moves& moves)
+void settle(
+  RankExchange& exchange, DistributedMesh& mesh, const std::vector<Point3>& reference, Moves& moves)
 {
-  const MoveGuard guard(mesh.mesh());
+  const MoveGuard guard(mesh.mesh(), reference);
   bool halved = true;
   while (halved)
   {
@@ -58,13 +61,47 @@ StuckVertices findStuck(RankExchange& exchange, const DistributedMesh& mesh, con
   return stuck;
 }
 
-/// Moves of the stuck vertices and of the interior vertices of the cells around them.
+template<std::size_t Corners>
+void growOverCells(const std::vector<std::array<Index, Corners>>& cells,
+  const std::vector<unsigned char>& flags, std::vector<unsigned char>& grown)
+{
+  for (const auto& cell : cells)
+  {
+    if (std::any_of(cell.begin(), cell.end(), [&](Index vertex) { return flags[vertex] != 0; }))
+    {
+      for (const Index vertex : cell)
+      {
+        grown[vertex] = 1;
+      }
+    }
+  }
+}
+
+/// The flags and those of all vertices that share a cell with a flagged one, `rings` times.
+std::vector<unsigned char> grow(
+  RankExchange& exchange, const DistributedMesh& mesh, std::vector<unsigned char> flags, int rings)
+{
+  for (int ring = 0; ring < rings; ++ring)
+  {
+    auto grown = flags;
+    growOverCells(mesh.mesh().tetrahedra, flags, grown);
+    growOverCells(mesh.mesh().triangles, flags, grown);
+    combineShared(exchange, mesh.shared, grown,
+      [](unsigned char a, unsigned char b) { return std::max(a, b); });
+    flags = std::move(grown);
+  }
+  return flags;
+}
+
+/// Moves of the stuck vertices, and of the interior vertices of the cells around them and of so
+/// many rings of cells more.
 Moves nextMoves(RankExchange& exchange, const DistributedMesh& mesh, const Moves& moves,
-  const std::vector<unsigned char>& interior, const StuckVertices& stuck, const ProposalGrid& grid)
+  const std::vector<unsigned char>& interior, const StuckVertices& stuck, const ProposalGrid& grid,
+  int rings)
 {
   Moves next(mesh.mesh());
-  auto proposals =
-    proposeInteriorPositions(mesh.mesh(), moves.targets, interior, stuck.flags, grid);
+  auto proposals = proposeInteriorPositions(
+    mesh.mesh(), moves.targets, interior, grow(exchange, mesh, stuck.flags, rings), grid);
   combineShared(
     exchange, mesh.shared, proposals, [](const Proposal& a, const Proposal& b) { return a + b; });
   for (std::size_t v = 0; v < proposals.size(); ++v)
@@ -86,8 +123,9 @@ Moves nextMoves(RankExchange& exchange, const DistributedMesh& mesh, const Moves
 std::vector<double> moveVertices(RankExchange& exchange, DistributedMesh& mesh, const Moves& moves,
   const std::vector<unsigned char>& onBoundary)
 {
+  const std::vector<Point3> reference = mesh.mesh().points;
   Moves wanted = moves;
-  settle(exchange, mesh, wanted);
+  settle(exchange, mesh, reference, wanted);
   StuckVertices stuck = findStuck(exchange, mesh, wanted);
   if (stuck.count > 0)
   {
@@ -99,8 +137,8 @@ std::vector<double> moveVertices(RankExchange& exchange, DistributedMesh& mesh, 
     }
     for (int round = 0; round < maximumRounds && stuck.count > 0; ++round)
     {
-      Moves next = nextMoves(exchange, mesh, wanted, interior, stuck, grid);
-      settle(exchange, mesh, next);
+      Moves next = nextMoves(exchange, mesh, wanted, interior, stuck, grid, round / roundsARing);
+      settle(exchange, mesh, reference, next);
       for (std::size_t v = 0; v < interior.size(); ++v)
       {
         wanted.targets[v] = interior[v] ? mesh.mesh().points[v] : wanted.targets[v];

@@ -25,18 +25,19 @@ double orientedMeanRatio(
   return std::copysign(meanRatio(a, b, c), dot(normal, reference));
 }
 
-/// Whether the cell stays good; called for the cells with a vertex that moves.
-bool acceptsMoves(const SimplexMesh& mesh, const std::array<Index, 4>& cell, const Moves& moves)
+/// Whether the cell stays good, by its state at the reference points `p`; called for the cells with
+/// a vertex that moves.
+bool acceptsMoves(const SimplexMesh& mesh, const std::vector<Point3>& p,
+  const std::array<Index, 4>& cell, const Moves& moves)
 {
-  const auto& p = mesh.points;
   const auto at = [&](int k) { return moves.position(mesh, cell[k]); };
   return accepts(meanRatio(p[cell[0]], p[cell[1]], p[cell[2]], p[cell[3]]),
     meanRatio(at(0), at(1), at(2), at(3)));
 }
 
-bool acceptsMoves(const SimplexMesh& mesh, const std::array<Index, 3>& cell, const Moves& moves)
+bool acceptsMoves(const SimplexMesh& mesh, const std::vector<Point3>& p,
+  const std::array<Index, 3>& cell, const Moves& moves)
 {
-  const auto& p = mesh.points;
   const auto at = [&](int k) { return moves.position(mesh, cell[k]); };
   return accepts(meanRatio(p[cell[0]], p[cell[1]], p[cell[2]]),
     orientedMeanRatio(at(0), at(1), at(2), twofoldAreaVector(p[cell[0]], p[cell[1]], p[cell[2]])));
@@ -44,7 +45,7 @@ bool acceptsMoves(const SimplexMesh& mesh, const std::array<Index, 3>& cell, con
 
 /// Vertices of cells that do not accept.
 template<std::size_t Corners>
-void collectUnaccepted(const SimplexMesh& mesh,
+void collectUnaccepted(const SimplexMesh& mesh, const std::vector<Point3>& reference,
   const std::vector<std::array<Index, Corners>>& cells, const Moves& moves,
   std::vector<Index>& vertices)
 {
@@ -52,7 +53,7 @@ void collectUnaccepted(const SimplexMesh& mesh,
   {
     const bool moving = std::any_of(
       cell.begin(), cell.end(), [&](Index vertex) { return moves.fractions[vertex] > 0; });
-    if (moving && !acceptsMoves(mesh, cell, moves))
+    if (moving && !acceptsMoves(mesh, reference, cell, moves))
     {
       vertices.insert(vertices.end(), cell.begin(), cell.end());
     }
@@ -85,11 +86,11 @@ bool MoveGuard::halveUnaccepted(Moves& moves) const
   std::vector<Index> vertices;
   if (mesh_.dimension == 3)
   {
-    collectUnaccepted(mesh_, mesh_.tetrahedra, moves, vertices);
+    collectUnaccepted(mesh_, reference_, mesh_.tetrahedra, moves, vertices);
   }
   else
   {
-    collectUnaccepted(mesh_, mesh_.triangles, moves, vertices);
+    collectUnaccepted(mesh_, reference_, mesh_.triangles, moves, vertices);
   }
   std::sort(vertices.begin(), vertices.end());
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
