@@ -136,10 +136,10 @@ std::vector<GlobalId> pointIds(RankExchange& exchange, vtkPointSet* input)
     }
     return numberDistinct(exchange, keys).numbers;
   }
-  std::vector<GlobalId> ids(given ? count : 0);
-  for (std::size_t p = 0; p < ids.size(); ++p)
+  std::vector<GlobalId> ids;
+  for (vtkIdType p = 0; given && p < count; ++p)
   {
-    ids[p] = static_cast<GlobalId>(given->GetTuple1(static_cast<vtkIdType>(p)));
+    ids.push_back(static_cast<GlobalId>(given->GetTuple1(p)));
   }
   return ids;
 }

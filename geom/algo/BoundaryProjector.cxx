@@ -177,11 +177,9 @@ bool BoundaryProjector::creaseFits(
     return false;
   }
   const auto faces = entitiesAround(model_.nurbs(), where.entity, 2);
-  std::vector<Vector3> normals;
-  for (const std::int32_t face : faces)
-  {
-    normals.push_back(model_.normalNear(face, where.point));
-  }
+  std::vector<Vector3> normals(faces.size());
+  std::transform(faces.begin(), faces.end(), normals.begin(),
+    [&](std::int32_t face) { return model_.normalNear(face, where.point); });
   if (facets.size() == 1)
   {
     return std::any_of(normals.begin(), normals.end(),

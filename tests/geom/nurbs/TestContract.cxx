@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <thread>
 
@@ -14,12 +16,20 @@ namespace cadrefine
 namespace
 {
 
+std::uint64_t bitsOf(double value)
+{
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, &value, sizeof bits);
+  return bits;
+}
+
 bool sameBits(const ClosestPoint& a, const ClosestPoint& b)
 {
-  return a.entity == b.entity && std::memcmp(&a.point, &b.point, sizeof a.point) == 0 &&
-         std::memcmp(&a.parameters, &b.parameters, sizeof a.parameters) == 0 &&
-         std::memcmp(&a.distance, &b.distance, sizeof a.distance) == 0 &&
-         a.converged == b.converged;
+  const auto same = [](double x, double y) { return bitsOf(x) == bitsOf(y); };
+  return a.entity == b.entity &&
+         std::equal(a.point.begin(), a.point.end(), b.point.begin(), same) &&
+         std::equal(a.parameters.begin(), a.parameters.end(), b.parameters.begin(), same) &&
+         same(a.distance, b.distance) && a.converged == b.converged;
 }
 
 TEST(Ties, BorderNamesEdgeAndEndNamesVertex)
@@ -159,6 +169,7 @@ TEST(Purity, SameBitsInAnyOrderAndOnAnyThread)
   const ClosestPointSearch search(model);
   constexpr int count = 400;
   std::vector<Point3> points;
+  points.reserve(count);
   shapes::Random random(6);
   for (int i = 0; i < count; ++i)
   {
