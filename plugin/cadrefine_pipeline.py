@@ -5,8 +5,8 @@ meshes together: uniform steps cost 1/7 more than the last mesh alone, longest e
 times the last mesh.
 """
 
+import glob
 import os
-import shutil
 import time
 
 from paraview import servermanager, simple
@@ -202,5 +202,15 @@ def write_pieces(mesh, path):
     if session.messages.errors:
         if os.path.exists(path):
             os.remove(path)
-        shutil.rmtree(path[: -len(".pvtu")], ignore_errors=True)
+        remove_pieces(path)
         session.raise_errors(path)
+
+
+def remove_pieces(path):
+    """Removes the pieces of a .pvtu file, NAME/NAME_0.vtu and so on, and nothing else of the user's."""
+    folder = path[: -len(".pvtu")]
+    for piece in glob.glob(glob.escape(os.path.join(folder, os.path.basename(folder))) + "_*.vtu"):
+        if os.path.isfile(piece):
+            os.remove(piece)
+    if os.path.isdir(folder) and not os.listdir(folder):
+        os.rmdir(folder)

@@ -7,7 +7,6 @@ Leaves tables, reports, a convergence plot and pictures of the leading edge in t
 
 import argparse
 import os
-import shutil
 import subprocess
 import sys
 import time
@@ -53,8 +52,10 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--output", default=os.path.join(HERE, "..", "build", "demo"), help="folder of the results")
     folder = os.path.relpath(parser.parse_args().output)
-    shutil.rmtree(folder, ignore_errors=True)
-    os.makedirs(folder)
+    os.makedirs(folder, exist_ok=True)
+    for name in ", ".join(names for names, _ in FILES).split(", "):
+        if os.path.exists(os.path.join(folder, name)):
+            os.remove(os.path.join(folder, name))
 
     def result(name):
         return os.path.join(folder, name)

@@ -165,7 +165,18 @@ bool BoundaryProjector::isOnCAD(const ClassifiedFacet& facet) const
       return true;
     }
   }
-  const ClosestPoint where = nearest((1.0 / 3.0) * (p[0] + p[1] + p[2]), unlimited);
+  const Point3 centroid = (1.0 / 3.0) * (p[0] + p[1] + p[2]);
+  const auto ofThird = entitiesAround(model_.nurbs(), facet.entities[2], 2);
+  for (const std::int32_t face : commonEntities(facet.entities[0], facet.entities[1], 2))
+  {
+    // Between the edges of a narrow face, other faces may be nearer to the centroid than it is.
+    if (std::binary_search(ofThird.begin(), ofThird.end(), face) &&
+        fits(model_.normalNear(face, centroid), normal))
+    {
+      return true;
+    }
+  }
+  const ClosestPoint where = nearest(centroid, unlimited);
   return fitsNormal(where.entity, where, normal);
 }
 
