@@ -50,7 +50,7 @@ void vtkProjectOntoCAD::Execute(cadrefine::RankExchange& exchange, vtkPointSet* 
   output->ShallowCopy(makePointSet(input, mesh.mesh()));
   copyArrays(input, mesh.converted, output);
   writeClassification(output, result.classification);
-  summariseMesh(exchange, mesh, output);
+  summariseMesh(exchange, mesh, measureQuality(exchange, mesh), output);
   summariseProjection(exchange, mesh, result.classification, result.projectedPoints, output);
 }
 

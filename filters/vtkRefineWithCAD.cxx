@@ -65,10 +65,10 @@ private:
     }
     this->Current = makePointSet(prototype, this->Mesh.mesh());
     copyArrays(input, this->Mesh.converted, this->Current);
-    this->PointOfVertexIsIdentity();
+    this->NumberPointsAsVertices();
   }
 
-  void PointOfVertexIsIdentity()
+  void NumberPointsAsVertices()
   {
     auto& pointOf = this->Mesh.converted.pointOf;
     pointOf.resize(this->Mesh.mesh().points.size());
@@ -142,7 +142,7 @@ private:
     auto fine = makePointSet(this->Current, this->Mesh.mesh());
     refineArrays(this->Current, this->Mesh.converted, trace, fine);
     this->Current = fine;
-    this->PointOfVertexIsIdentity();
+    this->NumberPointsAsVertices();
   }
 
   void Summarise()
@@ -153,7 +153,8 @@ private:
       summariseProjection(
         this->Exchange, this->Mesh, this->Positions, this->ProjectedPoints, this->Current);
     }
-    summariseMesh(this->Exchange, this->Mesh, this->Current);
+    summariseMesh(
+      this->Exchange, this->Mesh, measureQuality(this->Exchange, this->Mesh), this->Current);
   }
 
   RankExchange& Exchange;

@@ -99,10 +99,10 @@ void setFieldValue(vtkPointSet* output, const char* name, std::int64_t value)
   output->GetFieldData()->AddArray(array);
 }
 
-void summariseMesh(RankExchange& exchange, const DistributedMesh& mesh, vtkPointSet* output)
+void summariseMesh(RankExchange& exchange, const DistributedMesh& mesh,
+  const CellQualities& qualities, vtkPointSet* output)
 {
   const MeshCounts counts = countMesh(exchange, mesh);
-  const CellQualities qualities = measureQuality(exchange, mesh);
   setFieldValue(output, "GlobalVertices", counts.vertices);
   setFieldValue(output, "GlobalCells", counts.cells);
   setFieldValue(output, "InvalidCells", qualities.invalidCells);

@@ -30,7 +30,8 @@ void setFieldValue(vtkPointSet* output, const char* name, double value);
 void setFieldValue(vtkPointSet* output, const char* name, std::int64_t value);
 
 /// Adds GlobalVertices, GlobalCells, InvalidCells and MinimumQuality. Collective.
-void summariseMesh(RankExchange& exchange, const DistributedMesh& mesh, vtkPointSet* output);
+void summariseMesh(RankExchange& exchange, const DistributedMesh& mesh,
+  const CellQualities& qualities, vtkPointSet* output);
 
 /// Adds CADVertices, UnprojectedVertices and ProjectedPoints. Collective.
 void summariseProjection(RankExchange& exchange, const DistributedMesh& mesh,

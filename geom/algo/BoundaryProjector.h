@@ -33,7 +33,7 @@ struct FacetRecord
   Vector3 normal{};        ///< Unit outward normal of a triangle.
   double area = 0;         ///< Of a triangle.
   unsigned char onCAD = 0; ///< The facet stands for a part of the CAD.
-  unsigned char free = 0;  ///< It is not, because the user's region or limit leaves it out.
+  unsigned char free = 0;  ///< It is not, because the user's region leaves it out.
 };
 
 /// How the midpoint of a mesh edge is to be placed.

@@ -33,8 +33,8 @@ void markLongestEdges(const SimplexMesh& mesh, const EdgeTable& table,
   const std::vector<unsigned char>& cellMarks, EdgeMarks& marks);
 
 /// Rules 2 and 3 within this piece. Returns true where an edge was marked. Work: cells times the
-/// length of the longest chain of marks within the piece; only cells whose marks changed are
-/// looked at closely.
+/// number of sweeps, at most the length of the longest chain of marks within the piece; of cells
+/// without a mark only the marks are looked at.
 bool closeMarks(const SimplexMesh& mesh, const EdgeTable& table, EdgeMarks& marks);
 
 } // namespace cadrefine
