@@ -47,6 +47,8 @@ void vtkCADGeometricError::Execute(cadrefine::RankExchange& exchange, vtkPointSe
   const MeshError error =
     measureError(exchange, mesh, *model, classification, this->RecursionDepth);
 
+  recordBalance(*this->Statistics, "facets", error.balance);
+
   output->ShallowCopy(makePointSet(input, mesh.mesh()));
   copyArrays(input, mesh.converted, output);
   addCellArray(output, arrays::error, error.ofCells);

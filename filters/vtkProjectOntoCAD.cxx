@@ -47,6 +47,8 @@ void vtkProjectOntoCAD::Execute(cadrefine::RankExchange& exchange, vtkPointSet* 
     result = projectBoundary(exchange, mesh, projector, boundary, options);
   }
 
+  recordBalance(*this->Statistics, "points", result.balance);
+
   output->ShallowCopy(makePointSet(input, mesh.mesh()));
   copyArrays(input, mesh.converted, output);
   writeClassification(output, result.classification);

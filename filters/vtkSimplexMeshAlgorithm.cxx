@@ -3,6 +3,7 @@
 #include "Agreement.h"
 #include "CADModel.h"
 #include "RankExchange.h"
+#include "RunStatistics.h"
 #include "vtkCADModelCache.h"
 
 #include <vtkDataObject.h>
@@ -14,6 +15,7 @@
 vtkCxxSetObjectMacro(vtkSimplexMeshAlgorithm, Controller, vtkMultiProcessController);
 
 vtkSimplexMeshAlgorithm::vtkSimplexMeshAlgorithm(bool needsCAD)
+  : Statistics(std::make_unique<cadrefine::RunStatistics>())
 {
   this->SetNumberOfInputPorts(needsCAD ? 2 : 1);
   this->SetController(vtkMultiProcessController::GetGlobalController());
@@ -50,6 +52,8 @@ int vtkSimplexMeshAlgorithm::RequestData(
 {
   vtkPointSet* input = vtkPointSet::GetData(inputs[0]);
   vtkPointSet* output = vtkPointSet::GetData(outputs);
+  this->Statistics->clear();
+  this->StatisticsText = "{}";
   try
   {
     cadrefine::RankExchange exchange(this->Controller);
@@ -59,6 +63,8 @@ int vtkSimplexMeshAlgorithm::RequestData(
       model = this->FindModel(exchange, inputs[1]);
     }
     this->Execute(exchange, input, model.get(), output);
+    this->Statistics->gather(exchange);
+    this->StatisticsText = this->Statistics->json();
     return 1;
   }
   catch (const std::exception& error)

@@ -17,11 +17,13 @@
 #include "vtkPointSetAlgorithm.h"
 
 #include <memory>
+#include <string>
 
 namespace cadrefine
 {
 class CADModel;
 class RankExchange;
+class RunStatistics;
 } // namespace cadrefine
 class vtkMultiProcessController;
 
@@ -42,6 +44,12 @@ public:
   vtkMultiProcessController* GetController() { return this->Controller; }
   ///@}
 
+  /**
+   * What the last run cost, as a JSON object of numbers by name: seconds (of the slowest rank),
+   * bytes sent, how evenly work lay on the ranks. The same on all ranks.
+   */
+  const char* GetRunStatistics() { return this->StatisticsText.c_str(); }
+
 protected:
   /// `needsCAD`: the filter has a second input, the output of a vtkCADReader.
   explicit vtkSimplexMeshAlgorithm(bool needsCAD);
@@ -57,6 +65,8 @@ protected:
   virtual void Execute(cadrefine::RankExchange& exchange, vtkPointSet* input,
     const cadrefine::CADModel* model, vtkPointSet* output) = 0;
 
+  std::unique_ptr<cadrefine::RunStatistics> Statistics; ///< Of this run, by this rank.
+
 private:
   vtkSimplexMeshAlgorithm(const vtkSimplexMeshAlgorithm&) = delete;
   void operator=(const vtkSimplexMeshAlgorithm&) = delete;
@@ -65,6 +75,7 @@ private:
     cadrefine::RankExchange& exchange, vtkInformationVector* input) const;
 
   vtkMultiProcessController* Controller = nullptr;
+  std::string StatisticsText = "{}";
 };
 
 #endif

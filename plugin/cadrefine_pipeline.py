@@ -6,6 +6,7 @@ times the last mesh.
 """
 
 import glob
+import json
 import os
 import time
 
@@ -26,6 +27,7 @@ class Pipeline:
         self.cad = None
         self.values = {}  # Field data of the last mesh: what was counted over all ranks.
         self.seconds = {}  # Of the last step and of reading.
+        self.costs = {}  # Of the last step: what its filters tell of their run, by phase.
         self.mesh_path = ""
 
     def read_mesh(self, path):
@@ -37,7 +39,7 @@ class Pipeline:
         self.timed("read_cad", lambda: session.update(self.cad, path))
 
     def project(self, options):
-        self.seconds.update(project=0.0, error=0.0, refine=0.0)
+        self.start_step()
         self.mesh = simple.ProjectontoCAD(Input=self.mesh, CAD=self.cad, MaximumDistance=options.maximum_distance)
         if options.region:
             self.mesh.UseRegion = 1
@@ -49,7 +51,7 @@ class Pipeline:
         self.run("error")
 
     def refine(self, options, method, method_name):
-        self.seconds.update(project=0.0, error=0.0, refine=0.0)
+        self.start_step()
         marking, threshold = self.marking(options) if method == "longest-edge" else (None, 0.0)
         self.mesh = simple.RefinewithCAD(Input=self.mesh, CAD=self.cad)
         self.mesh.Method = method_name
@@ -57,6 +59,10 @@ class Pipeline:
         self.mesh.MarkingArray = marking or "None"
         self.mesh.Threshold = threshold
         self.run("refine")
+
+    def start_step(self):
+        self.seconds.update(project=0.0, error=0.0, refine=0.0)
+        self.costs = {}
 
     def marking(self, options):
         """Name of the cell array that marks the cells, and its threshold; a calculator joins two indicators."""
@@ -96,6 +102,8 @@ class Pipeline:
         """Runs the last filter, adds its time to `phase` and takes over what it counted."""
         self.timed(phase, lambda: session.update(self.mesh, self.mesh_path))
         self.values.update(field_values(local_output(self.mesh)))
+        self.mesh.UpdatePipelineInformation()
+        self.costs[phase] = json.loads(self.mesh.SMProxy.GetProperty("RunStatistics").GetElement(0))
 
     def timed(self, phase, work):
         started = time.perf_counter()

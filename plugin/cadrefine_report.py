@@ -67,6 +67,7 @@ class Report:
             if array not in pipeline.values:
                 raise Failure(f"{self.options.mesh}: the filters left no field data {array}")
             step[key] = pipeline.values[array]
+        step["costs"] = pipeline.costs
         step["seconds"] = {name: pipeline.seconds[name] for name in ("project", "error", "refine")}
         self.steps.append(step)
         cells = "".join(f"{step[key]:{column_width(head, style)}{style.lstrip('0123456789')}}"

@@ -1,8 +1,8 @@
 #include "DistributedError.h"
 
-#include "Agreement.h"
 #include "DistributedBoundary.h"
 #include "Error.h"
+#include "EvenWork.h"
 #include "GeometricError.h"
 
 #include <algorithm>
@@ -46,26 +46,29 @@ MeshError measureError(RankExchange& exchange, const DistributedMesh& mesh, cons
   const std::size_t cells = mesh.converted.cellIds[piece.dimension].size();
   result.ofCells.assign(cells, 0.0);
   result.distanceOfCells.assign(cells, 0.0);
-  std::vector<double> addends;
-  attempt(exchange,
-    [&]
+  std::vector<std::size_t> facets;
+  std::vector<ErrorFacet> questions;
+  for (std::size_t f = 0; f < boundary.facets.size(); ++f)
+  {
+    if (classes.facetOnCAD[f])
     {
-      for (std::size_t f = 0; f < boundary.facets.size(); ++f)
-      {
-        if (!classes.facetOnCAD[f])
-        {
-          continue;
-        }
-        const Facet& facet = boundary.facets[f];
-        const FacetError error = geometricError(
-          projector, makeErrorFacet(piece, boundary, classes, classification, f), depth);
-        result.ofCells[facet.cell] += error.measure;
-        double& cellDistance = result.distanceOfCells[facet.cell];
-        cellDistance = std::max(cellDistance, error.maximumDistance);
-        result.maximumDistance = std::max(result.maximumDistance, error.maximumDistance);
-        addends.push_back(error.measure);
-      }
-    });
+      facets.push_back(f);
+      questions.push_back(makeErrorFacet(piece, boundary, classes, classification, f));
+    }
+  }
+  const auto answers = answerEvenly<FacetError>(exchange, std::move(questions),
+    [&](const ErrorFacet& facet) { return geometricError(projector, facet, depth); });
+  std::vector<double> addends;
+  for (std::size_t i = 0; i < facets.size(); ++i)
+  {
+    const FacetError& error = answers.values[i];
+    const Index cell = boundary.facets[facets[i]].cell;
+    result.ofCells[cell] += error.measure;
+    result.distanceOfCells[cell] = std::max(result.distanceOfCells[cell], error.maximumDistance);
+    result.maximumDistance = std::max(result.maximumDistance, error.maximumDistance);
+    addends.push_back(error.measure);
+  }
+  result.balance = answers.balance;
   result.global = exchange.sumReproducibly(addends);
   result.maximumDistance = exchange.max(result.maximumDistance);
   return result;

@@ -3,6 +3,7 @@
 
 #include "CADArrays.h"
 #include "DistributedMesh.h"
+#include "EvenWork.h"
 
 #include <vector>
 
@@ -16,10 +17,12 @@ struct MeshError
   std::vector<double> distanceOfCells; ///< Largest distance found from these facets to the CAD.
   double global = 0;
   double maximumDistance = 0;
+  WorkBalance balance; ///< Of the facets over the ranks.
 };
 
 /// Error of every facet on the CAD, added up for its cell (see geometricError). The global sum is
-/// bit for bit the same for every partition. Throws Error for points alone. Collective.
+/// bit for bit the same for every partition. The facets are shared out evenly over ranks and
+/// threads. Throws Error for points alone. Collective.
 MeshError measureError(RankExchange& exchange, const DistributedMesh& mesh, const CADModel& model,
   const Classification& classification, int depth);
 

@@ -2,6 +2,7 @@
 
 #include "Agreement.h"
 #include "DistributedMoves.h"
+#include "EvenWork.h"
 
 #include <algorithm>
 #include <limits>
@@ -22,6 +23,13 @@ bool inRegion(const ProjectionOptions& options, const Point3& p)
          p[2] <= r[5];
 }
 
+/// A point that looks for its nearest one on the CAD, up to a limit.
+struct PointQuestion
+{
+  Point3 point;
+  double limit;
+};
+
 /// The steps of projectBoundary.
 class InitialProjector
 {
@@ -37,7 +45,7 @@ public:
 
   ProjectionResult run()
   {
-    attempt(exchange_, [&] { findNearest(); });
+    findNearest();
     classifyFacets();
     attempt(exchange_, [&] { snapToCreases(); });
     giveCorners();
@@ -54,14 +62,25 @@ private:
   {
     const auto& points = mesh_.mesh().points;
     const auto owned = mesh_.shared.ownedHere(static_cast<Index>(points.size()));
+    std::vector<Index> vertices;
+    std::vector<PointQuestion> questions;
     for (std::size_t v = 0; v < points.size(); ++v)
     {
       if (boundary_.onBoundary[v] && inRegion(options_, points[v]))
       {
-        hits_[v] = projector_.nearest(points[v], limit(v));
+        vertices.push_back(static_cast<Index>(v));
+        questions.push_back({ points[v], limit(v) });
         projected_ += owned[v];
       }
     }
+    const auto answers = answerEvenly<ClosestPoint>(exchange_, std::move(questions),
+      [&](const PointQuestion& question)
+      { return projector_.nearest(question.point, question.limit); });
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+    {
+      hits_[vertices[i]] = answers.values[i];
+    }
+    balance_ = answers.balance;
   }
 
   std::vector<FacetRecord> makeRecords() const
@@ -222,6 +241,7 @@ private:
     }
     result.classification.distances = moveVertices(exchange_, mesh_, moves, boundary_.onBoundary);
     result.projectedPoints = exchange_.sum(projected_);
+    result.balance = balance_;
     return result;
   }
 
@@ -234,6 +254,7 @@ private:
   std::vector<unsigned char> onCAD_;    ///< A facet on the CAD has it.
   std::vector<unsigned char> onCrease_; ///< It is to lie on a crease.
   std::int64_t projected_ = 0;
+  WorkBalance balance_;
 };
 
 } // namespace
@@ -252,31 +273,35 @@ ProjectionResult projectPoints(RankExchange& exchange, DistributedMesh& mesh, co
   ProjectionResult result;
   result.classification.resize(points.size());
   const auto owned = mesh.shared.ownedHere(static_cast<Index>(points.size()));
-  std::int64_t projected = 0;
-  attempt(exchange,
-    [&]
+  SearchScope scope;
+  if (options.maximumDistance > 0)
+  {
+    scope.maximumDistance = options.maximumDistance;
+  }
+  std::vector<Index> vertices;
+  std::vector<Point3> questions;
+  for (std::size_t v = 0; v < points.size(); ++v)
+  {
+    if (inRegion(options, points[v]))
     {
-      SearchScope scope;
-      if (options.maximumDistance > 0)
-      {
-        scope.maximumDistance = options.maximumDistance;
-      }
-      for (std::size_t v = 0; v < points.size(); ++v)
-      {
-        if (!inRegion(options, points[v]))
-        {
-          continue;
-        }
-        projected += owned[v];
-        const ClosestPoint hit = model.nearest(points[v], scope);
-        if (hit.entity)
-        {
-          result.classification.set(static_cast<Index>(v), hit);
-          points[v] = hit.point;
-        }
-      }
-    });
-  result.projectedPoints = exchange.sum(projected);
+      vertices.push_back(static_cast<Index>(v));
+      questions.push_back(points[v]);
+      result.projectedPoints += owned[v];
+    }
+  }
+  const auto answers = answerEvenly<ClosestPoint>(exchange, std::move(questions),
+    [&](const Point3& point) { return model.nearest(point, scope); });
+  for (std::size_t i = 0; i < vertices.size(); ++i)
+  {
+    const ClosestPoint& hit = answers.values[i];
+    if (hit.entity)
+    {
+      result.classification.set(vertices[i], hit);
+      points[vertices[i]] = hit.point;
+    }
+  }
+  result.projectedPoints = exchange.sum(result.projectedPoints);
+  result.balance = answers.balance;
   return result;
 }
 

@@ -5,6 +5,7 @@
 #include "CADArrays.h"
 #include "DistributedBoundary.h"
 #include "DistributedMesh.h"
+#include "EvenWork.h"
 
 #include <array>
 #include <cstdint>
@@ -26,6 +27,7 @@ struct ProjectionResult
 {
   Classification classification;
   std::int64_t projectedPoints = 0; ///< Vertices that were looked up on the CAD, over all ranks.
+  WorkBalance balance;              ///< Of these look-ups over the ranks.
 };
 
 /// Moves the boundary vertices of the mesh onto the CAD (S. Strunk, KTH 2013, Algorithm 4.1):
@@ -38,7 +40,8 @@ struct ProjectionResult
 ///   4. each corner of the CAD takes the nearest of these vertices that is within half of its
 ///      longest edge;
 ///   5. the vertices move as far as all cells stay valid (see moveVertices).
-/// Work: one whole-model query for each boundary vertex and for some facets and boundary edges.
+/// Work: one whole-model query for each boundary vertex, shared out evenly over ranks and threads,
+/// and for some facets and boundary edges.
 /// Collective.
 ProjectionResult projectBoundary(RankExchange& exchange, DistributedMesh& mesh,
   const BoundaryProjector& projector, const DistributedBoundary& boundary,

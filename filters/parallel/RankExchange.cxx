@@ -146,6 +146,16 @@ std::vector<double> RankExchange::max(const std::vector<double>& mine)
   return withNan(reduce(withoutNan(mine, -infinity, 1.0), diy::mpi::maximum<double>()));
 }
 
+std::vector<std::int64_t> RankExchange::gather(std::int64_t mine)
+{
+  if (!link_)
+    return { mine };
+  ++collectivesCalled_;
+  std::vector<std::int64_t> all;
+  diy::mpi::all_gather(link_->ranks, mine, all);
+  return all;
+}
+
 std::int64_t RankExchange::sumBefore(std::int64_t mine)
 {
   if (!link_)

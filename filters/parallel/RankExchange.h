@@ -82,6 +82,9 @@ public:
   std::vector<double> min(const std::vector<double>& mine);
   std::vector<double> max(const std::vector<double>& mine);
 
+  /// What each rank gives, in the order of the ranks: 8 bytes x P.
+  std::vector<std::int64_t> gather(std::int64_t mine);
+
   /// The sum of `mine` over the ranks below this one.
   std::int64_t sumBefore(std::int64_t mine);
 

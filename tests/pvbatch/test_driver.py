@@ -40,6 +40,7 @@ class Driver(unittest.TestCase):
         for step in report["steps"]:
             self.assertLessEqual(STEP_KEYS, set(step))
             self.assertEqual(set(step["seconds"]), {"project", "error", "refine"})
+            self.assertLessEqual(step["costs"]["error"]["facets imbalance after"], 1.1)
             self.assertEqual(step["invalid_cells"], 0)
             self.assertGreater(step["minimum_quality"], 0.0)
         first, second = report["steps"]

@@ -1,0 +1,114 @@
+// Work that any rank can do, shared out evenly.
+#pragma once
+
+#include "Agreement.h"
+#include "RankExchange.h"
+#include "RunStatistics.h"
+#include "Threads.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace cadrefine
+{
+
+/// How evenly questions lie on the ranks.
+struct WorkBalance
+{
+  std::int64_t total = 0;
+  double before = 1; ///< Largest over mean of the questions that ranks have.
+  double after = 1;  ///< The same of those that they answer.
+};
+
+/// Adds the figures "<work> imbalance before" and "<work> imbalance after".
+void recordBalance(RunStatistics& statistics, const std::string& work, const WorkBalance& balance);
+
+/// A run of questions that goes from a rank that has too many to one that has too few.
+struct Parcel
+{
+  int from = 0;
+  int to = 0;
+  std::size_t count = 0;
+};
+
+struct WorkPlan
+{
+  WorkBalance balance;
+  std::size_t kept = 0;        ///< This rank answers its first ones itself.
+  std::vector<Parcel> parcels; ///< Those from and to this rank, in the order of `from` and `to`.
+};
+
+/// What each rank answers: total / ranks questions, up to one more. Ranks with too many send their
+/// last ones; fewer than 2 x ranks parcels in all. Collective; one number is gathered from every
+/// rank.
+WorkPlan planEvenWork(RankExchange& exchange, std::size_t questions);
+
+template<class Answer>
+struct Answers
+{
+  std::vector<Answer> values; ///< In the order of the questions.
+  WorkBalance balance;
+};
+
+/// function(question) for every question of every rank, wherever there is time for it: the answers
+/// do not depend on where. Questions and answers are plain values; `function` is called from
+/// several threads and must not communicate; where it throws, all ranks throw an Error with the
+/// reason of the lowest rank. Collective. Messages: one number gathered from every rank, and what a
+/// rank has above the mean goes to one of those below it, and the answers back: at most 2 x ranks
+/// messages in all.
+template<class Answer, class Question, class Function>
+Answers<Answer> answerEvenly(
+  RankExchange& exchange, std::vector<Question> questions, const Function& function)
+{
+  const int threads = findThreads(exchange);
+  const WorkPlan plan = planEvenWork(exchange, questions.size());
+  std::vector<int> others;
+  std::vector<std::vector<Question>> outgoing;
+  auto next = questions.begin() + static_cast<std::ptrdiff_t>(plan.kept);
+  for (const Parcel& parcel : plan.parcels)
+  {
+    const bool mine = parcel.from == exchange.rank();
+    others.push_back(mine ? parcel.to : parcel.from);
+    const auto end = next + static_cast<std::ptrdiff_t>(mine ? parcel.count : 0);
+    outgoing.emplace_back(next, end);
+    next = end;
+  }
+  questions.resize(plan.kept);
+  const auto incoming = exchange.exchange(others, outgoing);
+  for (const auto& parcel : incoming)
+  {
+    questions.insert(questions.end(), parcel.begin(), parcel.end());
+  }
+
+  Answers<Answer> result;
+  result.balance = plan.balance;
+  attempt(exchange,
+    [&]
+    {
+      result.values.resize(questions.size());
+      forRanges(threads, questions.size(),
+        [&](std::size_t begin, std::size_t end)
+        {
+          const Question* first = questions.data();
+          std::transform(first + begin, first + end, result.values.data() + begin, function);
+        });
+    });
+  std::vector<std::vector<Answer>> returned;
+  auto answer = result.values.begin() + static_cast<std::ptrdiff_t>(plan.kept);
+  for (const auto& parcel : incoming)
+  {
+    const auto end = answer + static_cast<std::ptrdiff_t>(parcel.size());
+    returned.emplace_back(answer, end);
+    answer = end;
+  }
+  result.values.resize(plan.kept);
+  for (const auto& parcel : exchange.exchange(others, returned))
+  {
+    result.values.insert(result.values.end(), parcel.begin(), parcel.end());
+  }
+  return result;
+}
+
+} // namespace cadrefine

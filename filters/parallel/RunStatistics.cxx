@@ -1,0 +1,52 @@
+#include "RunStatistics.h"
+
+#include <iomanip>
+#include <limits>
+#include <sstream>
+#include <utility>
+
+namespace cadrefine
+{
+
+RunStatistics::Stopwatch::Stopwatch(RunStatistics& statistics, std::string name)
+  : statistics_(statistics), name_(std::move(name)), start_(std::chrono::steady_clock::now())
+{
+}
+
+RunStatistics::Stopwatch::~Stopwatch()
+{
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start_;
+  statistics_.add(name_, seconds.count());
+}
+
+void RunStatistics::gather(RankExchange& exchange)
+{
+  const auto bytes = exchange.bytesSent();
+  const std::vector<std::int64_t> sent = exchange.sum({ bytes, exchange.messagesSent() });
+  std::vector<double> values{ static_cast<double>(bytes) };
+  for (const auto& figure : figures_)
+    values.push_back(figure.second);
+  values = exchange.max(values);
+  std::size_t next = 1;
+  for (auto& figure : figures_)
+    figure.second = values[next++];
+  set("bytes sent", static_cast<double>(sent[0]));
+  set("messages sent", static_cast<double>(sent[1]));
+  set("largest bytes sent", values[0]);
+}
+
+std::string RunStatistics::json() const
+{
+  std::ostringstream text;
+  text << std::setprecision(std::numeric_limits<double>::digits10) << "{";
+  const char* separator = "";
+  for (const auto& [name, value] : figures_)
+  {
+    text << separator << std::quoted(name) << ": " << value;
+    separator = ", ";
+  }
+  text << "}";
+  return text.str();
+}
+
+} // namespace cadrefine

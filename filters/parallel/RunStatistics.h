@@ -1,0 +1,50 @@
+// What one run of a filter cost.
+#pragma once
+
+#include "RankExchange.h"
+
+#include <chrono>
+#include <map>
+#include <string>
+
+namespace cadrefine
+{
+
+/// Figures by name, such as "seconds projection": times, bytes, how evenly work lay on the ranks.
+/// They differ from run to run, so they do not belong into a filter's output.
+class RunStatistics
+{
+public:
+  /// Adds the wall clock time from its construction to its end to the figure `name`.
+  class Stopwatch
+  {
+  public:
+    Stopwatch(RunStatistics& statistics, std::string name);
+    ~Stopwatch();
+    Stopwatch(const Stopwatch&) = delete;
+    Stopwatch& operator=(const Stopwatch&) = delete;
+
+  private:
+    RunStatistics& statistics_;
+    std::string name_;
+    std::chrono::steady_clock::time_point start_;
+  };
+
+  void clear() { figures_.clear(); }
+  void set(const std::string& name, double value) { figures_[name] = value; }
+  void add(const std::string& name, double value) { figures_[name] += value; }
+  const std::map<std::string, double>& figures() const { return figures_; }
+
+  /// Makes each figure the largest of all ranks, which must have the same names, and adds what the
+  /// ranks sent since `exchange` was made: "bytes sent" and "messages sent" by all ranks, and
+  /// "largest bytes sent" by one. Collective; two reductions.
+  void gather(RankExchange& exchange);
+
+  /// As a JSON object.
+  std::string json() const;
+
+private:
+  std::map<std::string, double> figures_;
+};
+
+} // namespace cadrefine
