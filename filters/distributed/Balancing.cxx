@@ -3,7 +3,7 @@
 #include "Agreement.h"
 #include "ArrayTransfer.h"
 #include "Error.h"
-#include "GlobalNumbering.h"
+#include "WeightedPartition.h"
 
 #include <vtkAppendFilter.h>
 #include <vtkCellData.h>
@@ -21,78 +21,59 @@ namespace cadrefine
 namespace
 {
 
-/// Place on the Morton curve: the bits of the three coordinates in turn, 21 of each.
-std::int64_t mortonCode(const MeshBounds& bounds, const Point3& point)
-{
-  constexpr int bits = 21;
-  std::int64_t code = 0;
-  for (int k = 0; k < 3; ++k)
-  {
-    const double extent = bounds.high[k] - bounds.low[k];
-    const double part = extent > 0 ? (point[k] - bounds.low[k]) / extent : 0;
-    const auto step = static_cast<std::int64_t>(std::clamp(part, 0.0, 1.0) * ((1 << bits) - 1));
-    for (int bit = 0; bit < bits; ++bit)
-    {
-      code |= ((step >> bit) & 1) << (3 * bit + k);
-    }
-  }
-  return code;
-}
-
 template<std::size_t Corners>
-void appendKeys(const SimplexMesh& mesh, const MeshBounds& bounds,
-  const std::vector<std::array<Index, Corners>>& cells, const std::vector<GlobalId>& ids,
-  std::vector<Key<2>>& keys)
+void appendCentres(const SimplexMesh& mesh, const std::vector<std::array<Index, Corners>>& cells,
+  std::vector<Point3>& centres)
 {
-  for (std::size_t c = 0; c < cells.size(); ++c)
+  for (const auto& cell : cells)
   {
-    Point3 centre{};
-    for (const Index vertex : cells[c])
+    Point3& centre = centres.emplace_back(Point3{});
+    for (const Index vertex : cell)
     {
       centre = centre + (1.0 / Corners) * mesh.points[vertex];
     }
-    keys.push_back({ mortonCode(bounds, centre), ids[c] });
   }
 }
 
-/// The rank that each cell goes to, cells of dimension 0 first.
-std::vector<int> chooseRanks(
-  RankExchange& exchange, const DistributedMesh& mesh, const std::vector<std::int64_t>& weights)
+/// Centres of all cells, those of dimension 0 first.
+std::vector<Point3> cellCentres(const SimplexMesh& mesh)
 {
-  const SimplexMesh& piece = mesh.mesh();
-  const MeshBounds bounds = findBounds(exchange, piece);
-  const auto& ids = mesh.converted.cellIds;
-  std::vector<Key<2>> keys;
-  appendKeys(piece, bounds, piece.vertices, ids[0], keys);
-  appendKeys(piece, bounds, piece.segments, ids[1], keys);
-  appendKeys(piece, bounds, piece.triangles, ids[2], keys);
-  appendKeys(piece, bounds, piece.tetrahedra, ids[3], keys);
-  const Numbering before = offsets(exchange, keys, weights);
-  std::vector<int> ranks;
-  for (const GlobalId weight : before.numbers)
-  {
-    const double part = static_cast<double>(weight) / static_cast<double>(before.count);
-    ranks.push_back(std::min(exchange.size() - 1, static_cast<int>(part * exchange.size())));
-  }
-  return ranks;
+  std::vector<Point3> centres;
+  centres.reserve(mesh.cellCount());
+  appendCentres(mesh, mesh.vertices, centres);
+  appendCentres(mesh, mesh.segments, centres);
+  appendCentres(mesh, mesh.triangles, centres);
+  appendCentres(mesh, mesh.tetrahedra, centres);
+  return centres;
 }
 
-/// The cells of a piece that go to one rank.
+/// Makes meshes of some of a piece's cells.
 class PartMaker
 {
 public:
-  PartMaker(const DistributedMesh& mesh, const std::vector<int>& ranks, int rank)
-    : mesh_(mesh), ranks_(ranks), rank_(rank), vertexOf_(mesh.mesh().points.size(), -1)
+  explicit PartMaker(const DistributedMesh& mesh)
+    : mesh_(mesh), vertexOf_(mesh.mesh().points.size(), -1)
   {
-    const SimplexMesh& piece = mesh.mesh();
+  }
+
+  /// `cells` count from the first one of dimension 0, and ascend. Work: linear in their number.
+  ConvertedMesh make(const std::vector<vtkIdType>& cells)
+  {
+    part_ = {};
+    const SimplexMesh& piece = mesh_.mesh();
     part_.mesh.dimension = piece.dimension;
+    next_ = cells.begin();
+    end_ = cells.end();
     take(0, piece.vertices, part_.mesh.vertices);
     take(1, piece.segments, part_.mesh.segments);
     take(2, piece.triangles, part_.mesh.triangles);
     take(3, piece.tetrahedra, part_.mesh.tetrahedra);
+    for (const vtkIdType vertex : part_.pointOf)
+    {
+      vertexOf_[vertex] = -1;
+    }
+    return std::move(part_);
   }
-
-  const ConvertedMesh& part() const { return part_; }
 
 private:
   template<std::size_t Corners>
@@ -100,17 +81,15 @@ private:
     std::vector<std::array<Index, Corners>>& taken)
   {
     const vtkIdType first = firstCellOfDimension(mesh_.mesh(), dimension);
-    for (std::size_t c = 0; c < cells.size(); ++c)
+    const vtkIdType last = first + static_cast<vtkIdType>(cells.size());
+    for (; next_ != end_ && *next_ < last; ++next_)
     {
-      const vtkIdType cell = first + static_cast<vtkIdType>(c);
-      if (ranks_[cell] == rank_)
-      {
-        auto& corners = taken.emplace_back();
-        std::transform(cells[c].begin(), cells[c].end(), corners.begin(),
-          [&](Index vertex) { return newVertex(vertex); });
-        part_.cellOf[dimension].push_back(cell);
-        part_.cellIds[dimension].push_back(mesh_.converted.cellIds[dimension][c]);
-      }
+      const auto& corners = cells[*next_ - first];
+      auto& newCorners = taken.emplace_back();
+      std::transform(corners.begin(), corners.end(), newCorners.begin(),
+        [&](Index vertex) { return newVertex(vertex); });
+      part_.cellOf[dimension].push_back(*next_);
+      part_.cellIds[dimension].push_back(mesh_.converted.cellIds[dimension][*next_ - first]);
     }
   }
 
@@ -127,10 +106,10 @@ private:
   }
 
   const DistributedMesh& mesh_;
-  const std::vector<int>& ranks_;
-  int rank_;
-  std::vector<Index> vertexOf_;
+  std::vector<Index> vertexOf_; ///< Vertex of the part, or -1.
   ConvertedMesh part_;
+  std::vector<vtkIdType>::const_iterator next_;
+  std::vector<vtkIdType>::const_iterator end_;
 };
 
 std::vector<char> pack(const ConvertedMesh& part, vtkPointSet* input)
@@ -174,17 +153,22 @@ void markGlobalIds(vtkDataSetAttributes* source, vtkDataSetAttributes* output)
 vtkSmartPointer<vtkPointSet> redistribute(RankExchange& exchange, const DistributedMesh& mesh,
   vtkPointSet* input, const std::vector<std::int64_t>& weights)
 {
-  const std::vector<int> ranks = chooseRanks(exchange, mesh, weights);
+  const std::vector<int> ranks = partitionByWeight(exchange, cellCentres(mesh.mesh()), weights);
   std::vector<std::vector<char>> outgoing(exchange.size());
   attempt(exchange,
     [&]
     {
+      std::vector<std::vector<vtkIdType>> cellsTo(exchange.size());
+      for (std::size_t cell = 0; cell < ranks.size(); ++cell)
+      {
+        cellsTo[ranks[cell]].push_back(static_cast<vtkIdType>(cell));
+      }
+      PartMaker maker(mesh);
       for (int rank = 0; rank < exchange.size(); ++rank)
       {
-        const PartMaker maker(mesh, ranks, rank);
-        if (maker.part().mesh.cellCount() > 0)
+        if (!cellsTo[rank].empty())
         {
-          outgoing[rank] = pack(maker.part(), input);
+          outgoing[rank] = pack(maker.make(cellsTo[rank]), input);
         }
       }
     });

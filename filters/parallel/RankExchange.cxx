@@ -2,8 +2,8 @@
 
 #include "Error.h"
 #include "FixedPointSum.h"
+#include "RankExchangeLink.h"
 
-#include <vtkDIYUtilities.h>
 #include <vtkMultiProcessController.h>
 
 #include <algorithm>
@@ -72,11 +72,6 @@ std::vector<double> withNan(std::vector<double> reduced)
 }
 
 } // namespace
-
-struct RankExchange::Link
-{
-  diy::mpi::communicator ranks;
-};
 
 RankExchange::RankExchange(vtkMultiProcessController* controller, std::size_t messageLimit)
   : messageLimit_(messageLimit)

@@ -120,6 +120,10 @@ public:
   std::int64_t messagesSent() const { return messagesSent_; }
   std::int64_t collectivesCalled() const { return collectivesCalled_; }
 
+  struct Link;
+  /// The communicator (see RankExchangeLink.h); null with one rank.
+  const Link* link() const { return link_.get(); }
+
 private:
   // A message is the length of its data in bytes (8 bytes), and the data.
   using Message = std::vector<char>;
@@ -138,7 +142,6 @@ private:
   template<class T, class Operation>
   std::vector<T> reduce(const std::vector<T>& mine, const Operation& operation);
 
-  struct Link;
   std::unique_ptr<Link> link_; // null where there is one rank
   int rank_ = 0;
   int size_ = 1;
