@@ -1,5 +1,6 @@
 #include "Partition.h"
 
+#include <vtkCell.h>
 #include <vtkCellData.h>
 #include <vtkCellType.h>
 #include <vtkDataArray.h>
@@ -12,9 +13,11 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <numeric>
 #include <random>
 #include <set>
 #include <stdexcept>
@@ -227,14 +230,67 @@ private:
   std::map<vtkIdType, vtkIdType> pointOf_;
 };
 
+std::vector<vtkIdType> allCells(vtkPointSet* whole)
+{
+  std::vector<vtkIdType> cells(static_cast<std::size_t>(whole->GetNumberOfCells()));
+  std::iota(cells.begin(), cells.end(), 0);
+  return cells;
+}
+
+/// Twice the middle of a cell's box along an axis.
+double middle(vtkPointSet* whole, vtkIdType cell, int axis)
+{
+  const double* bounds = whole->GetCell(cell)->GetBounds();
+  return bounds[2 * axis] + bounds[2 * axis + 1];
+}
+
+/// Deals cells out to `ranks` ranks from `first` on.
+void halve(vtkPointSet* whole, std::vector<vtkIdType> cells, int first, int ranks,
+  std::vector<int>& rankOfCell)
+{
+  if (ranks == 1)
+  {
+    for (const vtkIdType cell : cells)
+    {
+      rankOfCell[cell] = first;
+    }
+    return;
+  }
+  std::array<double, 3> extents{};
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    double low = std::numeric_limits<double>::infinity();
+    double high = -low;
+    for (const vtkIdType cell : cells)
+    {
+      low = std::min(low, middle(whole, cell, axis));
+      high = std::max(high, middle(whole, cell, axis));
+    }
+    extents[axis] = high - low;
+  }
+  const auto axis =
+    static_cast<int>(std::max_element(extents.begin(), extents.end()) - extents.begin());
+  std::sort(cells.begin(), cells.end(),
+    [&](vtkIdType a, vtkIdType b)
+    { return std::pair(middle(whole, a, axis), a) < std::pair(middle(whole, b, axis), b); });
+  const auto half = cells.begin() + static_cast<std::ptrdiff_t>(cells.size()) * (ranks / 2) / ranks;
+  halve(whole, { cells.begin(), half }, first, ranks / 2, rankOfCell);
+  halve(whole, { half, cells.end() }, first + ranks / 2, ranks - ranks / 2, rankOfCell);
+}
+
 } // namespace
 
-std::vector<int> deal(Dealing dealing, std::int64_t cellCount, int ranks)
+std::vector<int> deal(Dealing dealing, vtkPointSet* whole, int ranks)
 {
+  std::vector<int> rankOfCell(static_cast<std::size_t>(whole->GetNumberOfCells()));
+  if (dealing == Dealing::KdTree)
+  {
+    halve(whole, allCells(whole), 0, ranks, rankOfCell);
+    return rankOfCell;
+  }
   std::mt19937_64 random(99);
   const int first = dealing == Dealing::EmptyRank && ranks > 1 ? 1 : 0;
   std::uniform_int_distribution<int> anyRank(first, ranks - 1);
-  std::vector<int> rankOfCell(static_cast<std::size_t>(cellCount));
   for (std::size_t c = 0; c < rankOfCell.size(); ++c)
   {
     rankOfCell[c] = dealing == Dealing::Blocks
@@ -248,12 +304,14 @@ vtkSmartPointer<vtkPointSet> pieceOf(
   vtkPointSet* whole, const std::vector<int>& rankOfCell, int rank, bool ghosts)
 {
   const auto levels = ghostLevels(whole, rankOfCell, rank, ghosts);
+  std::vector<vtkIdType> cells = allCells(whole);
+  std::shuffle(cells.begin(), cells.end(), std::mt19937_64(rank));
   PieceMaker maker(whole);
-  for (std::size_t c = 0; c < levels.size(); ++c)
+  for (const vtkIdType c : cells)
   {
     if (levels[c] <= 1)
     {
-      maker.addCell(static_cast<vtkIdType>(c), levels[c]);
+      maker.addCell(c, levels[c]);
     }
   }
   return maker.finish(ghosts);

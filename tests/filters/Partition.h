@@ -21,14 +21,15 @@ enum class Dealing
 {
   Blocks,   ///< Cells in their order, as many to each rank.
   Random,   ///< Each cell to any rank.
+  KdTree,   ///< Halved along the longest side of what is left, again and again.
   EmptyRank ///< At random, but nothing to rank 0 (unless it is alone).
 };
 
 /// The rank of each cell; the same on every rank.
-std::vector<int> deal(Dealing dealing, std::int64_t cellCount, int ranks);
+std::vector<int> deal(Dealing dealing, vtkPointSet* whole, int ranks);
 
-/// A rank's piece of `whole`: its cells with their points and arrays. With ghosts, the cells of
-/// other ranks that touch them are there too, marked as duplicates.
+/// A rank's piece of `whole`: its cells, in any order, with their points and arrays. With ghosts,
+/// the cells of other ranks that touch them are there too, marked as duplicates.
 vtkSmartPointer<vtkPointSet> pieceOf(
   vtkPointSet* whole, const std::vector<int>& rankOfCell, int rank, bool ghosts);
 

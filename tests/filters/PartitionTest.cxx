@@ -119,7 +119,7 @@ struct Case
 
 std::string nameOf(const Case& c)
 {
-  const char* dealings[] = { "Blocks", "Random", "EmptyRank" };
+  const char* dealings[] = { "Blocks", "Random", "KdTree", "EmptyRank" };
   return problems[c.problem].name + dealings[static_cast<int>(c.dealing)] +
          (c.ids ? "Ids" : "NoIds") + (c.ghosts ? "Ghosts" : "") + (c.balance ? "Balanced" : "");
 }
@@ -134,6 +134,8 @@ std::vector<Case> cases()
     result.push_back({ problem, Dealing::Blocks, false, true, false });
     result.push_back({ problem, Dealing::Random, true, true, false });
     result.push_back({ problem, Dealing::Random, false, false, true });
+    result.push_back({ problem, Dealing::KdTree, true, false, true });
+    result.push_back({ problem, Dealing::KdTree, false, true, false });
     result.push_back({ problem, Dealing::EmptyRank, true, false, true });
     result.push_back({ problem, Dealing::EmptyRank, false, false, false });
   }
@@ -251,8 +253,7 @@ INSTANTIATE_TEST_SUITE_P(Problems, Partition, testing::ValuesIn(cases()),
 TEST_P(Partition, givesTheSameMeshAsOneRank)
 {
   const auto whole = wholeMesh();
-  const auto rankOfCell =
-    cadtest::deal(GetParam().dealing, whole->GetNumberOfCells(), exchange.size());
+  const auto rankOfCell = cadtest::deal(GetParam().dealing, whole, exchange.size());
   const auto piece = cadtest::pieceOf(whole, rankOfCell, exchange.rank(), GetParam().ghosts);
   const Steps pieces = run(piece, worldController());
   const Steps serial = exchange.rank() == 0 ? run(whole, nullptr) : Steps(pieces.size());
@@ -273,8 +274,7 @@ protected:
 
   vtkSmartPointer<vtkPointSet> ownPieceOf(vtkPointSet* whole) const
   {
-    return cadtest::pieceOf(whole,
-      cadtest::deal(cadtest::Dealing::Random, whole->GetNumberOfCells(), exchange.size()),
+    return cadtest::pieceOf(whole, cadtest::deal(cadtest::Dealing::Random, whole, exchange.size()),
       exchange.rank(), false);
   }
 
