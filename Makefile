@@ -23,7 +23,7 @@ packages: ## Install the Debian packages that are missing
 	@.ci/install-packages
 
 .PHONY: build
-build: packages ## Build the plugin (build/release) and the tests
+build: packages ## Build the plugin (build/release), the tests and the benchmarks
 	@cmake --preset release $(CONFIGURE)
 	@cmake --build --preset release --parallel $(JOBS)
 
@@ -34,6 +34,10 @@ demo: build ## Run the NACA 0012 case on two ranks: tables and pictures in build
 .PHONY: test
 test: build format-check ## Run all tests
 	@ctest --preset release --parallel $(JOBS)
+
+.PHONY: benchmarks
+benchmarks: build ## Measure against other programs: tables of rates and ratios
+	@build/release/tests/benchmarks/closest_point_benchmark
 
 .PHONY: sanitizers
 sanitizers: packages ## Run the tests of the numerical core with address and undefined behaviour sanitizers
