@@ -1,113 +1,161 @@
-// Hierarchy of axis-aligned boxes. Private to geom/nurbs.
+// Hierarchies of axis-aligned boxes. Private to geom/nurbs.
 #pragma once
 
-#include "Vector3.h"
+#include "BoundingBox.h"
 
-#include <algorithm>
-#include <limits>
-#include <utility>
+#include <array>
+#include <cmath>
+#include <cstdint>
 #include <vector>
 
 namespace cadrefine
 {
 
-struct BoundingBox
-{
-  Point3 low{ std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
-    std::numeric_limits<double>::infinity() };
-  Point3 high{ -std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
-    -std::numeric_limits<double>::infinity() };
-
-  void include(const Point3& p);
-  void include(const BoundingBox& box);
-  bool isEmpty() const { return low[0] > high[0]; }
-  double diagonal() const { return isEmpty() ? 0.0 : distance(low, high); }
-  double squaredDistance(const Point3& q) const
-  {
-    double sum = 0;
-    for (int k = 0; k < 3; ++k)
-    {
-      const double gap = std::max(std::max(low[k] - q[k], q[k] - high[k]), 0.0);
-      sum += gap * gap;
-    }
-    return sum;
-  }
-};
-
-/// Binary trees over items (numbers of the caller's), all in one array of nodes, so that trees over
-/// parts can be joined into a tree over the whole. Build O(n log n), balanced: depth at most
-/// log2(n) + 1 for each level of joining.
+/// Trees over items (numbers of the caller's), all in one array of nodes. A node holds the boxes of
+/// its up to four children, side by side in single precision and rounded outward, in units of
+/// `size` round `centre`: two cache lines, and one pass over them for the distances to all four.
+/// Build O(n log n); memory about 45 bytes an item; depth O(log n).
 class BoundingBoxTree
 {
 public:
-  /// What a tree is built over: an item, or the root of a tree built before.
   struct Entry
   {
     BoundingBox box;
-    int item = -1; ///< Number of the item, or -1.
-    int root = -1; ///< Root of a tree, where `item` is -1.
+    int item = 0; ///< Not negative.
   };
 
-  static constexpr int none = -1;
+  /// A node, or an item where there is only one.
+  using Root = std::int32_t;
+  static constexpr Root none = std::numeric_limits<Root>::min();
 
-  /// Root of a tree over `entries`; `none` where there are none.
-  int build(std::vector<Entry> entries);
-  const BoundingBox& box(int root) const { return nodes_[root].box; }
+  BoundingBoxTree() = default;
+  /// All boxes should lie within `size` of `centre`, or tests are less sharp.
+  BoundingBoxTree(const Point3& centre, double size);
 
-  /// Calls `visit(item, squaredDistance of its box)` for every item below `root` whose box may be
-  /// within the square root of `limit()` of q, nearer boxes first; `limit` is asked again after
-  /// every visit.
+  /// A tree over `entries`, which are put into an order in which neighbours are near each other.
+  Root build(std::vector<Entry>& entries);
+
+  /// Calls `visit(item, bound)` for every item below `root` whose box may be within the square root
+  /// of `limit()` of q, nearer boxes first; the squared distance of the box is at least `bound`.
+  /// `limit` is asked again after every visit.
   template<typename Limit, typename Visit>
-  void visitNear(int root, const Point3& q, const Limit& limit, const Visit& visit) const;
+  void visitNear(Root root, const Point3& q, const Limit& limit, const Visit& visit) const;
 
 private:
-  struct Node
+  static constexpr int width = 4;
+
+  /// One number for each child, worked on at once (a vector type of GCC and Clang).
+  using Lanes = float __attribute__((vector_size(width * sizeof(float))));
+
+  struct alignas(64) Node
   {
-    BoundingBox box;
-    int left = none; // child, or none at an item
-    int right = none;
-    int item = -1;
+    std::array<Lanes, 3> low, high;
+    std::array<Root, width> child;
   };
 
-  int buildRange(std::vector<Entry>& entries, int first, int last);
+  /// A point in the tree's units, between two numbers of single precision.
+  struct RoundedPoint
+  {
+    std::array<float, 3> low, high;
+  };
+
+  static Root toRoot(int item) { return ~item; }
+  static int toItem(Root root) { return ~root; }
+
+  Root buildRange(std::vector<Entry>& entries, std::size_t first, std::size_t last);
+  RoundedPoint rounded(const Point3& p) const;
+  static Lanes squaredDistances(const Node& node, const RoundedPoint& q);
 
   std::vector<Node> nodes_;
+  Point3 centre_{};
+  double scale_ = 1.0;
 };
+
+inline BoundingBoxTree::RoundedPoint BoundingBoxTree::rounded(const Point3& p) const
+{
+  constexpr double largest = 1e15; // so that squares do not overflow; nothing of the model is there
+  constexpr double up = 1.0 + 1.2e-7; // more than a step of single precision
+  constexpr double down = 1.0 - 1.2e-7;
+  RoundedPoint r;
+  for (int k = 0; k < 3; ++k)
+  {
+    const double x = std::clamp(scale_ * (p[k] - centre_[k]), -largest, largest);
+    r.low[k] = static_cast<float>(x * (x > 0 ? down : up));
+    r.high[k] = static_cast<float>(x * (x > 0 ? up : down));
+  }
+  return r;
+}
+
+/// Lower bounds; infinite for children that are not there.
+inline BoundingBoxTree::Lanes BoundingBoxTree::squaredDistances(
+  const Node& node, const RoundedPoint& q)
+{
+  constexpr float rounding = 1.0F - 1e-6F;
+  Lanes sum{};
+  for (int k = 0; k < 3; ++k)
+  {
+    const Lanes below = node.low[k] - q.high[k];
+    const Lanes above = q.low[k] - node.high[k];
+    const Lanes larger = below > above ? below : above;
+    const Lanes gap = larger > 0.0F ? larger : 0.0F;
+    sum += gap * gap;
+  }
+  return rounding * sum;
+}
 
 template<typename Limit, typename Visit>
 void BoundingBoxTree::visitNear(
-  int root, const Point3& q, const Limit& limit, const Visit& visit) const
+  Root root, const Point3& q, const Limit& limit, const Visit& visit) const
 {
   struct Waiting
   {
-    int node;
-    double squaredDistance;
+    Root root;
+    float bound;
   };
-  constexpr int stackSize = 128; // more than twice the depth of a tree over 2^31 items
-  Waiting stack[stackSize];
+  constexpr int stackSize = 256; // three times the depth of a tree over 2^31 items, and more
+  constexpr double up = 1.0 + 1.2e-7;
+  std::array<Waiting, stackSize> stack;
+  const RoundedPoint at = rounded(q);
+  const double unit = 1.0 / (scale_ * scale_);
+  const auto reachOf = [&](double squaredLimit)
+  {
+    return static_cast<float>(
+      std::min<double>(up * scale_ * scale_ * squaredLimit, std::numeric_limits<float>::max()));
+  };
+  float reach = reachOf(limit());
   int size = 0;
   if (root != none)
   {
-    stack[size++] = { root, nodes_[root].box.squaredDistance(q) };
+    stack[size++] = { root, 0.0F };
   }
   while (size > 0)
   {
-    Waiting here = stack[--size];
-    while (here.squaredDistance <= limit())
+    const Waiting here = stack[--size];
+    if (here.bound > reach)
     {
-      const Node& node = nodes_[here.node];
-      if (node.left == none)
+      continue;
+    }
+    if (here.root < 0)
+    {
+      visit(toItem(here.root), unit * here.bound);
+      reach = reachOf(limit());
+      continue;
+    }
+    const Node& node = nodes_[here.root];
+    const Lanes bounds = squaredDistances(node, at);
+    const int first = size;
+    for (int i = 0; i < width; ++i)
+    {
+      if (bounds[i] > reach)
       {
-        visit(node.item, here.squaredDistance);
-        break;
+        continue;
       }
-      Waiting far = { node.right, nodes_[node.right].box.squaredDistance(q) };
-      here = { node.left, nodes_[node.left].box.squaredDistance(q) };
-      if (far.squaredDistance < here.squaredDistance)
+      int place = size++;
+      for (; place > first && stack[place - 1].bound < bounds[i]; --place)
       {
-        std::swap(here, far);
+        stack[place] = stack[place - 1];
       }
-      stack[size++] = far;
+      stack[place] = { node.child[i], bounds[i] };
     }
   }
 }

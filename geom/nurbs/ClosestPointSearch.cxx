@@ -35,7 +35,7 @@ Role roleOf(const SearchEntity& entity, const SearchScope& scope)
   }
 }
 
-void visitTree(const SearchStructure& structure, int root, const Point3& q,
+void visitTree(const SearchStructure& structure, BoundingBoxTree::Root root, const Point3& q,
   const SearchScope& scope, LeafQuery& query)
 {
   const auto squaredLimit = [&query]()

@@ -1,7 +1,7 @@
 // Cuts patches and segments into leaves. Private to geom/nurbs.
 #pragma once
 
-#include "BoundingBoxTree.h"
+#include "BoundingBox.h"
 #include "SearchStructure.h"
 
 #include <vector>

@@ -2,6 +2,8 @@
 
 #include "BernsteinBasis.h"
 
+#include <type_traits>
+
 namespace cadrefine
 {
 namespace
@@ -26,20 +28,22 @@ struct HomogeneousDerivatives
   ControlPoint value{}, u{}, v{}, uu{}, uv{}, vv{};
 };
 
-HomogeneousDerivatives homogeneousDerivatives(const PatchView& patch, double s, double t)
+/// `U` and `V` are int, or a constant known to the compiler, which then unrolls all loops.
+template<typename U, typename V>
+HomogeneousDerivatives homogeneousDerivatives(
+  const ControlPoint* point, U degreeU, V degreeV, double s, double t)
 {
   BernsteinBasis alongU;
   BernsteinBasis alongV;
-  bernsteinDerivatives(patch.degreeU, s, alongU);
-  bernsteinDerivatives(patch.degreeV, t, alongV);
+  bernsteinDerivatives(degreeU, s, alongU);
+  bernsteinDerivatives(degreeV, t, alongV);
   HomogeneousDerivatives h;
-  const ControlPoint* point = patch.points;
-  for (int i = 0; i <= patch.degreeU; ++i)
+  for (int i = 0; i <= degreeU; ++i)
   {
     ControlPoint row{};
     ControlPoint rowFirst{};
     ControlPoint rowSecond{};
-    for (int j = 0; j <= patch.degreeV; ++j, ++point)
+    for (int j = 0; j <= degreeV; ++j, ++point)
     {
       addScaled(row, alongV.value[j], *point);
       addScaled(rowFirst, alongV.first[j], *point);
@@ -53,6 +57,62 @@ HomogeneousDerivatives homogeneousDerivatives(const PatchView& patch, double s, 
     addScaled(h.vv, alongU.value[i], rowSecond);
   }
   return h;
+}
+
+template<typename U, typename V>
+ControlPoint homogeneousValue(const ControlPoint* point, U degreeU, V degreeV, double s, double t)
+{
+  BasisValues alongU;
+  BasisValues alongV;
+  bernsteinValues(degreeU, s, alongU);
+  bernsteinValues(degreeV, t, alongV);
+  ControlPoint sum{};
+  for (int i = 0; i <= degreeU; ++i)
+  {
+    ControlPoint row{};
+    for (int j = 0; j <= degreeV; ++j, ++point)
+    {
+      addScaled(row, alongV[j], *point);
+    }
+    addScaled(sum, alongU[i], row);
+  }
+  return sum;
+}
+
+template<int degree>
+using Constant = std::integral_constant<int, degree>;
+
+/// Calls `function(degreeU, degreeV)` with constants where both are at most 3.
+template<typename Function>
+auto withDegrees(const PatchView& patch, const Function& function)
+{
+  const auto withV = [&](auto degreeU)
+  {
+    switch (patch.degreeV)
+    {
+      case 0:
+        return function(degreeU, Constant<0>());
+      case 1:
+        return function(degreeU, Constant<1>());
+      case 2:
+        return function(degreeU, Constant<2>());
+      case 3:
+        return function(degreeU, Constant<3>());
+      default:
+        return function(patch.degreeU, patch.degreeV);
+    }
+  };
+  switch (patch.degreeU)
+  {
+    case 1:
+      return withV(Constant<1>());
+    case 2:
+      return withV(Constant<2>());
+    case 3:
+      return withV(Constant<3>());
+    default:
+      return function(patch.degreeU, patch.degreeV);
+  }
 }
 
 } // namespace
@@ -69,27 +129,15 @@ PatchView viewOf(const BezierCurve& curve)
 
 Point3 evaluateLocal(const PatchView& patch, double s, double t)
 {
-  BasisValues alongU;
-  BasisValues alongV;
-  bernsteinValues(patch.degreeU, s, alongU);
-  bernsteinValues(patch.degreeV, t, alongV);
-  ControlPoint sum{};
-  const ControlPoint* point = patch.points;
-  for (int i = 0; i <= patch.degreeU; ++i)
-  {
-    ControlPoint row{};
-    for (int j = 0; j <= patch.degreeV; ++j, ++point)
-    {
-      addScaled(row, alongV[j], *point);
-    }
-    addScaled(sum, alongU[i], row);
-  }
-  return { sum[0] / sum[3], sum[1] / sum[3], sum[2] / sum[3] };
+  const ControlPoint p = withDegrees(patch, [&](auto degreeU, auto degreeV)
+    { return homogeneousValue(patch.points, degreeU, degreeV, s, t); });
+  return { p[0] / p[3], p[1] / p[3], p[2] / p[3] };
 }
 
 PatchDerivatives evaluateLocalDerivatives(const PatchView& patch, double s, double t)
 {
-  const HomogeneousDerivatives h = homogeneousDerivatives(patch, s, t);
+  const HomogeneousDerivatives h = withDegrees(patch, [&](auto degreeU, auto degreeV)
+    { return homogeneousDerivatives(patch.points, degreeU, degreeV, s, t); });
   const double weight = h.value[3];
   const double inverse = 1.0 / weight;
   PatchDerivatives d;

@@ -69,11 +69,7 @@ public:
     {
       addFace(i);
     }
-    structure_.root = structure_.tree.build(roots_);
-    if (structure_.root != BoundingBoxTree::none)
-    {
-      structure_.size = structure_.tree.box(structure_.root).diagonal();
-    }
+    buildTrees();
   }
 
 private:
@@ -118,7 +114,7 @@ private:
     leaf.entity = addEntity({ 0, index });
     BoundingBox box;
     box.include(point);
-    finishEntity({ { box, addLeaf(leaf), BoundingBoxTree::none } });
+    addLeaf(leaf, box);
   }
 
   void addEdge(int index)
@@ -128,14 +124,12 @@ private:
     const int entity = addEntity(id);
     structure_.entities[entity].sharp = edge.sharp;
     structure_.entities[entity].face = edge.faces.empty() ? -1 : edge.faces.front();
-    Entries entries;
     for (const BezierCurve& segment : edge.segments)
     {
       const PatchView view = viewOf(segment);
       checkPatch(view, segment.points.size(), id);
-      addPatch({ view, { segment.t0, segment.t1, 0.0, 0.0 }, entity, {} }, nullptr, entries);
+      addPatch({ view, { segment.t0, segment.t1, 0.0, 0.0 }, entity, {} }, nullptr);
     }
-    finishEntity(entries);
   }
 
   void addFace(int index)
@@ -147,7 +141,6 @@ private:
     {
       structure_.entities[entity].trim = std::make_unique<TrimRegion>(face.loops);
     }
-    Entries entries;
     for (std::size_t i = 0; i < face.patches.size(); ++i)
     {
       const BezierPatch& patch = face.patches[i];
@@ -158,9 +151,8 @@ private:
       const int column = static_cast<int>(i) % columns;
       addPatch({ view, { patch.u0, patch.u1, patch.v0, patch.v1 }, entity,
                  { row > 0, row + 1 < face.patchesU, column > 0, column + 1 < columns } },
-        structure_.entities[entity].trim.get(), entries);
+        structure_.entities[entity].trim.get());
     }
-    finishEntity(entries);
   }
 
   int addEntity(EntityId id)
@@ -170,38 +162,50 @@ private:
     return static_cast<int>(structure_.entities.size()) - 1;
   }
 
-  int addLeaf(const SearchLeaf& leaf)
+  void addLeaf(const SearchLeaf& leaf, const BoundingBox& box)
   {
+    entries_.push_back({ box, static_cast<int>(structure_.leaves.size()) });
     structure_.leaves.push_back(leaf);
-    return static_cast<int>(structure_.leaves.size()) - 1;
   }
 
   /// Adds the leaves of one patch of the last entity.
-  void addPatch(const SearchPatch& patch, const TrimRegion* trim, Entries& entries)
+  void addPatch(const SearchPatch& patch, const TrimRegion* trim)
   {
     structure_.patches.push_back(patch);
     for (BuiltLeaf& built : buildLeaves(patch, trim, limits_))
     {
       built.leaf.patch = static_cast<int>(structure_.patches.size()) - 1;
       built.leaf.entity = patch.entity;
-      entries.push_back({ built.box, addLeaf(built.leaf), BoundingBoxTree::none });
+      addLeaf(built.leaf, built.box);
     }
   }
 
-  void finishEntity(const Entries& entries)
+  /// One tree for each entity, whose leaves are consecutive, and one over all of them.
+  void buildTrees()
   {
-    const int root = structure_.tree.build(entries);
-    structure_.entities.back().root = root;
-    if (root != BoundingBoxTree::none)
+    BoundingBox box;
+    for (const BoundingBoxTree::Entry& entry : entries_)
     {
-      roots_.push_back({ structure_.tree.box(root), -1, root });
+      box.include(entry.box);
     }
+    structure_.size = box.diagonal();
+    structure_.tree = BoundingBoxTree(box.isEmpty() ? Point3{} : box.middle(), structure_.size);
+    for (auto first = entries_.begin(); first != entries_.end();)
+    {
+      const int entity = structure_.leaves[first->item].entity;
+      const auto last = std::find_if(first, entries_.end(),
+        [&](const auto& e) { return structure_.leaves[e.item].entity != entity; });
+      Entries own(first, last);
+      structure_.entities[entity].root = structure_.tree.build(own);
+      first = last;
+    }
+    structure_.root = structure_.tree.build(entries_);
   }
 
   SearchStructure& structure_;
   const NurbsModel& model_;
   LeafLimits limits_;
-  Entries roots_;
+  Entries entries_;
 };
 
 } // namespace

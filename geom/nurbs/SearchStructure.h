@@ -44,9 +44,10 @@ struct SearchLeaf
 struct SearchEntity
 {
   EntityId id;
-  int root = BoundingBoxTree::none; ///< Its part of the tree; none where nothing is left of it.
-  bool sharp = false;               ///< Of an edge.
-  int face = -1;                    ///< Of an edge, the first face that it bounds.
+  /// Tree over its own leaves; none where nothing is left of it.
+  BoundingBoxTree::Root root = BoundingBoxTree::none;
+  bool sharp = false;                     ///< Of an edge.
+  int face = -1;                          ///< Of an edge, the first face that it bounds.
   std::unique_ptr<const TrimRegion> trim; ///< Of a face.
 };
 
@@ -64,8 +65,8 @@ struct SearchStructure
   std::vector<SearchEntity> entities; ///< Vertices, edges, faces.
   std::array<int, 3> firstEntity{};   ///< Number of the first entity of each dimension.
   BoundingBoxTree tree;
-  int root = BoundingBoxTree::none;
-  double size = 0; ///< Diagonal of the bounding box.
+  BoundingBoxTree::Root root = BoundingBoxTree::none; ///< Tree over all leaves.
+  double size = 0;                                    ///< Diagonal of the bounding box.
 };
 
 } // namespace cadrefine
