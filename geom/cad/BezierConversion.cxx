@@ -6,12 +6,14 @@
 #include <Geom2d_BezierCurve.hxx>
 #include <Geom2d_TrimmedCurve.hxx>
 #include <GeomConvert.hxx>
+#include <GeomConvert_ApproxCurve.hxx>
 #include <GeomConvert_BSplineCurveToBezierCurve.hxx>
 #include <GeomConvert_BSplineSurfaceToBezierSurface.hxx>
 #include <Geom_BSplineCurve.hxx>
 #include <Geom_BSplineSurface.hxx>
 #include <Geom_BezierCurve.hxx>
 #include <Geom_BezierSurface.hxx>
+#include <Geom_OffsetCurve.hxx>
 #include <Geom_TrimmedCurve.hxx>
 #include <TColGeom_Array2OfBezierSurface.hxx>
 #include <TColStd_Array1OfReal.hxx>
@@ -41,12 +43,35 @@ BezierPatch toPatch(const Geom_BezierSurface& surface)
   return patch;
 }
 
+/// Open CASCADE fits offset curves to 1e-4, whatever their size.
+bool isOffset(Handle(Geom_Curve) curve)
+{
+  while (const auto trimmed = Handle(Geom_TrimmedCurve)::DownCast(curve))
+  {
+    curve = trimmed->BasisCurve();
+  }
+  return curve->IsKind(STANDARD_TYPE(Geom_OffsetCurve));
+}
+
 } // namespace
+
+Handle(Geom_BSplineCurve) fitSpline(const Handle(Geom_Curve) & curve, double first, double last)
+{
+  constexpr double tolerance = 1e-9;
+  constexpr int mostSegments = 1000;
+  constexpr int highestDegree = 9;
+  const Handle(Geom_TrimmedCurve) part = new Geom_TrimmedCurve(curve, first, last);
+  const gp_Pnt middle = part->Value(0.5 * (first + last));
+  const double size = part->StartPoint().Distance(middle) + part->EndPoint().Distance(middle);
+  return GeomConvert_ApproxCurve(part, tolerance * size, GeomAbs_C1, mostSegments, highestDegree)
+    .Curve();
+}
 
 std::vector<BezierCurve> bezierPieces(const Handle(Geom_Curve) & curve, double first, double last)
 {
   const Handle(Geom_BSplineCurve) spline =
-    GeomConvert::CurveToBSplineCurve(new Geom_TrimmedCurve(curve, first, last));
+    isOffset(curve) ? fitSpline(curve, first, last)
+                    : GeomConvert::CurveToBSplineCurve(new Geom_TrimmedCurve(curve, first, last));
   // A range beyond the seam of a periodic curve may come back one period off, and a part of a
   // Bezier curve over [0, 1].
   const double start = spline->FirstParameter();

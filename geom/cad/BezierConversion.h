@@ -4,6 +4,7 @@
 #include "Bezier.h"
 
 #include <Geom2d_Curve.hxx>
+#include <Geom_BSplineCurve.hxx>
 #include <Geom_Curve.hxx>
 #include <Geom_Surface.hxx>
 #include <gp_Trsf.hxx>
@@ -13,8 +14,11 @@
 namespace cadrefine
 {
 
+/// A polynomial spline that follows `curve` in place and parameter, to 1e-9 of its size.
+Handle(Geom_BSplineCurve) fitSpline(const Handle(Geom_Curve) & curve, double first, double last);
+
 /// Pieces of `curve` between its parameters `first` and `last`, in order; the pieces' parameters
-/// are the curve's own.
+/// are the curve's own at the ends. Exact but for offset curves, which are fitted.
 std::vector<BezierCurve> bezierPieces(const Handle(Geom_Curve) & curve, double first, double last);
 
 /// Pieces of a curve in a parameter plane, in order.

@@ -6,7 +6,6 @@
 
 #include "SurfaceConversion.h"
 
-#include <GeomConvert_ApproxCurve.hxx>
 #include <GeomConvert_ApproxSurface.hxx>
 #include <Geom_BSplineCurve.hxx>
 #include <Geom_BSplineSurface.hxx>
@@ -82,11 +81,7 @@ Profile convertProfile(const Handle(Geom_Curve) & given, double first, double la
   }
   else
   {
-    const Handle(Geom_TrimmedCurve) part = new Geom_TrimmedCurve(curve, first, last);
-    const double size = part->StartPoint().Distance(part->Value(0.5 * (first + last))) +
-                        part->EndPoint().Distance(part->Value(0.5 * (first + last)));
-    const GeomConvert_ApproxCurve fit(part, approximationTolerance * size, GeomAbs_C1, 1000, 9);
-    profile.pieces = bezierPieces(fit.Curve(), first, last);
+    profile.pieces = bezierPieces(fitSpline(curve, first, last), first, last);
   }
   return profile;
 }

@@ -9,6 +9,10 @@ cadrefine_geom_test(cad_tests
     cad/AnalyticShapesTest.cxx
     cad/CurveModelTest.cxx
     cad/FileErrorsTest.cxx
+    cad/IgesCases.cxx
+    cad/IgesCurvesTest.cxx
+    cad/IgesSurfacesTest.cxx
+    cad/IgesWriter.cxx
     cad/IsolatedRunTest.cxx
     cad/ModelBytesTest.cxx
     cad/RealFilesTest.cxx
