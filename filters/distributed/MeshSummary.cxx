@@ -1,5 +1,6 @@
 #include "MeshSummary.h"
 
+#include "Orientation.h"
 #include "Quality.h"
 
 #include <vtkDoubleArray.h>
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 namespace cadrefine
 {
@@ -42,42 +44,44 @@ Vector3 planeNormal(RankExchange& exchange, const SimplexMesh& mesh)
   return squaredNorm(normal) == 1 ? normal : Vector3{};
 }
 
-std::vector<double> meanRatios(RankExchange& exchange, const SimplexMesh& mesh)
+void add(CellQualities& qualities, double ratio, bool valid)
 {
-  std::vector<double> ratios;
+  qualities.meanRatios.push_back(ratio);
+  qualities.valid.push_back(valid);
+}
+
+CellQualities measureCells(RankExchange& exchange, const SimplexMesh& mesh)
+{
+  CellQualities result;
   const auto& p = mesh.points;
   if (mesh.dimension == 3)
   {
-    for (const auto& cell : mesh.tetrahedra)
+    for (const auto& [a, b, c, d] : mesh.tetrahedra)
     {
-      ratios.push_back(meanRatio(p[cell[0]], p[cell[1]], p[cell[2]], p[cell[3]]));
+      add(result, meanRatio(p[a], p[b], p[c], p[d]), orientation(p[a], p[b], p[c], p[d]) > 0);
     }
-    return ratios;
+    return result;
   }
   const Vector3 normal = planeNormal(exchange, mesh);
-  for (const auto& cell : mesh.triangles)
+  for (const auto& [a, b, c] : mesh.triangles)
   {
-    const double ratio = meanRatio(p[cell[0]], p[cell[1]], p[cell[2]]);
-    const double turn = dot(normal, twofoldAreaVector(p[cell[0]], p[cell[1]], p[cell[2]]));
-    ratios.push_back(turn < 0 ? -ratio : ratio);
+    const double ratio = meanRatio(p[a], p[b], p[c]);
+    const Vector3 side = normal == Vector3{} ? twofoldAreaVector(p[a], p[b], p[c]) : normal;
+    const int turn = turnOf(p[a], p[b], p[c], side);
+    add(result, turn < 0 ? -ratio : ratio, turn > 0);
   }
-  return ratios;
+  return result;
 }
 
 } // namespace
 
 CellQualities measureQuality(RankExchange& exchange, const DistributedMesh& mesh)
 {
-  CellQualities result;
-  result.meanRatios = meanRatios(exchange, mesh.mesh());
-  std::int64_t invalid = 0;
-  double minimum = std::numeric_limits<double>::infinity();
-  for (const double ratio : result.meanRatios)
-  {
-    result.valid.push_back(ratio > 0);
-    invalid += !(ratio > 0);
-    minimum = std::min(minimum, ratio);
-  }
+  CellQualities result = measureCells(exchange, mesh.mesh());
+  const auto& ratios = result.meanRatios;
+  const auto invalid = std::count(result.valid.begin(), result.valid.end(), 0);
+  const double minimum = std::accumulate(ratios.begin(), ratios.end(),
+    std::numeric_limits<double>::infinity(), [](double a, double b) { return std::min(a, b); });
   result.invalidCells = exchange.sum(invalid);
   result.minimum = exchange.min(minimum);
   return result;

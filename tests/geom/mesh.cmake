@@ -6,5 +6,6 @@ cadrefine_geom_test(mesh_tests
   SOURCES
     mesh/EdgeTableTest.cxx
     mesh/FacetsTest.cxx
+    mesh/OrientationTest.cxx
     mesh/QualityTest.cxx
   LINKS CADRefineTestSupport)

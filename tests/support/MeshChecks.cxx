@@ -1,5 +1,6 @@
 #include "MeshChecks.h"
 
+#include "Orientation.h"
 #include "Quality.h"
 
 #include <algorithm>
@@ -85,19 +86,32 @@ double signedMeasure(const SimplexMesh& mesh, const std::array<Index, 3>& cell)
   return area[0] == 0 && area[1] == 0 ? area[2] / 2 : norm(area) / 2;
 }
 
+int signOf(const SimplexMesh& mesh, const std::array<Index, 4>& cell)
+{
+  const auto& p = mesh.points;
+  return orientation(p[cell[0]], p[cell[1]], p[cell[2]], p[cell[3]]);
+}
+
+/// Signed in the plane z = 0; in space, 1 where the triangle has an area.
+int signOf(const SimplexMesh& mesh, const std::array<Index, 3>& cell)
+{
+  const auto& p = mesh.points;
+  const auto signs = normalSigns(p[cell[0]], p[cell[1]], p[cell[2]]);
+  return signs[0] == 0 && signs[1] == 0 ? signs[2] : 1;
+}
+
 template<std::size_t Corners>
 testing::AssertionResult areAllPositive(const SimplexMesh& mesh, const Simplices<Corners>& cells)
 {
   for (std::size_t c = 0; c < cells.size(); ++c)
   {
-    if (!(signedMeasure(mesh, cells[c]) > 0))
+    if (signOf(mesh, cells[c]) <= 0)
     {
       return testing::AssertionFailure()
              << "cell " << c << " has the measure " << signedMeasure(mesh, cells[c]);
     }
   }
-  return cells.empty() ? testing::AssertionFailure() << "there are no cells"
-                       : testing::AssertionSuccess();
+  return testing::AssertionSuccess();
 }
 
 } // namespace
@@ -131,10 +145,17 @@ double volumeInside(const SimplexMesh& mesh)
   return sum;
 }
 
-testing::AssertionResult isValid(const SimplexMesh& mesh)
+testing::AssertionResult areCellsValid(const SimplexMesh& mesh)
 {
   return mesh.dimension == 3 ? areAllPositive(mesh, mesh.tetrahedra)
                              : areAllPositive(mesh, mesh.triangles);
+}
+
+testing::AssertionResult isValid(const SimplexMesh& mesh)
+{
+  return mesh.tetrahedra.empty() && mesh.triangles.empty()
+           ? testing::AssertionFailure() << "there are no cells"
+           : areCellsValid(mesh);
 }
 
 testing::AssertionResult isWatertight(

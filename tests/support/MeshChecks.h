@@ -20,7 +20,10 @@ double measureOf(const cadrefine::SimplexMesh& mesh);
 /// Volume inside the facets of a closed surface (outward normals), by the divergence theorem.
 double volumeInside(const cadrefine::SimplexMesh& mesh);
 
-/// No cell of the mesh's own dimension is inverted or flat.
+/// No cell of the mesh's own dimension is inverted or flat, by exact orientation (triangles are
+/// turned to z where all of a cell lies at one height; in space they have an area).
+testing::AssertionResult areCellsValid(const cadrefine::SimplexMesh& mesh);
+/// The same, and there are cells.
 testing::AssertionResult isValid(const cadrefine::SimplexMesh& mesh);
 
 /// Every side of a cell is met once or twice, and a side that is met once lies on the boundary:

@@ -1,0 +1,75 @@
+#include "Orientation.h"
+
+#include "Quality.h"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+#include <algorithm>
+
+namespace cadrefine
+{
+namespace
+{
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+
+/// Rational arithmetic has no infinities.
+template<class... Points>
+bool areFinite(const Points&... points)
+{
+  double zero = 0;
+  for (const Point3* point : { &points... })
+  {
+    zero += 0 * (*point)[0] + 0 * (*point)[1] + 0 * (*point)[2];
+  }
+  return zero == 0;
+}
+
+Kernel::Point_3 exact(const Point3& p)
+{
+  return { p[0], p[1], p[2] };
+}
+
+int turn(const Point3& a, const Point3& b, const Point3& c, int x, int y)
+{
+  using Point = Kernel::Point_2;
+  return CGAL::orientation(Point(a[x], a[y]), Point(b[x], b[y]), Point(c[x], c[y]));
+}
+
+int signOf(double value)
+{
+  return (value > 0) - (value < 0);
+}
+
+} // namespace
+
+int orientation(const Point3& a, const Point3& b, const Point3& c, const Point3& d)
+{
+  return areFinite(a, b, c, d) ? CGAL::orientation(exact(a), exact(b), exact(c), exact(d)) : 0;
+}
+
+std::array<int, 3> normalSigns(const Point3& a, const Point3& b, const Point3& c)
+{
+  if (!areFinite(a, b, c))
+  {
+    return {};
+  }
+  return { turn(a, b, c, 1, 2), turn(a, b, c, 2, 0), turn(a, b, c, 0, 1) };
+}
+
+int turnOf(const Point3& a, const Point3& b, const Point3& c, const Vector3& reference)
+{
+  const std::array<int, 3> signs = normalSigns(a, b, c);
+  if (std::count(signs.begin(), signs.end(), 0) == 2)
+  {
+    int sign = 0;
+    for (int k = 0; k < 3; ++k)
+    {
+      sign += signs[k] * signOf(reference[k]);
+    }
+    return sign;
+  }
+  return signs == std::array<int, 3>{} ? 0 : signOf(dot(twofoldAreaVector(a, b, c), reference));
+}
+
+} // namespace cadrefine
