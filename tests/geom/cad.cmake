@@ -6,6 +6,7 @@ endif ()
 
 cadrefine_geom_test(cad_tests
   SOURCES
+    cad/AeroplaneTest.cxx
     cad/AnalyticShapesTest.cxx
     cad/CurveModelTest.cxx
     cad/FileErrorsTest.cxx
