@@ -89,5 +89,49 @@ class Data(unittest.TestCase):
                 self.assertLess(np.abs(offset).max(), 0.01)
 
 
+def parameters(path):
+    """All numbers of the entities of an IGES file."""
+    text = "".join(line[:64] for line in lines_of(path) if line[72] == "P")
+    return np.array([float(value) for value in text.replace(";", ",").split(",") if value.strip()])
+
+
+def entity_types(path):
+    return [line[:8] for line in lines_of(path) if line[72] == "D"][::2]
+
+
+class Aeroplane(unittest.TestCase):
+    """Its programs may differ in last digits from processor to processor."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def make(self, *arguments):
+        subprocess.run(arguments, check=True, stdout=subprocess.DEVNULL, timeout=driver.TIMEOUT)
+
+    def test_program_makes_the_cad(self):
+        made, kept = os.path.join(self.folder, "aeroplane.igs"), driver.data("aeroplane.igs")
+        self.make(os.environ["CADREFINE_AEROPLANE"], made)
+        self.assertEqual(entity_types(made), entity_types(kept))
+        self.assertEqual({line[:8].strip(): entity_types(kept).count(line) for line in ("     128", "     144")},
+                         {"128": 962, "144": 136})
+        self.assertEqual(len(parameters(made)), len(parameters(kept)))
+        self.assertTrue(np.allclose(parameters(made), parameters(kept), rtol=0, atol=1e-6))
+
+    def test_programs_make_the_mesh(self):
+        solid, made = (os.path.join(self.folder, name) for name in ("aeroplane.brep", "aeroplane.vtu"))
+        self.make(os.environ["CADREFINE_AEROPLANE"], "--plain", solid)
+        self.make("/usr/bin/python3", "-B", driver.data("aeroplane_mesh.py"), "--boundary-triangles", solid, made)
+        made, kept = meshio.read(made), meshio.read(driver.data("aeroplane_coarse.vtu"))
+        self.assertAlmostEqual(len(made.points) / len(kept.points), 1, delta=0.02)
+        tags = made.cell_data_dict["gmsh:physical"]["triangle"]
+        around = made.points[np.unique(made.cells_dict["triangle"][tags == 1])]
+        low, high = np.array([[0.05, -0.25, -0.2], [0.2, 0.25, 0.2]])
+        nose = ((around >= low) & (around <= high)).all(axis=1).sum()
+        self.assertAlmostEqual(nose, 1269, delta=60)
+        self.assertTrue(np.allclose(np.abs(around).max(axis=0), [2, 0.95, 0.45], rtol=0, atol=0.01))
+
+
 if __name__ == "__main__":
     unittest.main()
