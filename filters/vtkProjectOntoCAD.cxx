@@ -52,8 +52,10 @@ void vtkProjectOntoCAD::Execute(cadrefine::RankExchange& exchange, vtkPointSet* 
   output->ShallowCopy(makePointSet(input, mesh.mesh()));
   copyArrays(input, mesh.converted, output);
   writeClassification(output, result.classification);
+  writeConflicts(output, result.conflicts);
   summariseMesh(exchange, mesh, measureQuality(exchange, mesh), output);
   summariseProjection(exchange, mesh, result.classification, result.projectedPoints, output);
+  summariseConflicts(exchange, mesh, result.conflicts, output);
 }
 
 void vtkProjectOntoCAD::PrintSelf(ostream& os, vtkIndent indent)

@@ -8,6 +8,7 @@
 #include <vtkPointData.h>
 #include <vtkPointSet.h>
 #include <vtkSignedCharArray.h>
+#include <vtkUnsignedCharArray.h>
 
 #include <limits>
 #include <sstream>
@@ -131,6 +132,16 @@ void writeClassification(vtkPointSet* output, const Classification& classificati
   pointData->AddArray(entities);
   pointData->AddArray(parameters);
   pointData->AddArray(distances);
+}
+
+void writeConflicts(vtkPointSet* output, const std::vector<unsigned char>& conflicts)
+{
+  auto array = makeArray<vtkUnsignedCharArray>(arrays::conflict, 1, conflicts.size());
+  for (std::size_t v = 0; v < conflicts.size(); ++v)
+  {
+    array->SetValue(static_cast<vtkIdType>(v), conflicts[v]);
+  }
+  output->GetPointData()->AddArray(array);
 }
 
 } // namespace cadrefine

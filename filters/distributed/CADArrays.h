@@ -34,6 +34,7 @@ constexpr const char* dimension = "CADDimension";
 constexpr const char* entity = "CADEntity";
 constexpr const char* parameters = "CADParameters";
 constexpr const char* distance = "CADDistance";
+constexpr const char* conflict = "CADConflict";
 constexpr const char* error = "GeometricError";
 constexpr const char* errorDistance = "GeometricDistance";
 } // namespace arrays
@@ -49,5 +50,8 @@ bool hasClassification(vtkPointSet* input);
 
 /// Adds or replaces the point arrays; one entry for each point of `output`.
 void writeClassification(vtkPointSet* output, const Classification& classification);
+
+/// Adds or replaces the point array CADConflict; one entry for each point of `output`.
+void writeConflicts(vtkPointSet* output, const std::vector<unsigned char>& conflicts);
 
 } // namespace cadrefine

@@ -5,6 +5,7 @@
 #include "SharedEdges.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace cadrefine
 {
@@ -67,6 +68,7 @@ void measureVertices(
   const auto& points = mesh.mesh().points;
   boundary.onBoundary.assign(points.size(), 0);
   boundary.longestEdge.assign(points.size(), 0.0);
+  boundary.shortestEdge.assign(points.size(), std::numeric_limits<double>::infinity());
   for (const auto& ends : boundary.edges.edges())
   {
     const double length = distance(points[ends[0]], points[ends[1]]);
@@ -74,11 +76,14 @@ void measureVertices(
     {
       boundary.onBoundary[vertex] = 1;
       boundary.longestEdge[vertex] = std::max(boundary.longestEdge[vertex], length);
+      boundary.shortestEdge[vertex] = std::min(boundary.shortestEdge[vertex], length);
     }
   }
   const auto larger = [](auto a, auto b) { return std::max(a, b); };
   combineShared(exchange, mesh.shared, boundary.onBoundary, larger);
   combineShared(exchange, mesh.shared, boundary.longestEdge, larger);
+  combineShared(exchange, mesh.shared, boundary.shortestEdge,
+    [](double a, double b) { return std::min(a, b); });
 }
 
 bool isClassified(const ClassifiedFacet& facet, BoundaryKind kind)
@@ -201,6 +206,10 @@ BoundaryClasses classifyBoundary(RankExchange& exchange, const SimplexMesh& mesh
         if (boundary.ofSurface)
         {
           records.back().onCAD = isClassified(classified, boundary.kind);
+        }
+        if (records.back().onCAD && boundary.kind == BoundaryKind::Triangles)
+        {
+          records.back().face = projector.faceOf(classified);
         }
         classes.facetOnCAD.push_back(records.back().onCAD);
       }

@@ -29,6 +29,8 @@ struct DistributedBoundary
   std::vector<unsigned char> onBoundary;
   /// Length of the longest boundary edge at each vertex, over all ranks; 0 elsewhere.
   std::vector<double> longestEdge;
+  /// Length of the shortest boundary edge at each vertex, over all ranks; infinite elsewhere.
+  std::vector<double> shortestEdge;
 
   int facetCorners() const { return kind == BoundaryKind::Triangles ? 3 : 2; }
 };

@@ -113,6 +113,18 @@ void summariseMesh(RankExchange& exchange, const DistributedMesh& mesh,
   setFieldValue(output, "MinimumQuality", qualities.minimum);
 }
 
+void summariseConflicts(RankExchange& exchange, const DistributedMesh& mesh,
+  const std::vector<unsigned char>& conflicts, vtkPointSet* output)
+{
+  const auto owned = mesh.shared.ownedHere(static_cast<Index>(conflicts.size()));
+  std::int64_t count = 0;
+  for (std::size_t v = 0; v < conflicts.size(); ++v)
+  {
+    count += owned[v] && conflicts[v];
+  }
+  setFieldValue(output, "ClassificationConflicts", exchange.sum(count));
+}
+
 void summariseProjection(RankExchange& exchange, const DistributedMesh& mesh,
   const Classification& classification, std::int64_t projectedPoints, vtkPointSet* output)
 {

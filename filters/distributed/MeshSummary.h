@@ -34,6 +34,10 @@ void setFieldValue(vtkPointSet* output, const char* name, std::int64_t value);
 void summariseMesh(RankExchange& exchange, const DistributedMesh& mesh,
   const CellQualities& qualities, vtkPointSet* output);
 
+/// Adds ClassificationConflicts, the number of vertices with a conflict. Collective.
+void summariseConflicts(RankExchange& exchange, const DistributedMesh& mesh,
+  const std::vector<unsigned char>& conflicts, vtkPointSet* output);
+
 /// Adds CADVertices, UnprojectedVertices and ProjectedPoints. Collective.
 void summariseProjection(RankExchange& exchange, const DistributedMesh& mesh,
   const Classification& classification, std::int64_t projectedPoints, vtkPointSet* output);

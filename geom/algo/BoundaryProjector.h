@@ -2,7 +2,9 @@
 #pragma once
 
 #include "CADModel.h"
+#include "EdgeFinder.h"
 #include "EntityId.h"
+#include "FaceFinder.h"
 #include "MeshTypes.h"
 #include "Vector3.h"
 
@@ -27,15 +29,6 @@ struct ClassifiedFacet
   std::array<EntityId, 3> entities;
 };
 
-/// What an edge of the boundary needs to know of a facet beside it, on whatever rank that is.
-struct FacetRecord
-{
-  Vector3 normal{};        ///< Unit outward normal of a triangle.
-  double area = 0;         ///< Of a triangle.
-  unsigned char onCAD = 0; ///< The facet stands for a part of the CAD.
-  unsigned char free = 0;  ///< It is not, because the user's region leaves it out.
-};
-
 /// How the midpoint of a mesh edge is to be placed.
 struct EdgeClass
 {
@@ -43,7 +36,7 @@ struct EdgeClass
   {
     Straight = 0, ///< In the middle of the edge: the edge does not lie on the CAD.
     Smooth = 1,   ///< On the faces (of a planar mesh: edges) that the ends lie on.
-    Crease = 2    ///< On a crease: CAD edge `edge`, or the nearest one where that is -1.
+    OnEdge = 2    ///< On CAD edge `edge`, or on the nearest crease where that is -1.
   };
   Kind kind = Straight;
   std::int32_t edge = -1;
@@ -61,8 +54,6 @@ public:
 
   /// Nearest point of what the boundary is compared with, up to `limit`.
   ClosestPoint nearest(const Point3& point, double limit) const;
-  /// Nearest crease: sharp edges and their ends.
-  ClosestPoint nearestCrease(const Point3& point, double limit) const;
   /// Nearest point of `entity` and its closure.
   ClosestPoint nearestOn(EntityId entity, const Point3& point) const;
 
@@ -71,11 +62,9 @@ public:
   /// centroid. Tells the facets of a wall that meets the CAD from those on the CAD.
   bool isOnCAD(const ClassifiedFacet& facet) const;
 
-  /// For the initial projection: whether the mesh edge from `a` to `b` is to be put onto a crease:
-  /// it is the rim of the CAD facets or has a dihedral angle, and runs along a crease whose faces'
-  /// normals fit those of the facets beside it.
-  bool runsAlongCrease(
-    const Point3& a, const Point3& b, const std::vector<FacetRecord>& facets) const;
+  /// Of a classified facet, the CAD face that all of its corners lie on; of several the nearest one
+  /// whose normal fits; -1 where there is none.
+  std::int32_t faceOf(const ClassifiedFacet& facet) const;
 
   /// Class of the edge between two classified vertices, from the facets beside it (never from its
   /// ends alone).
@@ -86,26 +75,33 @@ public:
   ClosestPoint projectMidpoint(const EdgeClass& edgeClass, const std::array<Point3, 2>& points,
     const std::array<EntityId, 2>& entities) const;
 
-  /// CAD vertices where creases end, meet or turn by more than NurbsModel::creaseAngle; each wants
-  /// a mesh vertex of its own.
+  /// CAD vertices that want a mesh vertex of their own: see findCorners.
   const std::vector<std::int32_t>& corners() const { return corners_; }
   bool isCorner(std::int32_t vertex) const;
+  /// For each CAD edge the line of creases that it is part of: see findCreaseLines.
+  const std::vector<std::int32_t>& lines() const { return lines_; }
+  /// Nearest crease (sharp edges and their ends) up to `limit`.
+  ClosestPoint nearestCrease(const Point3& point, double limit) const
+  {
+    return edges_.nearestCrease(point, limit);
+  }
 
 private:
   bool fitsNormal(EntityId entity, const ClosestPoint& where, const Vector3& normal) const;
   bool fitsTangent(const ClosestPoint& where, const Vector3& direction) const;
-  bool creaseFits(const ClosestPoint& where, const Vector3& direction,
-    const std::vector<FacetRecord>& facets) const;
-  std::vector<std::int32_t> commonEntities(EntityId a, EntityId b, int dimension) const;
   std::int32_t commonCrease(
     const std::array<Point3, 2>& points, const std::array<EntityId, 2>& entities) const;
-  ClosestPoint projectOnCrease(std::int32_t edge, const Point3& point) const;
+  std::int32_t commonSmoothEdge(const std::array<Point3, 2>& points,
+    const std::array<EntityId, 2>& entities, const std::vector<FacetRecord>& onCAD) const;
+  ClosestPoint projectOnEdge(std::int32_t edge, const Point3& point) const;
   ClosestPoint projectSmoothly(const std::array<EntityId, 2>& entities, const Point3& point) const;
-  void findCorners();
 
   const CADModel& model_;
   BoundaryKind kind_;
+  FaceFinder faces_;
+  EdgeFinder edges_;
   std::vector<std::int32_t> corners_;
+  std::vector<std::int32_t> lines_;
 };
 
 } // namespace cadrefine

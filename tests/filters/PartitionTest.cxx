@@ -27,7 +27,7 @@ namespace
 struct Problem
 {
   std::string name;
-  std::string cadFile; ///< In the folder of the data; empty: a sphere of radius 2.
+  std::string cadFile; ///< Empty: a sphere of radius 2.
   vtkSmartPointer<vtkPointSet> (*mesh)();
   double threshold; ///< Cells with a larger error are bisected.
   bool (*onBoundary)(const std::vector<Point3>& side);
@@ -102,11 +102,32 @@ bool roundArcs(const std::vector<Point3>& side)
   return side[0][0] == side[1][0] || side[0][1] == side[1][1];
 }
 
-const std::array<Problem, 5> problems{ { { "Ball", "", taggedBall, 0.01, onSphere },
+/// Creases, corners and a seam, found by facets on several ranks.
+vtkSmartPointer<vtkPointSet> boxWithHole()
+{
+  return cadtest::readGrid(CADREFINE_TRUTH "/box_minus_cylinder_coarse.vtu");
+}
+
+bool roundBoxWithHole(const std::vector<Point3>& side)
+{
+  const Point3 size{ 2, 1.5, 1 };
+  const auto onPlane = [&](int k, double value)
+  {
+    return std::all_of(
+      side.begin(), side.end(), [&](const Point3& p) { return std::abs(p[k] - value) < 1e-11; });
+  };
+  const bool onCylinder = std::all_of(side.begin(), side.end(),
+    [](const Point3& p) { return std::abs(std::hypot(p[0] - 0.9, p[1] - 0.7) - 0.4) < 1e-11; });
+  return onCylinder || onPlane(0, 0) || onPlane(1, 0) || onPlane(2, 0) || onPlane(0, size[0]) ||
+         onPlane(1, size[1]) || onPlane(2, size[2]);
+}
+
+const std::array<Problem, 6> problems{ { { "Ball", "", taggedBall, 0.01, onSphere },
   { "Surface", "", surface, 0.01, nowhere },
-  { "Wing", "/naca0012_sharp.igs", wing, 1e-4, roundWing },
-  { "Arcs", "/three_arcs.igs", arcs, 1e-3, roundArcs },
-  { "Crowded", "", crowdedBall, 0.01, onSphere } } };
+  { "Wing", CADREFINE_DATA "/naca0012_sharp.igs", wing, 1e-4, roundWing },
+  { "Arcs", CADREFINE_DATA "/three_arcs.igs", arcs, 1e-3, roundArcs },
+  { "Crowded", "", crowdedBall, 0.01, onSphere },
+  { "Hole", CADREFINE_TRUTH "/box_minus_cylinder.brep", boxWithHole, 1e-3, roundBoxWithHole } } };
 
 struct Case
 {
@@ -154,7 +175,7 @@ protected:
   std::string cadFile() const
   {
     return problem.cadFile.empty() ? cadtest::writeInto(folder, cadtest::sphere(2), ".step")
-                                   : CADREFINE_DATA + problem.cadFile;
+                                   : problem.cadFile;
   }
 
   vtkSmartPointer<vtkPointSet> wholeMesh() const

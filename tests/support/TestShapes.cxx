@@ -6,6 +6,7 @@
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeCone.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRepPrimAPI_MakeTorus.hxx>
@@ -51,6 +52,16 @@ TopoDS_Shape circle(double radius)
 TopoDS_Shape rectangle(double x, double y)
 {
   return BRepBuilderAPI_MakeFace(gp_Pln(), 0, x, 0, y).Shape();
+}
+
+TopoDS_Shape cone(double radius, double height)
+{
+  return BRepPrimAPI_MakeCone(radius, 0, height).Shape();
+}
+
+TopoDS_Shape boxWithoutCorner(double x, double y, double z, double radius)
+{
+  return BRepAlgoAPI_Cut(box(x, y, z), sphere(radius)).Shape();
 }
 
 std::string writeInto(

@@ -26,6 +26,10 @@ TopoDS_Shape pipe(double innerRadius, double outerRadius, double height);
 TopoDS_Shape circle(double radius);
 /// The rectangle from the origin to (x, y, 0): one face with four edges.
 TopoDS_Shape rectangle(double x, double y);
+/// Base at the origin, apex at height z.
+TopoDS_Shape cone(double radius, double height);
+/// A box with a ball about the origin, its corner, cut off.
+TopoDS_Shape boxWithoutCorner(double x, double y, double z, double radius);
 
 /// Writes `shape` into the folder with this extension (".step", ".igs", ".brep"); the file's path.
 std::string writeInto(

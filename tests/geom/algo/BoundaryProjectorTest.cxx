@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -20,7 +21,7 @@ constexpr double unlimited = std::numeric_limits<double>::infinity();
 
 FacetRecord facetWithNormal(const Vector3& normal)
 {
-  return { normalized(normal), 1, 1, 0 };
+  return { normalized(normal), 1, 1, 0, -1 };
 }
 
 ClassifiedFacet facetAt(const BoundaryProjector& projector, const std::array<Point3, 3>& points)
@@ -39,6 +40,7 @@ class BoxProjector : public testing::Test
 protected:
   std::shared_ptr<const CADModel> model = cadtest::modelOf(cadtest::box(1, 1, 1));
   BoundaryProjector projector{ *model, BoundaryKind::Triangles };
+  EdgeFinder edges{ *model };
 
   std::array<EntityId, 2> entitiesAt(const std::array<Point3, 2>& points) const
   {
@@ -69,11 +71,13 @@ TEST_F(BoxProjector, putsMeshEdgesAlongSharpEdgesOntoThem)
 {
   const std::vector<FacetRecord> facets{ facetWithNormal({ 0, -1, 0.1 }),
     facetWithNormal({ 0.1, 0, 1 }) };
-  EXPECT_TRUE(projector.runsAlongCrease({ 0.1, 0.02, 1.03 }, { 0.6, -0.02, 0.98 }, facets));
+  const EdgeMatch match =
+    edges.find({ { { { 0.1, 0.02, 1.03 }, { 0.6, -0.02, 0.98 } } }, { facets[0], facets[1] } });
   const std::array<Point3, 2> points{ { { 0.1, 0, 1 }, { 0.6, 0, 1 } } };
   const EdgeClass edgeClass = projector.classify(points, entitiesAt(points), facets);
-  ASSERT_EQ(edgeClass.kind, EdgeClass::Crease);
+  ASSERT_EQ(edgeClass.kind, EdgeClass::OnEdge);
   EXPECT_EQ((EntityId{ 1, edgeClass.edge }), entitiesAt(points)[0]);
+  EXPECT_EQ(match.edge, edgeClass.edge);
   const ClosestPoint where = projector.projectMidpoint(edgeClass, points, entitiesAt(points));
   EXPECT_EQ(where.entity.dimension, 1);
   EXPECT_NEAR(distance(where.point, { 0.35, 0, 1 }), 0, 1e-12);
@@ -83,7 +87,7 @@ TEST_F(BoxProjector, doesNotTakeFlatMeshEdgesForCreases)
 {
   const std::vector<FacetRecord> flat{ facetWithNormal({ 0, 0, 1 }),
     facetWithNormal({ 0.02, 0, 1 }) };
-  EXPECT_FALSE(projector.runsAlongCrease({ 0.1, 0, 1 }, { 0.6, 0, 1 }, flat));
+  EXPECT_EQ(edges.find({ { { { 0.1, 0, 1 }, { 0.6, 0, 1 } } }, { flat[0], flat[1] } }).edge, -1);
   const std::array<Point3, 2> diagonal{ { { 0, 0, 1 }, { 1, 1, 1 } } };
   const EdgeClass edgeClass = projector.classify(diagonal, entitiesAt(diagonal), flat);
   EXPECT_EQ(edgeClass.kind, EdgeClass::Smooth);
@@ -97,7 +101,23 @@ TEST_F(BoxProjector, doesNotTakeEdgesAwayFromACreaseForIt)
 {
   const std::vector<FacetRecord> facets{ facetWithNormal({ 0, -1, 0.5 }),
     facetWithNormal({ 0, 0, 1 }) };
-  EXPECT_FALSE(projector.runsAlongCrease({ 0.4, 0, 1 }, { 0.5, 0.3, 1 }, facets));
+  EXPECT_EQ(
+    edges.find({ { { { 0.4, 0, 1 }, { 0.5, 0.3, 1 } } }, { facets[0], facets[1] } }).edge, -1);
+}
+
+/// Where more than two facets meet, as at a baffle, their order does not matter.
+TEST_F(BoxProjector, takesEveryPairOfFacetsForACrease)
+{
+  std::vector<FacetRecord> facets{ facetWithNormal({ 0, 0, 1 }), facetWithNormal({ 0.02, 0, 1 }),
+    facetWithNormal({ 0, -1, 0 }) };
+  const std::array<Point3, 2> points{ { { 0.1, 0, 1 }, { 0.6, 0, 1 } } };
+  const std::int32_t edge = entitiesAt(points)[0].index;
+  for (int turn = 0; turn < 3; ++turn)
+  {
+    EXPECT_EQ(edges.findCrease(meshEdges(points, facets)).edge, edge);
+    EXPECT_EQ(projector.classify(points, entitiesAt(points), facets).edge, edge);
+    std::rotate(facets.begin(), facets.begin() + 1, facets.end());
+  }
 }
 
 TEST_F(BoxProjector, knowsACornersEdgesApart)
@@ -109,7 +129,7 @@ TEST_F(BoxProjector, knowsACornersEdgesApart)
   ASSERT_EQ(entities[0].dimension, 0);
   const EdgeClass edgeClass = projector.classify(points, entities, facets);
   const ClosestPoint where = projector.projectMidpoint(edgeClass, points, entities);
-  EXPECT_EQ(edgeClass.kind, EdgeClass::Crease);
+  EXPECT_EQ(edgeClass.kind, EdgeClass::OnEdge);
   EXPECT_EQ(edgeClass.edge, where.entity.index);
   EXPECT_NEAR(distance(where.point, { 0.5, 0, 1 }), 0, 1e-12);
 }
@@ -120,7 +140,7 @@ TEST_F(BoxProjector, leavesEdgesBesideFreeFacetsAndOffTheCadStraight)
   std::vector<FacetRecord> facets{ facetWithNormal({ 0, -1, 0 }), facetWithNormal({ 0, 0, 1 }) };
   EXPECT_EQ(projector.classify(points, {}, facets).kind, EdgeClass::Straight);
   EXPECT_EQ(projector.classify(points, entitiesAt(points), {}).kind, EdgeClass::Straight);
-  facets[1] = { facets[1].normal, 1, 0, 1 };
+  facets[1] = { facets[1].normal, 1, 0, 1, -1 };
   EXPECT_EQ(projector.classify(points, entitiesAt(points), facets).kind, EdgeClass::Straight);
   EXPECT_FALSE(projector.projectMidpoint({}, points, entitiesAt(points)).entity);
 }
@@ -174,7 +194,7 @@ TEST_F(ThinSheet, keepsMidpointsOnTheirCrease)
   const std::vector<FacetRecord> facets{ facetWithNormal(at(1, 70, 0)),
     facetWithNormal({ 0, 0, 1 }) };
   const EdgeClass edgeClass = projector.classify(points, { rim, rim }, facets);
-  ASSERT_EQ(edgeClass.kind, EdgeClass::Crease);
+  ASSERT_EQ(edgeClass.kind, EdgeClass::OnEdge);
   EXPECT_EQ(edgeClass.edge, rim.index);
   const ClosestPoint where = projector.projectMidpoint(edgeClass, points, { rim, rim });
   EXPECT_NEAR(distance(where.point, at(1.01, 70, 1)), 0, 1e-9);

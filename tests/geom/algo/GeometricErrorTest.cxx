@@ -143,7 +143,7 @@ ErrorFacet prismFacet(const BoundaryProjector& projector, const std::array<Point
   {
     if (points[k][2] == points[(k + 1) % 3][2])
     {
-      facet.edges[k] = { EdgeClass::Crease, -1 };
+      facet.edges[k] = { EdgeClass::OnEdge, -1 };
     }
   }
   return facet;

@@ -1,0 +1,220 @@
+#include "CornerTakers.h"
+
+#include "CADAdjacency.h"
+
+#include <algorithm>
+#include <limits>
+#include <tuple>
+
+namespace cadrefine
+{
+namespace
+{
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// What a mesh vertex asks for.
+struct Wish
+{
+  std::int32_t vertex = -1; ///< CAD vertex.
+  double rank = infinity;   ///< 0: two of its CAD edges end there, close by; 1: otherwise.
+  double distance = infinity;
+
+  friend bool operator<(const Wish& a, const Wish& b)
+  {
+    return std::tie(a.rank, a.distance, a.vertex) < std::tie(b.rank, b.distance, b.vertex);
+  }
+};
+
+class CornerGiver
+{
+public:
+  CornerGiver(const ProjectionTask& task, const VertexEntities& meeting,
+    const std::vector<unsigned char>& onCAD, std::vector<ClosestPoint>& hits)
+    : task_(task), nurbs_(task.model().nurbs()), meeting_(meeting), hits_(hits),
+      takesPart_(hits.size()), taken_(hits.size(), 0)
+  {
+    findApexes();
+    for (std::size_t v = 0; v < hits.size(); ++v)
+    {
+      takesPart_[v] = onCAD[v] && hits[v].entity;
+    }
+  }
+
+  std::vector<unsigned char> run()
+  {
+    give();
+    std::vector<unsigned char> conflicts(hits_.size(), 0);
+    for (std::size_t v = 0; v < hits_.size(); ++v)
+    {
+      conflicts[v] = takesPart_[v] && (taken_[v] ? hasLineElsewhere(v) : isInConflict(v));
+    }
+    return conflicts;
+  }
+
+private:
+  /// Corners at which no crease ends: they are not found by way of mesh edges along creases.
+  void findApexes()
+  {
+    apexes_.resize(nurbs_.faces.size());
+    for (const std::int32_t corner : task_.projector.corners())
+    {
+      const auto& edges = nurbs_.vertices[corner].edges;
+      if (std::none_of(edges.begin(), edges.end(),
+            [&](std::int32_t edge) { return nurbs_.edges[edge].sharp; }))
+      {
+        for (const std::int32_t face : entitiesAround(nurbs_, { 0, corner }, 2))
+        {
+          apexes_[face].push_back(corner);
+        }
+      }
+    }
+  }
+
+  std::vector<std::int32_t> endsOf(std::int32_t edge) const
+  {
+    const NurbsEdge& e = nurbs_.edges[edge];
+    return e.firstVertex < 0 ? std::vector<std::int32_t>{}
+           : e.firstVertex == e.lastVertex
+             ? std::vector<std::int32_t>{ e.firstVertex }
+             : std::vector<std::int32_t>{ e.firstVertex, e.lastVertex };
+  }
+
+  std::size_t edgesEndingAt(std::size_t v, std::int32_t vertex) const
+  {
+    const auto& edges = meeting_.edges[v];
+    const auto& ofVertex = nurbs_.vertices[vertex].edges;
+    return static_cast<std::size_t>(std::count_if(edges.begin(), edges.end(),
+      [&](std::int32_t edge)
+      { return std::binary_search(ofVertex.begin(), ofVertex.end(), edge); }));
+  }
+
+  Wish wishFor(std::size_t v, std::int32_t vertex, bool isApex) const
+  {
+    const NurbsVertex& wanted = nurbs_.vertices[vertex];
+    const double away = distance(task_.points()[v], wanted.point);
+    const double longest = task_.boundary.longestEdge[v];
+    const bool close = away <= 0.15 * task_.boundary.shortestEdge[v];
+    const bool joins = edgesEndingAt(v, vertex) >= std::min<std::size_t>(2, wanted.edges.size());
+    const double rank = joins && close && !isApex ? 0 : 1;
+    if (task_.projector.isCorner(vertex))
+    {
+      return away <= std::min(task_.limit(v), 0.5 * longest) ? Wish{ vertex, rank, away } : Wish{};
+    }
+    const double exact = 1e-9 * task_.model().size();
+    const bool mayMove = !meeting_.settled[v] || away <= exact + wanted.tolerance;
+    return joins && close && mayMove && away <= task_.limit(v) ? Wish{ vertex, rank, away }
+                                                               : Wish{};
+  }
+
+  Wish wishOf(std::size_t v) const
+  {
+    Wish best;
+    for (const std::int32_t edge : meeting_.edges[v])
+    {
+      for (const std::int32_t vertex : endsOf(edge))
+      {
+        best = std::min(best, wishFor(v, vertex, false));
+      }
+    }
+    for (const std::int32_t face : meeting_.faces[v])
+    {
+      for (const std::int32_t apex : apexes_[face])
+      {
+        best = std::min(best, wishFor(v, apex, true));
+      }
+    }
+    return best;
+  }
+
+  void give()
+  {
+    const auto& ids = task_.mesh.mesh().ids;
+    std::vector<Wish> wishes(hits_.size());
+    for (std::size_t v = 0; v < hits_.size(); ++v)
+    {
+      wishes[v] = takesPart_[v] ? wishOf(v) : Wish{};
+    }
+    const auto best = [&](auto value, auto initial, auto& considered)
+    {
+      std::vector<decltype(initial)> result(nurbs_.vertices.size(), initial);
+      for (std::size_t v = 0; v < wishes.size(); ++v)
+      {
+        if (wishes[v].vertex >= 0 && considered(v))
+        {
+          result[wishes[v].vertex] = std::min(result[wishes[v].vertex], value(v));
+        }
+      }
+      return task_.exchange.min(result);
+    };
+    const auto all = [](std::size_t) { return true; };
+    const auto ranks = best([&](std::size_t v) { return wishes[v].rank; }, infinity, all);
+    const auto ofRank = [&](std::size_t v) { return wishes[v].rank == ranks[wishes[v].vertex]; };
+    const auto distances =
+      best([&](std::size_t v) { return wishes[v].distance; }, infinity, ofRank);
+    const auto nearest = [&](std::size_t v)
+    { return ofRank(v) && wishes[v].distance == distances[wishes[v].vertex]; };
+    const auto takers = best([&](std::size_t v) { return std::int64_t{ ids[v] }; },
+      std::numeric_limits<std::int64_t>::max(), nearest);
+    for (std::size_t v = 0; v < wishes.size(); ++v)
+    {
+      if (wishes[v].vertex >= 0 && takers[wishes[v].vertex] == ids[v])
+      {
+        hits_[v] = task_.projector.nearestOn({ 0, wishes[v].vertex }, task_.points()[v]);
+        taken_[v] = 1;
+      }
+    }
+  }
+
+  /// Whether a CAD edge of a vertex that has taken a CAD vertex does not lead there.
+  bool hasLineElsewhere(std::size_t v) const
+  {
+    const auto& lines = task_.projector.lines();
+    const auto& there = nurbs_.vertices[hits_[v].entity.index].edges;
+    const auto leadsThere = [&](std::int32_t edge)
+    {
+      return std::any_of(there.begin(), there.end(),
+        [&](std::int32_t other) { return lines[other] == lines[edge]; });
+    };
+    const auto& edges = meeting_.edges[v];
+    return !std::all_of(edges.begin(), edges.end(), leadsThere);
+  }
+
+  bool isInConflict(std::size_t v) const
+  {
+    if (meeting_.undecided[v] || meeting_.dangling[v] ||
+        (hits_[v].entity.dimension == 0 && task_.projector.isCorner(hits_[v].entity.index)))
+    {
+      return true;
+    }
+    const auto& edges = meeting_.edges[v];
+    const auto& lines = task_.projector.lines();
+    if (std::all_of(edges.begin(), edges.end(),
+          [&](std::int32_t edge) { return lines[edge] == lines[*edges.begin()]; }))
+    {
+      return false;
+    }
+    const auto ends = endsOf(*edges.begin());
+    return std::none_of(ends.begin(), ends.end(),
+      [&](std::int32_t vertex)
+      { return edgesEndingAt(v, vertex) == edges.size() && !task_.projector.isCorner(vertex); });
+  }
+
+  const ProjectionTask& task_;
+  const NurbsModel& nurbs_;
+  const VertexEntities& meeting_;
+  std::vector<ClosestPoint>& hits_;
+  std::vector<unsigned char> takesPart_;
+  std::vector<unsigned char> taken_;
+  std::vector<std::vector<std::int32_t>> apexes_; ///< Of each face.
+};
+
+} // namespace
+
+std::vector<unsigned char> giveCorners(const ProjectionTask& task, const VertexEntities& meeting,
+  const std::vector<unsigned char>& onCAD, std::vector<ClosestPoint>& hits)
+{
+  return CornerGiver(task, meeting, onCAD, hits).run();
+}
+
+} // namespace cadrefine

@@ -1,0 +1,40 @@
+// Which CAD edges the mesh edges run along, and what that means for their ends.
+#pragma once
+
+#include "FacetFaces.h"
+#include "ProjectionTask.h"
+
+#include <vector>
+
+namespace cadrefine
+{
+
+/// What meets at each vertex, on whatever rank: faces of the facets on the CAD, and CAD edges that
+/// mesh edges run along.
+struct VertexEntities
+{
+  std::vector<FewEntities> faces;
+  std::vector<FewEntities> edges;
+  /// The vertex lies on the CAD already.
+  std::vector<unsigned char> settled;
+  /// One mesh edge along a crease ends at the vertex, although all of its facets are on the CAD.
+  std::vector<unsigned char> dangling;
+  /// A facet on the CAD whose face is not known has the vertex.
+  std::vector<unsigned char> undecided;
+  /// The normal of the model at the vertex's nearest point fits none of its facets.
+  std::vector<unsigned char> wrongSide;
+};
+
+/// For triangles: CAD edges by EdgeFinder::find, with each pair of facets at the mesh edge. For
+/// segments: the CAD edge nearest to the middle of the segment. Collective.
+VertexEntities findVertexEntities(
+  const ProjectionTask& task, const std::vector<ClosestPoint>& hits, const FacetClasses& facets);
+
+/// Puts vertices of boundaries of triangles onto what meets there: the nearest of their CAD edges,
+/// and of those that continue it (see findCreaseLines); of vertices without these, those whose
+/// nearest point is on the wrong side of something thin onto the nearest of their faces. A point
+/// beyond a vertex's limit is not taken. Collective.
+void placeVertices(
+  const ProjectionTask& task, const VertexEntities& meeting, std::vector<ClosestPoint>& hits);
+
+} // namespace cadrefine

@@ -1,0 +1,198 @@
+// Entities of the boundary nodes of meshes by gmsh, which knows them, after the nodes were moved by
+// up to 5% of the length of their edges (see tests/support/gmsh_truth.py).
+
+#include "CADModel.h"
+#include "DataSets.h"
+#include "FilterRun.h"
+#include "TestMeshes.h"
+#include "TestShapes.h"
+#include "vtkCADModelCache.h"
+
+#include <gtest/gtest.h>
+#include <vtkDataArray.h>
+#include <vtkPointData.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <iostream>
+#include <map>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+
+namespace
+{
+
+using namespace cadrefine;
+
+std::string textOf(EntityId entity)
+{
+  std::ostringstream text;
+  text << "(" << static_cast<int>(entity.dimension) << ", " << entity.index << ")";
+  return text.str();
+}
+
+/// The entity of this dimension on which a point lies, or none.
+EntityId entityAt(const CADModel& model, const Point3& point, int dimension)
+{
+  SearchScope scope;
+  scope.maximumDistance = 1e-6 * model.size();
+  scope.faces = dimension == 2;
+  scope.edges = dimension == 1;
+  scope.sharpEdges = dimension == 1;
+  scope.vertices = dimension == 0;
+  return model.nearest(point, scope).entity;
+}
+
+/// Where each point of a mesh belongs according to gmsh, in entities of our model: to each entity
+/// of gmsh's that has a node belongs one of ours, and to that no other one.
+std::vector<EntityId> findTruth(const CADModel& model, vtkPointSet* mesh)
+{
+  vtkDataArray* dimensions = mesh->GetPointData()->GetArray("TruthDimension");
+  vtkDataArray* tags = mesh->GetPointData()->GetArray("TruthTag");
+  vtkDataArray* exact = mesh->GetPointData()->GetArray("ExactPosition");
+  std::map<EntityId, EntityId> oursOf;
+  std::map<EntityId, EntityId> theirsOf;
+  std::vector<EntityId> truth(static_cast<std::size_t>(mesh->GetNumberOfPoints()));
+  for (vtkIdType p = 0; p < mesh->GetNumberOfPoints(); ++p)
+  {
+    const EntityId theirs{ static_cast<std::int8_t>(dimensions->GetTuple1(p)),
+      static_cast<std::int32_t>(tags->GetTuple1(p)) };
+    if (theirs.dimension == 3)
+    {
+      continue;
+    }
+    Point3 point;
+    exact->GetTuple(p, point.data());
+    const EntityId ours = entityAt(model, point, theirs.dimension);
+    truth[static_cast<std::size_t>(p)] = ours;
+    if (oursOf.emplace(theirs, ours).first->second != ours ||
+        (ours && theirsOf.emplace(ours, theirs).first->second != theirs))
+    {
+      throw std::runtime_error("not one to one: " + textOf(theirs) + " and " + textOf(ours));
+    }
+  }
+  return truth;
+}
+
+std::vector<EntityId> entitiesOf(vtkPointSet* mesh)
+{
+  vtkDataArray* dimensions = mesh->GetPointData()->GetArray("CADDimension");
+  vtkDataArray* indices = mesh->GetPointData()->GetArray("CADEntity");
+  std::vector<EntityId> entities;
+  for (vtkIdType p = 0; p < mesh->GetNumberOfPoints(); ++p)
+  {
+    entities.push_back({ static_cast<std::int8_t>(dimensions->GetTuple1(p)),
+      static_cast<std::int32_t>(indices->GetTuple1(p)) });
+  }
+  return entities;
+}
+
+/// What was found for the nodes of a mesh, against the truth.
+struct Comparison
+{
+  std::size_t nodes = 0; ///< Of entities, or found to be on one.
+  std::size_t right = 0;
+  std::set<EntityId> vertices; ///< CAD vertices that have a node.
+  std::set<EntityId> verticesFound;
+  std::map<std::pair<EntityId, EntityId>, std::size_t> wrong; ///< How often (truth, found).
+  std::size_t guessed = 0; ///< Wrong ones that are not reported as a conflict.
+};
+
+Comparison compare(const std::vector<EntityId>& truth, vtkPointSet* projected)
+{
+  const auto found = entitiesOf(projected);
+  vtkDataArray* conflicts = projected->GetPointData()->GetArray("CADConflict");
+  Comparison result;
+  for (std::size_t p = 0; p < truth.size(); ++p)
+  {
+    if (!truth[p] && !found[p])
+    {
+      continue;
+    }
+    ++result.nodes;
+    const bool right = truth[p] == found[p];
+    result.right += right;
+    if (truth[p].dimension == 0)
+    {
+      result.vertices.insert(truth[p]);
+      if (right)
+      {
+        result.verticesFound.insert(truth[p]);
+      }
+    }
+    if (!right)
+    {
+      ++result.wrong[{ truth[p], found[p] }];
+      result.guessed += conflicts->GetTuple1(static_cast<vtkIdType>(p)) == 0;
+    }
+  }
+  return result;
+}
+
+void print(const std::string& name, const Comparison& comparison)
+{
+  std::cout << name << ": " << comparison.right << " of " << comparison.nodes << " nodes right, "
+            << comparison.verticesFound.size() << " of " << comparison.vertices.size()
+            << " CAD vertices, " << comparison.guessed << " guessed\n";
+  for (const auto& [entities, count] : comparison.wrong)
+  {
+    std::cout << "  " << textOf(entities.first) << " taken for " << textOf(entities.second) << ": "
+              << count << "\n";
+  }
+}
+
+class Classification : public testing::TestWithParam<std::tuple<const char*, const char*>>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(Gmsh, Classification,
+  testing::Combine(testing::Values("box_minus_cylinder", "two_cones", "filleted_box",
+                     "half_cylinder", "torus_segment", "naca_section", "thin_wing"),
+    testing::Values("coarse", "fine")),
+  [](const auto& test)
+  { return std::string(std::get<0>(test.param)) + "_" + std::get<1>(test.param); });
+
+TEST_P(Classification, recoversTheEntitiesOfTheNodes)
+{
+  const auto [solid, size] = GetParam();
+  const std::string path = std::string(CADREFINE_TRUTH) + "/" + solid;
+  const cadtest::FilterRun filters(path + ".brep");
+  const auto model = vtkCADModelCache::Get(filters.cad());
+  const auto mesh = cadtest::readGrid(path + "_" + size + ".vtu");
+  const auto projected = filters.project(mesh);
+  const Comparison comparison = compare(findTruth(*model, mesh), projected);
+  print(std::string(solid) + ", " + size, comparison);
+  EXPECT_GE(comparison.right, 0.999 * comparison.nodes);
+  EXPECT_EQ(comparison.verticesFound, comparison.vertices);
+  EXPECT_EQ(comparison.guessed, 0u) << "what is left is in conflict";
+  EXPECT_EQ(cadtest::fieldValue(projected, "UnprojectedVertices"), 0);
+}
+
+/// A dent with three vertices of the CAD, in a corner for which the mesh has but one.
+TEST(Conflicts, areReportedWhereTheMeshIsTooCoarse)
+{
+  const cadtest::TemporaryFolder folder;
+  const cadtest::FilterRun filters(
+    cadtest::writeInto(folder, cadtest::boxWithoutCorner(1, 1, 1, 0.15), ".brep"));
+  const auto mesh = cadtest::toGrid(cadtest::cubeMesh(3, 0, 1));
+  const auto projected = filters.project(mesh);
+  EXPECT_EQ(cadtest::fieldValue(projected, "ClassificationConflicts"), 1);
+  vtkDataArray* conflicts = projected->GetPointData()->GetArray("CADConflict");
+  ASSERT_NE(conflicts, nullptr);
+  for (vtkIdType p = 0; p < mesh->GetNumberOfPoints(); ++p)
+  {
+    Point3 before;
+    mesh->GetPoint(p, before.data());
+    EXPECT_EQ(conflicts->GetTuple1(p), norm(before) == 0 ? 1 : 0);
+  }
+}
+
+TEST(Conflicts, areNoneWhereTheMeshIsFineEnough)
+{
+  const cadtest::TemporaryFolder folder;
+  const cadtest::FilterRun filters(cadtest::writeInto(folder, cadtest::box(1, 1, 1), ".brep"));
+  const auto projected = filters.project(cadtest::toGrid(cadtest::cubeMesh(3, 0, 1)));
+  EXPECT_EQ(cadtest::fieldValue(projected, "ClassificationConflicts"), 0);
+}
+
+} // namespace
