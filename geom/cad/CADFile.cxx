@@ -7,9 +7,11 @@
 
 #include "CADModelBuilder.h"
 #include "FileCheck.h"
+#include "GapSearch.h"
 #include "IsolatedRun.h"
 #include "ModelBytes.h"
 #include "OccGuard.h"
+#include "ShapeIndex.h"
 #include "ShapePreparation.h"
 #include "ShapeReaders.h"
 
@@ -47,7 +49,19 @@ double diagonalOf(const TopoDS_Shape& shape)
   return box.IsVoid() ? 0 : std::sqrt(box.SquareExtent());
 }
 
-std::string listOf(const std::vector<UnreadEntity>& unread)
+template<typename Shape>
+std::vector<EntityLook> looksOf(const std::vector<Shape>& shapes, const LookMap& looks)
+{
+  std::vector<EntityLook> result;
+  result.reserve(shapes.size());
+  for (const Shape& shape : shapes)
+  {
+    result.push_back(looks.of(shape));
+  }
+  return result;
+}
+
+std::string listOf(const std::string& what, const std::vector<UnreadEntity>& unread)
 {
   constexpr std::size_t most = 5;
   std::string list;
@@ -55,7 +69,7 @@ std::string listOf(const std::vector<UnreadEntity>& unread)
   {
     const UnreadEntity& u = unread[i];
     const std::string entity = u.entity > 0 ? std::to_string(u.entity) + " " + u.type + ": " : "";
-    list += (list.empty() ? " (unread: " : "; ") + entity + u.reason;
+    list += (list.empty() ? " (" + what + ": " : "; ") + entity + u.reason;
   }
   if (unread.size() > most)
   {
@@ -68,14 +82,23 @@ ModelContent readContent(const std::string& path, CADFormat format)
 {
   ReadShape read = readShape(path, format);
   ModelContent content;
-  content.shape = prepareShape(read.shape);
-  if (content.shape.IsNull())
+  const PreparedShape prepared = prepareShape(read.shape, read.looks);
+  if (prepared.shape.IsNull())
   {
-    throw Error(path + ": holds no face and no curve that can be read" + listOf(read.unread));
+    throw Error(path + ": holds no face and no curve that can be read" +
+                listOf("unread", read.report.unread) + listOf("left out", read.report.leftOut));
   }
-  content.unit = std::move(read.unit);
-  content.unread = std::move(read.unread);
-  content.size = diagonalOf(content.shape);
+  const ShapeIndex index(prepared.shape);
+  content.shape = prepared.shape;
+  content.size = diagonalOf(prepared.shape);
+  content.report = std::move(read.report);
+  content.report.sewingTolerance = prepared.sewingTolerance;
+  content.report.gaps = findGaps(index, content.size);
+  if (!read.looks.empty())
+  {
+    content.faceLooks = looksOf(index.faces(), read.looks);
+    content.edgeLooks = looksOf(index.edges(), read.looks);
+  }
   return content;
 }
 

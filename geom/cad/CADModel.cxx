@@ -86,28 +86,24 @@ struct CADModel::Implementation
 {
   Implementation(std::vector<char> source, const ModelContent& content)
     : bytes(std::move(source)), index(content.shape), nurbs(extractNurbs(index)),
-      size(content.size), unit(content.unit), unread(content.unread)
+      size(content.size),
+      report(content.report), looks{ { {}, content.edgeLooks, content.faceLooks } }
   {
-    for (std::size_t f = 0; f < std::min(content.faces.size(), nurbs.faces.size()); ++f)
-    {
-      nurbs.faces[f].name = content.faces[f].name;
-      nurbs.faces[f].color = content.faces[f].color;
-    }
   }
 
   const ClosestPointSearch& search() const
   {
     std::call_once(
-      this->searchOnce, [this] { this->lazySearch = std::make_unique<ClosestPointSearch>(nurbs); });
-    return *this->lazySearch;
+      searchOnce, [this] { lazySearch = std::make_unique<ClosestPointSearch>(nurbs); });
+    return *lazySearch;
   }
 
   std::vector<char> bytes;
   ShapeIndex index;
   NurbsModel nurbs;
   double size = 0;
-  std::string unit;
-  std::vector<UnreadEntity> unread;
+  CADReport report;
+  std::array<std::vector<EntityLook>, 3> looks; ///< By dimension; empty where none has any.
   mutable std::once_flag searchOnce;
   mutable std::unique_ptr<const ClosestPointSearch> lazySearch;
 };
@@ -134,61 +130,65 @@ std::shared_ptr<const CADModel> CADModel::fromBytes(const std::vector<char>& byt
 
 std::vector<char> CADModel::toBytes() const
 {
-  return this->implementation_->bytes;
+  return implementation_->bytes;
 }
 
 const NurbsModel& CADModel::nurbs() const
 {
-  return this->implementation_->nurbs;
+  return implementation_->nurbs;
 }
 
 double CADModel::size() const
 {
-  return this->implementation_->size;
+  return implementation_->size;
 }
 
-const std::string& CADModel::unit() const
+const CADReport& CADModel::report() const
 {
-  return this->implementation_->unit;
+  return implementation_->report;
 }
 
-const std::vector<UnreadEntity>& CADModel::unread() const
+const EntityLook& CADModel::look(EntityId entity) const
 {
-  return this->implementation_->unread;
+  static const EntityLook none;
+  checkIndex(nurbs(), entity);
+  const auto& looks = implementation_->looks[entity.dimension];
+  const auto index = static_cast<std::size_t>(entity.index);
+  return index < looks.size() ? looks[index] : none;
 }
 
 ClosestPoint CADModel::nearest(const Point3& point, const SearchScope& scope) const
 {
-  return this->implementation_->search().nearest(point, scope);
+  return implementation_->search().nearest(point, scope);
 }
 
 ClosestPoint CADModel::nearestOn(EntityId entity, const Point3& point) const
 {
-  checkIndex(this->nurbs(), entity);
-  return this->implementation_->search().nearestOn(entity, point);
+  checkIndex(nurbs(), entity);
+  return implementation_->search().nearestOn(entity, point);
 }
 
 Point3 CADModel::evaluate(EntityId entity, const std::array<double, 2>& parameters) const
 {
-  checkIndex(this->nurbs(), entity);
+  checkIndex(nurbs(), entity);
   if (entity.dimension == 0)
   {
-    return this->nurbs().vertices[entity.index].point;
+    return nurbs().vertices[entity.index].point;
   }
   if (entity.dimension == 1)
   {
-    const NurbsEdge& edge = this->nurbs().edges[entity.index];
+    const NurbsEdge& edge = nurbs().edges[entity.index];
     return cadrefine::evaluate(segmentAt(edge, parameters[0]), parameters[0]);
   }
-  const NurbsFace& face = this->nurbs().faces[entity.index];
+  const NurbsFace& face = nurbs().faces[entity.index];
   return cadrefine::evaluate(
     patchAt(face, parameters[0], parameters[1]), parameters[0], parameters[1]);
 }
 
 Vector3 CADModel::normal(int face, const std::array<double, 2>& parameters) const
 {
-  checkIndex(this->nurbs(), { 2, face });
-  const NurbsFace& f = this->nurbs().faces[face];
+  checkIndex(nurbs(), { 2, face });
+  const NurbsFace& f = nurbs().faces[face];
   const BezierPatch& patch = patchAt(f, parameters[0], parameters[1]);
   const double sign = f.reversed ? -1 : 1;
   return sign * limitNormal(patch, parameters[0], parameters[1]);
@@ -196,15 +196,15 @@ Vector3 CADModel::normal(int face, const std::array<double, 2>& parameters) cons
 
 Vector3 CADModel::normalNear(int face, const Point3& point) const
 {
-  checkIndex(this->nurbs(), { 2, face });
-  const ClosestPoint where = this->implementation_->search().nearestOnSurface(face, point);
-  return where.entity ? this->normal(face, where.parameters) : Vector3{};
+  checkIndex(nurbs(), { 2, face });
+  const ClosestPoint where = implementation_->search().nearestOnSurface(face, point);
+  return where.entity ? normal(face, where.parameters) : Vector3{};
 }
 
 Vector3 CADModel::tangent(int edge, double t) const
 {
-  checkIndex(this->nurbs(), { 1, edge });
-  const BezierCurve& segment = segmentAt(this->nurbs().edges[edge], t);
+  checkIndex(nurbs(), { 1, edge });
+  const BezierCurve& segment = segmentAt(nurbs().edges[edge], t);
   Vector3 tangent = normalized(evaluateDerivatives(segment, t).t);
   for (double step = 1e-6; squaredNorm(tangent) == 0 && step < 1e-2; step *= 10)
   {
@@ -216,13 +216,13 @@ Vector3 CADModel::tangent(int edge, double t) const
 
 bool CADModel::inClosure(EntityId entity, EntityId of) const
 {
-  checkIndex(this->nurbs(), entity);
-  checkIndex(this->nurbs(), of);
+  checkIndex(nurbs(), entity);
+  checkIndex(nurbs(), of);
   if (entity == of || entity.dimension >= of.dimension)
   {
     return entity == of;
   }
-  const NurbsModel& model = this->nurbs();
+  const NurbsModel& model = nurbs();
   if (of.dimension == 1)
   {
     return endsAt(model.edges[of.index], entity.index);
@@ -236,12 +236,12 @@ bool CADModel::inClosure(EntityId entity, EntityId of) const
 
 Tessellation CADModel::tessellate(EntityId entity, double deflection) const
 {
-  checkIndex(this->nurbs(), entity);
+  checkIndex(nurbs(), entity);
   if (!(deflection > 0))
   {
     throw Error("the deflection of a tessellation must be positive");
   }
-  const ShapeIndex& index = this->implementation_->index;
+  const ShapeIndex& index = implementation_->index;
   return guardOcc("drawing the CAD model",
     [&]
     {

@@ -1,6 +1,7 @@
 // The CAD model as the rest of CADRefine sees it: no type of Open CASCADE appears here.
 #pragma once
 
+#include "CADReport.h"
 #include "ClosestPointSearch.h"
 #include "EntityId.h"
 #include "NurbsModel.h"
@@ -8,18 +9,18 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace cadrefine
 {
 
-/// Something in the file that could not be read, or could be read only after a repair.
-struct UnreadEntity
+/// What the file says of an entity beside its geometry.
+struct EntityLook
 {
-  int entity = 0;     ///< IGES directory entry number, STEP instance number, 0: the file itself.
-  std::string type;   ///< For example "IGES 128 (rational B-spline surface)".
-  std::string reason; ///< One line.
+  std::string name;                           ///< Empty: none.
+  std::optional<std::array<float, 3>> colour; ///< RGB in [0, 1].
 };
 
 /// Triangles or line segments that show one entity.
@@ -48,9 +49,11 @@ public:
   int count(int dimension) const { return nurbs().count(dimension); }
   /// Diagonal of the bounding box.
   double size() const;
-  /// Name of the length unit of the file, for example "mm", "m", "in"; empty where it has none.
-  const std::string& unit() const;
-  const std::vector<UnreadEntity>& unread() const;
+  const CADReport& report() const;
+  const std::string& unit() const { return report().unit; }
+  const std::vector<UnreadEntity>& unread() const { return report().unread; }
+  /// Name and colour of a face or an edge; without either for a vertex.
+  const EntityLook& look(EntityId entity) const;
 
   /// See ClosestPointSearch. The first query of a model builds the search structure, once for all
   /// threads; every later one only reads it.

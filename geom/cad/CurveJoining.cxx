@@ -34,6 +34,7 @@ namespace
 
 struct FreeCurve
 {
+  TopoDS_Edge edge;
   Handle(Geom_Curve) curve;
   double first = 0;
   double last = 0;
@@ -65,6 +66,7 @@ std::vector<FreeCurve> takeCurves(const TopoDS_Shape& edges)
   {
     const TopoDS_Edge edge = TopoDS::Edge(explorer.Current());
     FreeCurve c;
+    c.edge = edge;
     c.curve = BRep_Tool::Curve(edge, c.first, c.last);
     c.tolerance = BRep_Tool::Tolerance(edge);
     for (TopExp_Explorer end(edge, TopAbs_VERTEX); end.More(); end.Next())
@@ -190,7 +192,7 @@ TopoDS_Edge makeEdge(
 
 } // namespace
 
-TopoDS_Shape joinCurves(const TopoDS_Shape& edges)
+TopoDS_Shape joinCurves(const TopoDS_Shape& edges, LookMap& looks)
 {
   const BRep_Builder builder;
   TopoDS_Compound compound;
@@ -211,8 +213,10 @@ TopoDS_Shape joinCurves(const TopoDS_Shape& edges)
   const std::vector<TopoDS_Vertex> vertices = makeVertices(ends, clusters);
   for (std::size_t i = 0; i < curves.size(); ++i)
   {
-    builder.Add(
-      compound, makeEdge(curves[i], vertices[clusters[2 * i]], vertices[clusters[2 * i + 1]]));
+    const TopoDS_Edge edge =
+      makeEdge(curves[i], vertices[clusters[2 * i]], vertices[clusters[2 * i + 1]]);
+    looks.follow(curves[i].edge, edge);
+    builder.Add(compound, edge);
   }
   return compound;
 }

@@ -1,7 +1,10 @@
 #include "IgesParameterCheck.h"
 
+#include "Vector3.h"
+
 #include <algorithm>
-#include <cctype>
+#include <array>
+#include <cmath>
 #include <cstdlib>
 
 namespace cadrefine
@@ -53,8 +56,8 @@ struct Direction
 {
   long last = 0;
   long degree = 0;
-  long poles() const { return this->last + 1; }
-  long knots() const { return this->last + this->degree + 2; }
+  long poles() const { return last + 1; }
+  long knots() const { return last + degree + 2; }
 };
 
 std::string checkDirection(const Direction& d)
@@ -143,6 +146,36 @@ std::string checkSpline(const Values& values, std::size_t directions)
   return checkWeights(values, weights, poles);
 }
 
+/// Type 124, by rows with the translation last. Open CASCADE takes rows of equal length that stand
+/// at right angles to 1e-4, and leaves out any other matrix.
+std::string checkMatrix(const Values& values)
+{
+  constexpr double precision = 1e-4;
+  constexpr std::size_t count = 13;
+  if (values.size() < count)
+  {
+    return "has " + std::to_string(values.size()) + " parameters, but needs 13";
+  }
+  std::array<Vector3, 3> rows{};
+  double length = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+  {
+    rows[i] = { numberAt(values, 4 * i + 1), numberAt(values, 4 * i + 2),
+      numberAt(values, 4 * i + 3) };
+    length += norm(rows[i]) / 3;
+  }
+  for (std::size_t i = 0; i < rows.size(); ++i)
+  {
+    const double product = dot(rows[i], rows[(i + 1) % rows.size()]);
+    if (!(length > precision) || std::abs(norm(rows[i]) - length) > precision * length ||
+        std::abs(product) > precision * length * length)
+    {
+      return "the matrix distorts shapes";
+    }
+  }
+  return {};
+}
+
 } // namespace
 
 std::string checkIgesParameters(int type, const IgesParameters& parameters)
@@ -156,11 +189,11 @@ std::string checkIgesParameters(int type, const IgesParameters& parameters)
   {
     return "its parameters do not begin with its type";
   }
-  if (!parameters.terminated)
-  {
-    return "its parameters have no end";
-  }
   std::string reason = checkNumbers(parameters.values);
+  if (reason.empty() && type == 124)
+  {
+    return checkMatrix(parameters.values);
+  }
   if (!reason.empty() || (type != 126 && type != 128))
   {
     return reason;

@@ -1,14 +1,19 @@
 // IGES files, through Open CASCADE's reader.
 //
-// 0. Set broken entities aside and repair what can be repaired (IgesRepair).
-// 1. Load the file; take its unit's name and declare the numbers to be millimetres, so that the
+// 1. Set broken entities aside and repair what can be repaired (IgesRepair).
+// 2. Find the entities that stand for the model (IgesRoots).
+// 3. Load the file; take its unit's name and declare the numbers to be millimetres, so that the
 //    transfer scales nothing.
-// 2. Transfer every root entity; keep the shapes with faces, and free curves that are meant as
-//    geometry (not parameter-space, construction or blanked ones).
-// 3. List the entities that failed and the top-level geometry that gave no shape.
+// 4. Put right what Open CASCADE reads wrongly (IgesCorrections), and transfer the roots. (Open
+// CASCADE's own choice of roots takes blanked entities and aids, and
+//    drops what a drawing or a dimension refers to.)
+// 5. List the entities that failed and the roots that gave no shape.
 
 #include "CheckLists.h"
+#include "IgesCorrections.h"
+#include "IgesLooks.h"
 #include "IgesRepair.h"
+#include "IgesRoots.h"
 #include "IgesTypes.h"
 #include "OccGuard.h"
 #include "ShapeReaders.h"
@@ -19,12 +24,9 @@
 #include <IGESData_IGESEntity.hxx>
 #include <IGESData_IGESModel.hxx>
 #include <IGESData_IGESType.hxx>
-#include <Interface_EntityIterator.hxx>
-#include <Interface_Graph.hxx>
+#include <TColStd_HSequenceOfTransient.hxx>
 #include <TCollection_HAsciiString.hxx>
-#include <TopExp_Explorer.hxx>
 #include <TopoDS_Compound.hxx>
-#include <XSControl_TransferReader.hxx>
 #include <XSControl_WorkSession.hxx>
 
 #include <algorithm>
@@ -49,81 +51,55 @@ std::string takeUnit(const Handle(IGESData_IGESModel) & model)
   return igesUnitName(flag, name);
 }
 
-bool isModelCurve(const Handle(IGESData_IGESEntity) & entity)
-{
-  constexpr int useGeometry = 0;
-  constexpr int independent = 0;
-  return entity->UseFlag() == useGeometry && entity->BlankStatus() == 0 &&
-         entity->SubordinateStatus() == independent;
-}
-
-struct RootShapes
-{
-  std::vector<TopoDS_Shape> withFaces;
-  std::vector<TopoDS_Shape> modelCurves;
-  std::vector<TopoDS_Shape> otherCurves;
-};
-
-RootShapes sortRoots(IGESControl_Reader& reader)
-{
-  RootShapes roots;
-  for (int i = 1; i <= reader.NbRootsForTransfer(); ++i)
-  {
-    const Handle(IGESData_IGESEntity) entity =
-      Handle(IGESData_IGESEntity)::DownCast(reader.RootForTransfer(i));
-    const TopoDS_Shape shape = reader.WS()->TransferReader()->ShapeResult(entity);
-    if (shape.IsNull())
-    {
-      continue;
-    }
-    auto& list = TopExp_Explorer(shape, TopAbs_FACE).More() ? roots.withFaces
-                 : isModelCurve(entity)                     ? roots.modelCurves
-                                                            : roots.otherCurves;
-    list.push_back(shape);
-  }
-  return roots;
-}
-
-/// Curves that serve only as an aid are taken where the file has nothing else.
-TopoDS_Shape joinRoots(const RootShapes& roots, bool holdsSurfaces)
-{
-  const bool onlyAids = !holdsSurfaces && roots.modelCurves.empty();
-  BRep_Builder builder;
-  TopoDS_Compound compound;
-  builder.MakeCompound(compound);
-  for (const auto* list : { &roots.withFaces, &roots.modelCurves, &roots.otherCurves })
-  {
-    for (const TopoDS_Shape& shape : *list)
-    {
-      if (list != &roots.otherCurves || onlyAids)
-      {
-        builder.Add(compound, shape);
-      }
-    }
-  }
-  return compound;
-}
-
-/// Top level: nothing refers to it, or only groups and subfigures do.
-bool isTopLevel(
-  const Handle(XSControl_WorkSession) & session, const Handle(IGESData_IGESEntity) & entity)
-{
-  Interface_EntityIterator sharings = session->Graph().Sharings(entity);
-  for (sharings.Start(); sharings.More(); sharings.Next())
-  {
-    const Handle(IGESData_IGESEntity) parent =
-      Handle(IGESData_IGESEntity)::DownCast(sharings.Value());
-    if (!parent.IsNull() && !isIgesGroup(parent->TypeNumber()))
-    {
-      return false;
-    }
-  }
-  return true;
-}
-
 int directoryEntry(int number)
 {
   return 2 * number - 1;
+}
+
+int numberOf(int directoryEntry)
+{
+  return (directoryEntry + 1) / 2;
+}
+
+void transfer(IGESControl_Reader& reader, const std::vector<int>& roots)
+{
+  const Handle(TColStd_HSequenceOfTransient) list = new TColStd_HSequenceOfTransient;
+  for (const int root : roots)
+  {
+    list->Append(reader.IGESModel()->Entity(numberOf(root)));
+  }
+  reader.TransferList(list);
+}
+
+/// Numbers in the model of the roots and of all that they are made of.
+std::set<int> findUsed(const RepairedIges& file, const std::vector<int>& roots)
+{
+  std::set<int> used;
+  std::vector<int> open = roots;
+  while (!open.empty())
+  {
+    const int number = numberOf(open.back());
+    open.pop_back();
+    const bool exists = number >= 1 && number <= static_cast<int>(file.parts().size());
+    if (exists && used.insert(number).second)
+    {
+      const auto& parts = file.parts()[static_cast<std::size_t>(number) - 1];
+      open.insert(open.end(), parts.begin(), parts.end());
+    }
+  }
+  return used;
+}
+
+TopoDS_Shape joinShapes(IGESControl_Reader& reader)
+{
+  BRep_Builder builder;
+  TopoDS_Compound compound;
+  builder.MakeCompound(compound);
+  for (int i = 1; i <= reader.NbShapes(); ++i)
+  {
+    builder.Add(compound, reader.Shape(i));
+  }
+  return compound;
 }
 
 UnreadEntity makeUnread(
@@ -140,25 +116,9 @@ UnreadEntity makeUnread(
   return unread;
 }
 
-/// Numbers in the model of the top-level geometry that gave no shape.
-std::set<int> findLost(IGESControl_Reader& reader)
-{
-  std::set<int> lost;
-  const Handle(IGESData_IGESModel) model = reader.IGESModel();
-  for (int number = 1; number <= model->NbEntities(); ++number)
-  {
-    const Handle(IGESData_IGESEntity) entity = model->Entity(number);
-    if (isIgesGeometry(entity->IGESType().Type(), entity->IGESType().Form()) &&
-        isTopLevel(reader.WS(), entity) && !hasShape(reader.WS(), entity))
-    {
-      lost.insert(number);
-    }
-  }
-  return lost;
-}
-
-/// Causes only: what is lost because it refers to a broken entity is not listed again.
-std::vector<UnreadEntity> listUnread(IGESControl_Reader& reader, const RepairedIges& file)
+/// Causes only: what is lost because it is made of a broken entity is not listed again.
+std::vector<UnreadEntity> listUnread(
+  IGESControl_Reader& reader, const RepairedIges& file, const IgesRoots& roots)
 {
   const Handle(IGESData_IGESModel) model = reader.IGESModel();
   FailureMap failures = collectFailures(reader.WS());
@@ -167,17 +127,19 @@ std::vector<UnreadEntity> listUnread(IGESControl_Reader& reader, const RepairedI
   {
     failed.insert(number);
   }
-  for (const int number : findLost(reader))
+  for (const int root : roots.kept)
   {
-    if (!refersToAny(reader.WS(), model->Entity(number), failed))
+    const Handle(IGESData_IGESEntity) entity = model->Entity(numberOf(root));
+    if (!hasShape(reader.WS(), entity) && !refersToAny(reader.WS(), entity, failed))
     {
-      failures.emplace(number, "gives no shape");
+      failures.emplace(numberOf(root), "gives no shape");
     }
   }
   std::vector<UnreadEntity> unread = file.unread();
   for (const auto& [number, reason] : failures)
   {
-    if (!file.dependsOnBroken(directoryEntry(number)))
+    const int entry = directoryEntry(number);
+    if (!file.isBroken(entry) && !file.dependsOnBroken(entry))
     {
       unread.push_back(makeUnread(model, number, reason));
     }
@@ -198,10 +160,16 @@ ReadShape readIges(const std::string& path)
     throw Error(path + ": not an IGES file that can be read");
   }
   ReadShape result;
-  result.unit = takeUnit(reader.IGESModel());
-  reader.TransferRoots();
-  result.shape = joinRoots(sortRoots(reader), file.holdsSurfaces());
-  result.unread = listUnread(reader, file);
+  IgesRoots roots = findIgesRoots(file);
+  result.report.unit = takeUnit(reader.IGESModel());
+  composeMatrices(reader.IGESModel());
+  makeOwnShapes(reader, findUsed(file, roots.kept));
+  transfer(reader, roots.kept);
+  result.shape = joinShapes(reader);
+  result.looks = collectIgesLooks(reader.WS());
+  result.report.unread = listUnread(reader, file, roots);
+  result.report.leftOut = std::move(roots.leftOut);
+  result.report.repairs = file.repairs();
   return result;
 }
 

@@ -1,16 +1,18 @@
 // 1. Check the parameters of every geometry entity.
-// 2. Turn the broken ones into null entities (type 0), and find what refers to them, directly or
-//    not.
-// 3. Wrap the parameters of entities whose lines run too far anew, at the separators.
-// 4. Write a temporary file if anything changed.
+// 2. Wrap the parameters anew, at the separators, of entities whose lines run too far or have no
+//    end.
+// 3. Find what is made of broken entities, directly or not.
+// 4. Write a temporary file, with null entities (type 0) in place of the broken ones, if anything
+//    is wrong.
 
 #include "IgesRepair.h"
 
 #include "Error.h"
 #include "IgesParameterCheck.h"
-#include "IgesText.h"
+#include "IgesPointers.h"
 #include "IgesTypes.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <unistd.h>
@@ -34,84 +36,28 @@ std::string temporaryFile()
   return name;
 }
 
-std::vector<std::string> wrap(const IgesParameters& parameters, const IgesText& text)
+/// Parameters without a terminator are whole where as many are there as the type needs, and the
+/// file goes on after them.
+bool isWhole(const IgesEntry& entry, const IgesParameters& parameters, const IgesText& text)
 {
-  constexpr std::size_t width = 64;
-  std::vector<std::string> lines(1);
-  for (std::size_t i = 0; i < parameters.values.size(); ++i)
-  {
-    const bool last = i + 1 == parameters.values.size();
-    std::string piece = parameters.values[i] + (last ? text.terminator : text.separator);
-    if (lines.back().size() + piece.size() > width && piece.size() <= width)
-    {
-      lines.emplace_back();
-    }
-    while (!piece.empty())
-    {
-      if (lines.back().size() == width)
-      {
-        lines.emplace_back();
-      }
-      const std::size_t room = width - lines.back().size();
-      lines.back() += piece.substr(0, room);
-      piece.erase(0, room);
-    }
-  }
-  return lines;
+  const std::size_t needed = igesParameterCount(entry, parameters);
+  const bool goesOn = text.complete || entry.number != text.entries.back().number;
+  return goesOn && needed > 0 && parameters.values.size() >= needed;
 }
 
-/// Types whose parameters are, or hold, directory entry numbers.
-bool hasPointers(int type)
-{
-  switch (type)
-  {
-    case 102:
-    case 118:
-    case 120:
-    case 122:
-    case 130:
-    case 140:
-    case 141:
-    case 142:
-    case 143:
-    case 144:
-    case 180:
-    case 184:
-    case 186:
-    case 308:
-    case 402:
-    case 408:
-    case 430:
-      return true;
-    default:
-      return type >= 502 && type <= 514;
-  }
-}
-
-std::set<int> findDependents(
-  const IgesText& text, const std::vector<IgesParameters>& parameters, const std::set<int>& broken)
+/// Entities that are made of one of `broken`, directly or not, and are not broken themselves.
+std::set<int> findDependents(const std::vector<IgesEntry>& entries,
+  const std::vector<std::vector<int>>& parts, const std::set<int>& broken)
 {
   std::set<int> reached = broken;
   for (bool grows = !broken.empty(); grows;)
   {
     grows = false;
-    for (std::size_t i = 0; i < text.entries.size(); ++i)
+    for (std::size_t i = 0; i < entries.size(); ++i)
     {
-      const IgesEntry& entry = text.entries[i];
-      if (!hasPointers(entry.type) || reached.count(entry.number) > 0)
-      {
-        continue;
-      }
-      for (std::size_t k = 1; k < parameters[i].values.size(); ++k)
-      {
-        const int target = std::abs(std::atoi(parameters[i].values[k].c_str()));
-        if (reached.count(target) > 0)
-        {
-          reached.insert(entry.number);
-          grows = true;
-          break;
-        }
-      }
+      const bool depends = std::any_of(
+        parts[i].begin(), parts[i].end(), [&](int part) { return reached.count(part) > 0; });
+      grows = (depends && reached.insert(entries[i].number).second) || grows;
     }
   }
   for (const int number : broken)
@@ -121,60 +67,101 @@ std::set<int> findDependents(
   return reached;
 }
 
+/// Entities with a broken transformation, or with one that has one.
+std::set<int> findMisplaced(const std::vector<IgesEntry>& entries, const std::set<int>& broken)
+{
+  std::set<int> misplaced;
+  for (bool grows = true; grows;)
+  {
+    grows = false;
+    for (const IgesEntry& entry : entries)
+    {
+      const bool isOff = broken.count(entry.matrix) > 0 || misplaced.count(entry.matrix) > 0;
+      grows = (isOff && misplaced.insert(entry.number).second) || grows;
+    }
+  }
+  return misplaced;
+}
+
+void note(std::vector<std::string>& faults, int count, const std::string& what)
+{
+  if (count > 0)
+  {
+    faults.push_back("the parameters of " + std::to_string(count) + " entities " + what);
+  }
+}
+
 } // namespace
 
-RepairedIges::RepairedIges(const std::string& path) : path_(path)
+RepairedIges::RepairedIges(const std::string& path) : text_(readIgesText(path)), path_(path)
 {
-  IgesText text = readIgesText(path);
-  std::vector<IgesParameters> parameters;
-  std::set<int> broken;
-  int overruns = 0;
-  for (IgesEntry& entry : text.entries)
+  checkEntries();
+  const std::set<int> misplaced = findMisplaced(text_.entries, broken_);
+  broken_.insert(misplaced.begin(), misplaced.end());
+  dependents_ = findDependents(text_.entries, parts_, broken_);
+  if (!unread_.empty() || !text_.faults.empty())
   {
-    parameters.push_back(parametersOf(entry, text));
-    this->holdsSurfaces_ = this->holdsSurfaces_ || isIgesSurface(entry.type);
-    const std::string reason = checkIgesParameters(entry.type, parameters.back());
+    write();
+  }
+}
+
+void RepairedIges::checkEntries()
+{
+  int overruns = 0;
+  int unterminated = 0;
+  for (IgesEntry& entry : text_.entries)
+  {
+    const IgesParameters parameters = parametersOf(entry, text_);
+    parts_.push_back(igesParts(entry, parameters));
+    if (entry.matrix > 0)
+    {
+      parts_.back().push_back(entry.matrix);
+    }
+    std::string reason = checkIgesParameters(entry.type, parameters);
+    if (reason.empty() && isIgesPartOfModel(entry.type) && !parameters.terminated &&
+        !isWhole(entry, parameters, text_))
+    {
+      reason = "its parameters have no end";
+    }
     if (!reason.empty())
     {
-      this->unread_.push_back({ entry.number, igesTypeName(entry.type), reason });
-      broken.insert(entry.number);
+      unread_.push_back({ entry.number, igesTypeName(entry.type), reason });
+      broken_.insert(entry.number);
+      continue;
     }
-    else if (entry.overrun)
+    overruns += entry.overrun ? 1 : 0;
+    unterminated += parameters.terminated ? 0 : 1;
+    if (entry.overrun || !parameters.terminated)
     {
-      ++overruns;
-      entry.data = wrap(parameters.back(), text);
+      entry.data = wrapParameters(parameters, text_);
     }
   }
-  this->dependents_ = findDependents(text, parameters, broken);
-  if (overruns > 0)
+  note(text_.faults, overruns, "run one column too far");
+  note(text_.faults, unterminated, "have no terminator");
+}
+
+void RepairedIges::write()
+{
+  IgesText repaired = text_;
+  for (IgesEntry& entry : repaired.entries)
   {
-    this->unread_.push_back({ 0, "IGES",
-      "repaired: the parameter lines of " + std::to_string(overruns) +
-        " entities run one column too far" });
-  }
-  if (this->unread_.empty())
-  {
-    return;
-  }
-  for (IgesEntry& entry : text.entries)
-  {
-    if (broken.count(entry.number) > 0)
+    if (isBroken(entry.number))
     {
       entry.type = 0;
-      entry.data = { std::string("0") + text.terminator };
+      entry.data = { std::string("0") + repaired.terminator };
     }
   }
-  this->path_ = temporaryFile();
-  this->temporary_ = true;
-  writeIgesText(text, this->path_);
+  path_ = temporaryFile();
+  temporary_ = true;
+  writeIgesText(repaired, path_);
 }
 
 RepairedIges::~RepairedIges()
 {
-  if (this->temporary_)
+  if (temporary_)
   {
     std::error_code ignored;
-    std::filesystem::remove(this->path_, ignored);
+    std::filesystem::remove(path_, ignored);
   }
 }
 

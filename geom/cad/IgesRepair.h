@@ -1,10 +1,10 @@
-// Sorts out broken entities of an IGES file before Open CASCADE reads it, and repairs a common
-// fault. Private to geom/cad.
+// Sorts out broken entities of an IGES file before Open CASCADE reads it, and repairs common
+// faults. Private to geom/cad.
 #pragma once
 
 #include "CADModel.h"
+#include "IgesText.h"
 
-#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -18,25 +18,37 @@ class RepairedIges
 public:
   /// Open CASCADE 7.6 crashes on some malformed parameters, so geometry with parameters that are
   /// no numbers, too few of them, or impossible degrees, knots or weights becomes a null entity.
-  /// Parameter lines that run one column too far are wrapped anew. Nothing is written, and the
-  /// file itself is read, where neither is needed.
+  /// Repaired are: parameter lines that run one column too far; parameters without a terminator,
+  /// where none is missing; and what readIgesText calls faults. Nothing is written, and the file
+  /// itself is read, where nothing is wrong.
   explicit RepairedIges(const std::string& path);
   ~RepairedIges();
   RepairedIges(const RepairedIges&) = delete;
   RepairedIges& operator=(const RepairedIges&) = delete;
 
-  const std::string& path() const { return this->path_; }
-  const std::vector<UnreadEntity>& unread() const { return this->unread_; }
-  /// True where the file has surfaces, broken or not.
-  bool holdsSurfaces() const { return this->holdsSurfaces_; }
-  /// True where entity `number` refers to a broken one.
-  bool dependsOnBroken(int number) const { return this->dependents_.count(number) > 0; }
+  const std::string& path() const { return path_; }
+  const std::vector<UnreadEntity>& unread() const { return unread_; }
+  /// What was repaired, each in a phrase.
+  const std::vector<std::string>& repairs() const { return text_.faults; }
+
+  /// The entities as they stand in the file given, with what each is made of (igesParts, and its
+  /// transformation).
+  const std::vector<IgesEntry>& entries() const { return text_.entries; }
+  const std::vector<std::vector<int>>& parts() const { return parts_; }
+  bool isBroken(int number) const { return broken_.count(number) > 0; }
+  /// True where entity `number` is not broken itself, but is made of a broken one.
+  bool dependsOnBroken(int number) const { return dependents_.count(number) > 0; }
 
 private:
+  void checkEntries();
+  void write();
+
+  IgesText text_;
   std::string path_;
   bool temporary_ = false;
-  bool holdsSurfaces_ = false;
   std::vector<UnreadEntity> unread_;
+  std::vector<std::vector<int>> parts_;
+  std::set<int> broken_;
   std::set<int> dependents_;
 };
 

@@ -1,87 +1,29 @@
+// 1. Sort the lines into sections (IgesSections).
+// 2. Find each entity's parameter lines. Both the directory (first line and count) and the lines
+//    themselves (directory entry number) tell; where they disagree, the one that makes sense for
+//    the whole file is taken.
+// 3. Where some lines run one column too far, decide for all.
+
 #include "IgesText.h"
+
+#include "IgesSections.h"
 
 #include <algorithm>
 #include <cctype>
-#include <cstdio>
 #include <cstdlib>
-#include <fstream>
 
 namespace cadrefine
 {
 namespace
 {
 
-constexpr std::size_t lineColumns = 80;
-constexpr std::size_t dataColumns = 64;
-constexpr std::size_t sectionColumn = 72;
-constexpr std::size_t fieldColumns = 8;
-
-/// A line of 81 columns, whose section letter has moved.
-bool isShifted(const std::string& line)
-{
-  return line.size() > sectionColumn + 1 && line[sectionColumn + 1] == 'P' &&
-         std::isdigit(static_cast<unsigned char>(line[sectionColumn]));
-}
-
-struct Sections
-{
-  std::vector<std::string> head, directory, parameters;
-};
-
-Sections splitSections(const std::string& path)
-{
-  Sections sections;
-  std::ifstream file(path, std::ios::binary);
-  for (std::string line; std::getline(file, line);)
-  {
-    line.erase(line.find_last_not_of("\r\n") + 1);
-    line.resize(std::max(line.size(), lineColumns), ' ');
-    if (isShifted(line))
-    {
-      sections.parameters.push_back(line);
-      continue;
-    }
-    switch (line[sectionColumn])
-    {
-      case 'S':
-      case 'G':
-        sections.head.push_back(line);
-        break;
-      case 'D':
-        sections.directory.push_back(line);
-        break;
-      case 'P':
-        sections.parameters.push_back(line);
-        break;
-      default:
-        break;
-    }
-  }
-  return sections;
-}
-
-int fieldOf(const std::string& line, int field)
-{
-  return std::atoi(line.substr((field - 1) * fieldColumns, fieldColumns).c_str());
-}
-
-void setField(std::string& line, int field, int value)
-{
-  char text[16];
-  std::snprintf(text, sizeof(text), "%8d", value);
-  line.replace((field - 1) * fieldColumns, fieldColumns, text);
-}
-
 /// Both delimiters stand at the start of the global section: "1H,,1H;," or nothing for defaults.
 void findDelimiters(IgesText& text)
 {
   std::string global;
-  for (const std::string& line : text.head)
+  for (const std::string& line : text.global)
   {
-    if (line[sectionColumn] == 'G')
-    {
-      global += line.substr(0, sectionColumn);
-    }
+    global += line.substr(0, igesSectionColumn);
   }
   std::size_t at = 0;
   const auto take = [&](char& delimiter)
@@ -97,6 +39,26 @@ void findDelimiters(IgesText& text)
   take(text.terminator);
 }
 
+IgesStatus statusOf(const std::string& line)
+{
+  const auto digits = [&](std::size_t column)
+  { return std::atoi(line.substr(igesDataColumns + column, 2).c_str()); };
+  return { digits(0) == 1, digits(2), digits(4), digits(6) };
+}
+
+IgesEntry makeEntry(const std::string& first, const std::string& second, std::size_t line)
+{
+  IgesEntry entry;
+  entry.first = first;
+  entry.second = second;
+  entry.number = static_cast<int>(line) + 1;
+  entry.type = igesField(first, 1);
+  entry.matrix = igesField(first, 7);
+  entry.form = igesField(second, 5);
+  entry.status = statusOf(first);
+  return entry;
+}
+
 enum class Width
 {
   Regular,
@@ -104,51 +66,130 @@ enum class Width
   Wide
 };
 
+/// The directory entry number that a parameter line names.
+int ownerOf(const std::string& line)
+{
+  constexpr std::size_t digits = 7;
+  return std::atoi(
+    line.substr(igesDataColumns + (isShiftedIgesLine(line) ? 2 : 1), digits).c_str());
+}
+
 Width widthOf(const std::string& line, int number)
 {
-  if (isShifted(line))
+  if (isShiftedIgesLine(line))
   {
     return Width::Wide;
   }
-  const std::string field = line.substr(dataColumns, fieldColumns);
-  if (field[0] == ' ' || std::atoi(field.c_str() + 1) != number)
+  if (line[igesDataColumns] == ' ' || ownerOf(line) != number)
   {
     return Width::Regular;
   }
-  return field[0] == '0' ? Width::Unclear : Width::Wide;
+  return line[igesDataColumns] == '0' ? Width::Unclear : Width::Wide;
+}
+
+using LineNumbers = std::vector<std::vector<std::size_t>>; ///< Of each entry.
+
+LineNumbers linesByDirectory(const IgesText& text, std::size_t count)
+{
+  LineNumbers numbers(text.entries.size());
+  for (std::size_t e = 0; e < text.entries.size(); ++e)
+  {
+    const int from = std::max(igesField(text.entries[e].first, 2) - 1, 0);
+    const int lines = std::max(igesField(text.entries[e].second, 4), 1);
+    for (int i = from; i < from + lines && i < static_cast<int>(count); ++i)
+    {
+      numbers[e].push_back(static_cast<std::size_t>(i));
+    }
+  }
+  return numbers;
+}
+
+LineNumbers linesByOwner(const IgesText& text, const std::vector<std::string>& lines)
+{
+  LineNumbers numbers(text.entries.size());
+  for (std::size_t i = 0; i < lines.size(); ++i)
+  {
+    const int owner = ownerOf(lines[i]);
+    const std::size_t entry = static_cast<std::size_t>(owner) / 2;
+    if (owner > 0 && owner % 2 == 1 && entry < numbers.size())
+    {
+      numbers[entry].push_back(i);
+    }
+  }
+  return numbers;
+}
+
+/// True where each line belongs to one entry, and each entry has lines.
+bool isPartition(const LineNumbers& numbers, std::size_t count)
+{
+  std::vector<int> uses(count, 0);
+  for (const auto& lines : numbers)
+  {
+    if (lines.empty())
+    {
+      return false;
+    }
+    for (const std::size_t i : lines)
+    {
+      ++uses[i];
+    }
+  }
+  return std::all_of(uses.begin(), uses.end(), [](int use) { return use == 1; });
+}
+
+LineNumbers assignLines(IgesText& text, const std::vector<std::string>& lines)
+{
+  LineNumbers byDirectory = linesByDirectory(text, lines.size());
+  LineNumbers byOwner = linesByOwner(text, lines);
+  if (byDirectory == byOwner)
+  {
+    return byDirectory;
+  }
+  if (isPartition(byOwner, lines.size()))
+  {
+    text.faults.emplace_back("the directory gives wrong parameter lines or counts of lines");
+    return byOwner;
+  }
+  if (isPartition(byDirectory, lines.size()))
+  {
+    text.faults.emplace_back("parameter lines name wrong directory entries");
+  }
+  return byDirectory;
 }
 
 /// `unclear`: what to take lines of unclear width for.
-void takeParameterLines(IgesEntry& entry, const std::vector<std::string>& lines, Width unclear)
+void takeParameterLines(IgesEntry& entry, const std::vector<std::size_t>& numbers,
+  const std::vector<std::string>& lines, Width unclear)
 {
-  const int from = fieldOf(entry.first, 2) - 1;
-  const int count = std::max(1, fieldOf(entry.second, 4));
   entry.data.clear();
   entry.overrun = false;
-  for (int i = std::max(from, 0); i < from + count && i < static_cast<int>(lines.size()); ++i)
+  for (const std::size_t i : numbers)
   {
     Width width = widthOf(lines[i], entry.number);
     width = width == Width::Unclear ? unclear : width;
     const bool wide = width == Width::Wide;
     entry.overrun = entry.overrun || wide;
-    entry.data.push_back(lines[i].substr(0, wide ? dataColumns + 1 : dataColumns));
+    entry.data.push_back(lines[i].substr(0, igesDataColumns + (wide ? 1 : 0)));
   }
 }
 
 /// Where some lines surely run too far, the unclear ones do too.
-void takeAllParameters(std::vector<IgesEntry>& entries, const std::vector<std::string>& lines)
+void takeAllParameters(IgesText& text, const std::vector<std::string>& lines)
 {
-  for (IgesEntry& entry : entries)
+  const LineNumbers numbers = assignLines(text, lines);
+  const auto take = [&](Width unclear)
   {
-    takeParameterLines(entry, lines, Width::Regular);
-  }
-  if (std::any_of(entries.begin(), entries.end(), [](const IgesEntry& e) { return e.overrun; }) &&
-      std::none_of(lines.begin(), lines.end(), isShifted))
-  {
-    for (IgesEntry& entry : entries)
+    for (std::size_t e = 0; e < text.entries.size(); ++e)
     {
-      takeParameterLines(entry, lines, Width::Wide);
+      takeParameterLines(text.entries[e], numbers[e], lines, unclear);
     }
+  };
+  take(Width::Regular);
+  if (std::any_of(
+        text.entries.begin(), text.entries.end(), [](const IgesEntry& e) { return e.overrun; }) &&
+      std::none_of(lines.begin(), lines.end(), isShiftedIgesLine))
+  {
+    take(Width::Wide);
   }
 }
 
@@ -170,40 +211,22 @@ std::size_t stringLength(const std::string& text, std::size_t at)
   return isString ? end + 1 - at + std::stoul(text.substr(at, end - at)) : 0;
 }
 
-void writeLine(std::ofstream& file, std::string text, char section, int number)
-{
-  text.resize(sectionColumn, ' ');
-  char end[16];
-  std::snprintf(end, sizeof(end), "%c%7d", section, number);
-  file << text << end << "\n";
-}
-
-std::string parameterLine(const std::string& data, int entry)
-{
-  std::string line = data;
-  line.resize(sectionColumn, ' ');
-  setField(line, 9, entry);
-  return line;
-}
-
 } // namespace
 
 IgesText readIgesText(const std::string& path)
 {
   IgesText text;
-  Sections sections = splitSections(path);
-  text.head = std::move(sections.head);
+  IgesSections sections = readIgesSections(path);
+  text.start = std::move(sections.start);
+  text.global = std::move(sections.global);
+  text.faults = std::move(sections.faults);
+  text.complete = sections.terminated;
   findDelimiters(text);
   for (std::size_t i = 0; i + 1 < sections.directory.size(); i += 2)
   {
-    IgesEntry entry;
-    entry.first = sections.directory[i];
-    entry.second = sections.directory[i + 1];
-    entry.number = static_cast<int>(i) + 1;
-    entry.type = fieldOf(entry.first, 1);
-    text.entries.push_back(std::move(entry));
+    text.entries.push_back(makeEntry(sections.directory[i], sections.directory[i + 1], i));
   }
-  takeAllParameters(text.entries, sections.parameters);
+  takeAllParameters(text, sections.parameters);
   return text;
 }
 
@@ -237,44 +260,11 @@ IgesParameters parametersOf(const IgesEntry& entry, const IgesText& text)
       value += c;
     }
   }
+  if (!trimmed(value).empty())
+  {
+    parameters.values.push_back(trimmed(value));
+  }
   return parameters;
-}
-
-void writeIgesText(const IgesText& text, const std::string& path)
-{
-  std::ofstream file(path, std::ios::binary);
-  for (const std::string& line : text.head)
-  {
-    file << line << "\n";
-  }
-  int parameterLines = 0;
-  for (const IgesEntry& entry : text.entries)
-  {
-    std::string first = entry.first;
-    std::string second = entry.second;
-    setField(first, 1, entry.type);
-    setField(first, 2, parameterLines + 1);
-    setField(second, 1, entry.type);
-    setField(second, 4, static_cast<int>(entry.data.size()));
-    writeLine(file, first, 'D', entry.number);
-    writeLine(file, second, 'D', entry.number + 1);
-    parameterLines += static_cast<int>(entry.data.size());
-  }
-  int number = 0;
-  for (const IgesEntry& entry : text.entries)
-  {
-    for (const std::string& data : entry.data)
-    {
-      writeLine(file, parameterLine(data, entry.number), 'P', ++number);
-    }
-  }
-  const auto startLines = std::count_if(text.head.begin(), text.head.end(),
-    [](const std::string& line) { return line[sectionColumn] == 'S'; });
-  char terminate[lineColumns];
-  std::snprintf(terminate, sizeof(terminate), "S%7dG%7dD%7dP%7d", static_cast<int>(startLines),
-    static_cast<int>(text.head.size()) - static_cast<int>(startLines),
-    2 * static_cast<int>(text.entries.size()), number);
-  writeLine(file, terminate, 'T', 1);
 }
 
 } // namespace cadrefine

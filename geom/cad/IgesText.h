@@ -1,5 +1,5 @@
-// An IGES file (fixed 80 column form) as text: its sections and the parameters of its entities.
-// Private to geom/cad.
+// An IGES file (fixed 80 column form) as text: its entities and their parameters. Private to
+// geom/cad.
 #pragma once
 
 #include <string>
@@ -8,6 +8,16 @@
 namespace cadrefine
 {
 
+/// Field 9 of a directory entry.
+struct IgesStatus
+{
+  bool blanked = false;
+  int subordinate = 0; ///< 0 independent, 1 physically dependent, 2 logically, 3 both.
+  int use = 0;         ///< 0 geometry, 1 annotation, 2 definition, 3 other, 4 logical,
+                       ///< 5 parametric, 6 construction.
+  int hierarchy = 0;   ///< 0: what it says holds for its physically dependent parts.
+};
+
 /// A directory entry with the parameter lines that belong to it.
 struct IgesEntry
 {
@@ -15,6 +25,9 @@ struct IgesEntry
   std::string second;
   int number = 0; ///< Directory entry number, odd.
   int type = 0;
+  int form = 0;
+  int matrix = 0; ///< Directory entry of its transformation, or 0.
+  IgesStatus status;
   std::vector<std::string> data; ///< Data columns of its parameter lines.
   /// The data of a line goes one column too far, into the field of the directory entry number: a
   /// fault of some writers, which costs Open CASCADE the whole entity. `data` has all of it.
@@ -23,10 +36,13 @@ struct IgesEntry
 
 struct IgesText
 {
-  std::vector<std::string> head; ///< Start and global section, unchanged.
+  std::vector<std::string> start, global; ///< Unchanged.
   char separator = ',';
   char terminator = ';';
   std::vector<IgesEntry> entries;
+  bool complete = false; ///< False where the end may be missing.
+  /// What is wrong with the file and put right by writeIgesText, each in a phrase.
+  std::vector<std::string> faults;
 };
 
 /// Takes a file apart; without entries where it is not of this form (compressed or binary).
@@ -41,7 +57,10 @@ struct IgesParameters
 };
 IgesParameters parametersOf(const IgesEntry& entry, const IgesText& text);
 
-/// Writes the file; parameter lines are numbered anew.
+/// Parameter lines of an entry anew, cut between the values where these fit.
+std::vector<std::string> wrapParameters(const IgesParameters& parameters, const IgesText& text);
+
+/// Writes the file; all lines are numbered and counted anew.
 void writeIgesText(const IgesText& text, const std::string& path);
 
 } // namespace cadrefine

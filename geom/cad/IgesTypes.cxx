@@ -41,15 +41,11 @@ std::string igesTypeName(int type)
   return found == typeNames().end() ? name : name + " (" + found->second + ")";
 }
 
-bool isIgesGeometry(int type, int form)
+bool isIgesPartOfModel(int type)
 {
   switch (type)
   {
-    case 106: // planar and spatial polylines; the other forms are points and annotation
-      return (form >= 11 && form <= 13) || form == 63;
-    case 108: // an unbounded plane, a point, a direction, a matrix: no part of a model
-    case 116:
-    case 123:
+    case 123: // directions, matrices, flashes, finite elements
     case 124:
     case 125:
     case 132:
@@ -58,39 +54,15 @@ bool isIgesGeometry(int type, int form)
     case 138:
     case 146:
     case 148:
-    case 190: // unbounded analytic surfaces carry faces
-    case 192:
-    case 194:
-    case 196:
-    case 198:
       return false;
-    default:
+    default: // unbounded analytic surfaces (190 to 198) and B-rep parts only carry faces
       return (type >= 100 && type <= 186) || type == 430 || type == 510 || type == 514;
-  }
-}
-
-bool isIgesSurface(int type)
-{
-  switch (type)
-  {
-    case 114:
-    case 118:
-    case 120:
-    case 122:
-    case 128:
-    case 140:
-    case 143:
-    case 144:
-    case 510:
-      return true;
-    default:
-      return type >= 150 && type <= 198;
   }
 }
 
 bool isIgesGroup(int type)
 {
-  return type == 402 || type == 308 || type == 408 || type == 184;
+  return type == 402 || type == 308 || type == 408;
 }
 
 std::string igesUnitName(int flag, const std::string& name)

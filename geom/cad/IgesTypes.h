@@ -9,13 +9,10 @@ namespace cadrefine
 /// For example "IGES 128 (rational B-spline surface)".
 std::string igesTypeName(int type);
 
-/// True for entities that stand for a curve, a surface or a solid of the model by themselves.
-bool isIgesGeometry(int type, int form);
+/// True for types that can stand for a point, curve, surface or solid of the model by themselves.
+bool isIgesPartOfModel(int type);
 
-/// True for surfaces, faces and solids.
-bool isIgesSurface(int type);
-
-/// True for entities that only gather others.
+/// True for associations and subfigures, which gather other entities.
 bool isIgesGroup(int type);
 
 /// For example "mm"; `name` is what the file says beside flag 3.

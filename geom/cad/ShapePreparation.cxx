@@ -1,18 +1,17 @@
-// 1. Sort: solids and shells stay as they are; free faces; edges outside of faces.
-// 2. Sew the free faces, with the smallest tolerance after which the fewest edges stay open.
+// 1. Sort: solids and closed shells stay as they are; faces that are open to others; edges outside
+//    of faces.
+// 2. Sew the open faces, unless they are one shell already (FaceSewing.cxx).
 // 3. Heal what Open CASCADE's own checker finds broken; make solids of closed shells, which turns
 //    them outward.
 // 4. See that every edge has its curve in space.
 
 #include "ShapePreparation.h"
 
-#include <BRepBndLib.hxx>
-#include <BRepBuilderAPI_Sewing.hxx>
 #include <BRepCheck_Analyzer.hxx>
 #include <BRepLib.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
-#include <Bnd_Box.hxx>
+#include <ShapeBuild_ReShape.hxx>
 #include <ShapeFix_Shape.hxx>
 #include <ShapeFix_Solid.hxx>
 #include <TopExp.hxx>
@@ -21,21 +20,12 @@
 #include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
 
-#include <algorithm>
-#include <cmath>
 #include <vector>
 
 namespace cadrefine
 {
 namespace
 {
-
-double diagonal(const TopoDS_Shape& shape)
-{
-  Bnd_Box box;
-  BRepBndLib::Add(shape, box, false);
-  return box.IsVoid() ? 0 : std::sqrt(box.SquareExtent());
-}
 
 int countOf(const TopoDS_Shape& shape, TopAbs_ShapeEnum type)
 {
@@ -77,47 +67,24 @@ std::vector<TopoDS_Shape> freeShapes(
   return shapes;
 }
 
-struct Sewn
+void followFix(const TopoDS_Shape& shape, ShapeBuild_ReShape& changes, LookMap& looks)
 {
-  TopoDS_Shape shape;
-  int openEdges = 0;
-};
-
-Sewn sewWith(const std::vector<TopoDS_Shape>& faces, double tolerance)
-{
-  BRepBuilderAPI_Sewing sewing(tolerance);
-  for (const TopoDS_Shape& face : faces)
+  if (looks.empty())
   {
-    sewing.Add(face);
+    return;
   }
-  sewing.Perform();
-  return { sewing.SewedShape(), sewing.NbFreeEdges() };
-}
-
-/// Tries tolerances up to 1e-4 of the model's size; a sewing that loses a face does not count.
-TopoDS_Shape sew(const std::vector<TopoDS_Shape>& faces)
-{
-  const TopoDS_Shape unsewn = compoundOf(faces);
-  const double size = diagonal(unsewn);
-  Sewn best{ unsewn, -1 };
-  for (const double relative : { 1e-7, 1e-6, 1e-5, 1e-4 })
+  for (const TopAbs_ShapeEnum type : { TopAbs_FACE, TopAbs_EDGE })
   {
-    if (best.openEdges == 0)
+    TopTools_IndexedMapOfShape map;
+    TopExp::MapShapes(shape, type, map);
+    for (int i = 1; i <= map.Extent(); ++i)
     {
-      break;
-    }
-    const Sewn sewn = sewWith(faces, relative * size);
-    const bool complete =
-      !sewn.shape.IsNull() && countOf(sewn.shape, TopAbs_FACE) == static_cast<int>(faces.size());
-    if (complete && (best.openEdges < 0 || sewn.openEdges < best.openEdges))
-    {
-      best = sewn;
+      looks.follow(map(i), changes.Apply(map(i)));
     }
   }
-  return best.shape;
 }
 
-TopoDS_Shape heal(const TopoDS_Shape& shape)
+TopoDS_Shape heal(const TopoDS_Shape& shape, LookMap& looks)
 {
   if (BRepCheck_Analyzer(shape).IsValid())
   {
@@ -127,7 +94,12 @@ TopoDS_Shape heal(const TopoDS_Shape& shape)
   fix.Perform();
   const TopoDS_Shape fixed = fix.Shape();
   const bool lost = fixed.IsNull() || countOf(fixed, TopAbs_FACE) < countOf(shape, TopAbs_FACE);
-  return lost ? shape : fixed;
+  if (lost)
+  {
+    return shape;
+  }
+  followFix(shape, *fix.Context(), looks);
+  return fixed;
 }
 
 /// Closed free shells as solids, with their normals outward; all else as it is.
@@ -151,48 +123,65 @@ TopoDS_Shape orientShells(const TopoDS_Shape& shape)
   return compoundOf(parts);
 }
 
-/// The solids, shells and faces of `shape`, the free ones sewn.
-std::vector<TopoDS_Shape> collectSurfaces(const TopoDS_Shape& shape)
+struct Surfaces
 {
-  std::vector<TopoDS_Shape> parts;
+  std::vector<TopoDS_Shape> whole;     ///< Solids and closed shells, or the only shell.
+  std::vector<TopoDS_Shape> openFaces; ///< Faces that may have to be sewn.
+};
+
+Surfaces collectSurfaces(const TopoDS_Shape& shape)
+{
+  Surfaces surfaces;
+  std::vector<TopoDS_Shape> openShells;
   for (TopExp_Explorer solid(shape, TopAbs_SOLID); solid.More(); solid.Next())
   {
-    parts.push_back(solid.Current());
+    surfaces.whole.push_back(solid.Current());
   }
   for (const TopoDS_Shape& shell : freeShapes(shape, TopAbs_SHELL, TopAbs_SOLID))
   {
-    parts.push_back(shell);
+    (BRep_Tool::IsClosed(shell) ? surfaces.whole : openShells).push_back(shell);
   }
-  const std::vector<TopoDS_Shape> faces = freeShapes(shape, TopAbs_FACE, TopAbs_SHELL);
-  if (!faces.empty())
+  const std::vector<TopoDS_Shape> freeFaces = freeShapes(shape, TopAbs_FACE, TopAbs_SHELL);
+  if (freeFaces.empty() && openShells.size() == 1)
   {
-    parts.push_back(sew(faces));
+    surfaces.whole.push_back(openShells.front());
+    return surfaces;
   }
-  return parts;
+  const TopoDS_Compound open = compoundOf({ compoundOf(openShells), compoundOf(freeFaces) });
+  surfaces.openFaces = freeShapes(open, TopAbs_FACE, TopAbs_SOLID);
+  return surfaces;
 }
 
 } // namespace
 
-TopoDS_Shape prepareShape(const TopoDS_Shape& shape)
+PreparedShape prepareShape(const TopoDS_Shape& shape, LookMap& looks)
 {
   if (shape.IsNull())
   {
     return {};
   }
+  PreparedShape prepared;
   std::vector<TopoDS_Shape> parts;
-  const std::vector<TopoDS_Shape> surfaces = collectSurfaces(shape);
-  if (!surfaces.empty())
+  Surfaces surfaces = collectSurfaces(shape);
+  if (!surfaces.openFaces.empty())
   {
-    parts.push_back(orientShells(heal(compoundOf(surfaces))));
+    const SewnFaces sewn = sewFaces(surfaces.openFaces, looks);
+    prepared.sewingTolerance = surfaces.openFaces.size() > 1 ? sewn.tolerance : 0;
+    surfaces.whole.push_back(sewn.shape);
+  }
+  if (!surfaces.whole.empty())
+  {
+    parts.push_back(orientShells(heal(compoundOf(surfaces.whole), looks)));
   }
   const std::vector<TopoDS_Shape> curves = freeShapes(shape, TopAbs_EDGE, TopAbs_FACE);
   if (!curves.empty())
   {
-    parts.push_back(joinCurves(compoundOf(curves)));
+    parts.push_back(joinCurves(compoundOf(curves), looks));
   }
   const TopoDS_Compound all = compoundOf(parts);
   BRepLib::BuildCurves3d(all);
-  return TopExp_Explorer(all, TopAbs_EDGE).More() ? TopoDS_Shape(all) : TopoDS_Shape();
+  prepared.shape = TopExp_Explorer(all, TopAbs_EDGE).More() ? TopoDS_Shape(all) : TopoDS_Shape();
+  return prepared;
 }
 
 } // namespace cadrefine

@@ -1,17 +1,37 @@
 // From the shapes of a file to one sewn, healed model. Private to geom/cad.
 #pragma once
 
+#include "EntityLooks.h"
+
 #include <TopoDS_Shape.hxx>
+
+#include <vector>
 
 namespace cadrefine
 {
 
-/// The model made of `shape`: free faces sewn, broken ones healed, closed shells turned outward,
-/// free curves joined at their ends. Null where `shape` holds neither face nor curve.
-TopoDS_Shape prepareShape(const TopoDS_Shape& shape);
+struct PreparedShape
+{
+  TopoDS_Shape shape; ///< Null where there is neither face nor curve.
+  double sewingTolerance = 0;
+};
+
+/// The model made of `shape`: free faces and open shells sewn, broken ones healed, closed shells
+/// turned outward, free curves joined at their ends. `looks` follow.
+PreparedShape prepareShape(const TopoDS_Shape& shape, LookMap& looks);
+
+struct SewnFaces
+{
+  TopoDS_Shape shape;
+  double tolerance = 0;
+};
+
+/// Sews faces with the smallest of the tolerances 1e-7, 1e-6, 1e-5 and 1e-4 of their size after
+/// which the fewest edges stay open. A sewing that loses a face does not count.
+SewnFaces sewFaces(const std::vector<TopoDS_Shape>& faces, LookMap& looks);
 
 /// Free curves that end in common vertices, where their ends lie within a tolerance of each other
 /// that follows from their size.
-TopoDS_Shape joinCurves(const TopoDS_Shape& edges);
+TopoDS_Shape joinCurves(const TopoDS_Shape& edges, LookMap& looks);
 
 } // namespace cadrefine

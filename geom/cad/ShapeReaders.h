@@ -1,12 +1,12 @@
 // One reader for each file format. Private to geom/cad.
 #pragma once
 
-#include "CADModel.h"
+#include "CADReport.h"
+#include "EntityLooks.h"
 
 #include <TopoDS_Shape.hxx>
 
 #include <string>
-#include <vector>
 
 namespace cadrefine
 {
@@ -15,8 +15,8 @@ namespace cadrefine
 struct ReadShape
 {
   TopoDS_Shape shape; ///< Null where nothing could be read.
-  std::string unit;
-  std::vector<UnreadEntity> unread;
+  CADReport report;
+  LookMap looks;
 };
 
 /// Each throws Error where the file as a whole cannot be read. Open CASCADE prints, and keeps

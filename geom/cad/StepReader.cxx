@@ -9,6 +9,7 @@
 #include "LengthUnit.h"
 #include "OccGuard.h"
 #include "ShapeReaders.h"
+#include "StepLooks.h"
 
 #include <BRep_Builder.hxx>
 #include <STEPConstruct_UnitContext.hxx>
@@ -146,11 +147,12 @@ ReadShape readStep(const std::string& path)
   }
   ReadShape result;
   const double millimetres = findLengthUnit(reader);
-  result.unit = unitName(reader, millimetres);
+  result.report.unit = unitName(reader, millimetres);
   reader.SetSystemLengthUnit(millimetres);
   reader.TransferRoots();
   result.shape = joinRoots(reader);
-  result.unread = listUnread(reader);
+  result.looks = collectStepLooks(reader.WS());
+  result.report.unread = listUnread(reader);
   return result;
 }
 

@@ -10,11 +10,14 @@ cadrefine_geom_test(cad_tests
     cad/AnalyticShapesTest.cxx
     cad/CurveModelTest.cxx
     cad/FileErrorsTest.cxx
+    cad/GapsTest.cxx
     cad/IgesCases.cxx
     cad/IgesCurvesTest.cxx
+    cad/IgesStatusTest.cxx
     cad/IgesSurfacesTest.cxx
     cad/IgesWriter.cxx
     cad/IsolatedRunTest.cxx
+    cad/LooksTest.cxx
     cad/ModelBytesTest.cxx
     cad/RealFilesTest.cxx
     cad/SurfaceConversionTest.cxx

@@ -265,6 +265,24 @@ const std::vector<IgesCase> surfaces{
     },
     1, 4, [](const Point3& p) { return std::hypot(p[0], p[1]) - 1; },
     { { { 0, 0, 1 }, 1 }, { { 0, 4, 1 }, 3 }, { { 0, 1, 5 }, 2 } } },
+  { "OffsetAcrossKnots140",
+    [](IgesWriter& f)
+    {
+      const int base = addHalfCylinder(f, dependent());
+      f.add(140, igesValues(Point3{ 0, 1, 0 }, -1.0, base));
+    },
+    2, 7, [](const Point3& p) { return std::hypot(p[0], p[1]) - 1; },
+    { { { 0, 0, 1 }, 1 }, { { 0, 4, 1 }, 3 }, { { 0, 1, 5 }, 2 } } },
+  { "OffsetOfOffset140",
+    [](IgesWriter& f)
+    {
+      const int arc = addArc(f, 0, { 0, 0, 2, 0, -2, 0 }, dependent());
+      const int base = f.add(122, igesValues(arc, 2.0, 0.0, 3.0), dependent());
+      const int inner = f.add(140, igesValues(Point3{ 0, 1, 0 }, 1.0, base), dependent());
+      f.add(140, igesValues(Point3{ 0, 1, 0 }, -2.0, inner));
+    },
+    1, 4, [](const Point3& p) { return std::hypot(p[0], p[1]) - 1; },
+    { { { 0, 0, 1 }, 1 }, { { 0, 4, 1 }, 3 }, { { 0, 1, 5 }, 2 } } },
   { "BoundedSurface143_1",
     [](IgesWriter& f)
     {

@@ -1,0 +1,171 @@
+#include "IgesSections.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+
+namespace cadrefine
+{
+namespace
+{
+
+constexpr std::size_t fieldColumns = 8;
+
+std::vector<std::string> splitLines(const std::string& path)
+{
+  std::ifstream file(path, std::ios::binary);
+  const std::string all{ std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>() };
+  std::vector<std::string> lines;
+  for (std::size_t from = 0; from < all.size();)
+  {
+    const std::size_t to = std::min(all.find_first_of("\r\n", from), all.size());
+    lines.push_back(all.substr(from, to - from));
+    from = to + (all.compare(to, 2, "\r\n") == 0 ? 2 : 1);
+  }
+  return lines;
+}
+
+bool isSectionLetter(char c)
+{
+  return std::string("SGDPT").find(c) != std::string::npos;
+}
+
+bool endsWell(const std::string& line)
+{
+  return line.size() > igesSectionColumn && isSectionLetter(line[igesSectionColumn]);
+}
+
+/// Each tab to the next multiple of 8 columns, or, where that does not bring the section's letter
+/// into its column, to one blank.
+std::string withoutTabs(const std::string& line)
+{
+  std::string wide;
+  for (const char c : line)
+  {
+    const std::size_t blanks = fieldColumns - wide.size() % fieldColumns;
+    wide += c == '\t' ? std::string(blanks, ' ') : std::string(1, c);
+  }
+  if (endsWell(wide))
+  {
+    return wide;
+  }
+  std::string narrow = line;
+  std::replace(narrow.begin(), narrow.end(), '\t', ' ');
+  return narrow;
+}
+
+/// What a pass over the lines finds.
+struct Counts
+{
+  int tabs = 0;
+  int tooLong = 0;
+  int misnumbered = 0;
+  std::string terminate;
+};
+
+void sortLine(std::string line, IgesSections& sections, Counts& counts)
+{
+  if (line.find('\t') != std::string::npos)
+  {
+    ++counts.tabs;
+    line = withoutTabs(line);
+  }
+  line.resize(std::max(line.size(), igesLineColumns), ' ');
+  const bool shifted = isShiftedIgesLine(line);
+  const std::size_t width = igesLineColumns + (shifted ? 1 : 0);
+  const char letter = shifted ? 'P' : line[igesSectionColumn];
+  if (!isSectionLetter(letter))
+  {
+    return;
+  }
+  if (line.size() > width)
+  {
+    ++counts.tooLong;
+    line.resize(width);
+  }
+  if (letter == 'T')
+  {
+    counts.terminate = line;
+    return;
+  }
+  auto& section = letter == 'S'   ? sections.start
+                  : letter == 'G' ? sections.global
+                  : letter == 'D' ? sections.directory
+                                  : sections.parameters;
+  section.push_back(line);
+  const int number = std::atoi(line.c_str() + igesSectionColumn + (shifted ? 2 : 1));
+  counts.misnumbered += number == static_cast<int>(section.size()) ? 0 : 1;
+}
+
+void noteLines(const Counts& counts, std::vector<std::string>& faults)
+{
+  const auto note = [&](int count, const std::string& what)
+  {
+    if (count > 0)
+    {
+      faults.push_back(std::to_string(count) + " lines " + what);
+    }
+  };
+  note(counts.tabs, "hold tabs");
+  note(counts.tooLong, "have more than 80 columns");
+  note(counts.misnumbered, "have wrong sequence numbers");
+}
+
+void noteTerminate(const std::string& terminate, IgesSections& sections)
+{
+  if (terminate.empty())
+  {
+    sections.faults.emplace_back("the terminate section is missing");
+    return;
+  }
+  sections.terminated = true;
+  const std::array<const std::vector<std::string>*, 4> all{ &sections.start, &sections.global,
+    &sections.directory, &sections.parameters };
+  for (std::size_t i = 0; i < all.size(); ++i)
+  {
+    const char letter = "SGDP"[i];
+    const std::string field = terminate.substr(i * fieldColumns, fieldColumns);
+    const int count = std::atoi(field.c_str() + 1);
+    if (field[0] != letter || count != static_cast<int>(all[i]->size()))
+    {
+      sections.faults.push_back("the terminate section counts " + std::to_string(count) + " " +
+                                letter + " lines, there are " + std::to_string(all[i]->size()));
+    }
+  }
+}
+
+} // namespace
+
+bool isShiftedIgesLine(const std::string& line)
+{
+  return line.size() > igesSectionColumn + 1 && line[igesSectionColumn + 1] == 'P' &&
+         std::isdigit(static_cast<unsigned char>(line[igesSectionColumn]));
+}
+
+int igesField(const std::string& line, int field)
+{
+  return std::atoi(line.substr((field - 1) * fieldColumns, fieldColumns).c_str());
+}
+
+IgesSections readIgesSections(const std::string& path)
+{
+  IgesSections sections;
+  Counts counts;
+  for (std::string& line : splitLines(path))
+  {
+    sortLine(std::move(line), sections, counts);
+  }
+  noteLines(counts, sections.faults);
+  noteTerminate(counts.terminate, sections);
+  if (sections.directory.size() % 2 != 0)
+  {
+    sections.faults.emplace_back("the directory section ends with half an entry");
+    sections.directory.pop_back();
+  }
+  return sections;
+}
+
+} // namespace cadrefine

@@ -1,0 +1,83 @@
+#include "StepLooks.h"
+
+#include "OccGuard.h"
+
+#include <Interface_InterfaceModel.hxx>
+#include <Quantity_Color.hxx>
+#include <STEPConstruct_Styles.hxx>
+#include <StepRepr_RepresentationItem.hxx>
+#include <StepVisual_Colour.hxx>
+#include <StepVisual_StyledItem.hxx>
+#include <TCollection_HAsciiString.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TransferBRep.hxx>
+#include <Transfer_TransientProcess.hxx>
+#include <XSControl_TransferReader.hxx>
+
+namespace cadrefine
+{
+namespace
+{
+
+/// "NONE" is what some programs write for no name.
+std::string nameOf(const StepRepr_RepresentationItem& item)
+{
+  const Handle(TCollection_HAsciiString) name = item.Name();
+  const std::string text = name.IsNull() ? "" : oneLine(name->ToCString());
+  return text == "NONE" ? "" : text;
+}
+
+/// Of surfaces where the shape has faces, else of curves.
+std::optional<std::array<float, 3>> colourOf(const STEPConstruct_Styles& styles,
+  const Handle(StepVisual_StyledItem) & style, const TopoDS_Shape& shape)
+{
+  Handle(StepVisual_Colour) surface, boundary, curve, rendering;
+  double transparency = 0;
+  bool ofComponent = false;
+  styles.GetColors(style, surface, boundary, curve, rendering, transparency, ofComponent);
+  const Handle(StepVisual_Colour) ofFaces = surface.IsNull() ? rendering : surface;
+  Quantity_Color colour;
+  if (!STEPConstruct_Styles::DecodeColor(
+        TopExp_Explorer(shape, TopAbs_FACE).More() ? ofFaces : curve, colour))
+  {
+    return std::nullopt;
+  }
+  std::array<double, 3> rgb{};
+  colour.Values(rgb[0], rgb[1], rgb[2], Quantity_TOC_sRGB);
+  return std::array<float, 3>{ static_cast<float>(rgb[0]), static_cast<float>(rgb[1]),
+    static_cast<float>(rgb[2]) };
+}
+
+} // namespace
+
+LookMap collectStepLooks(const Handle(XSControl_WorkSession) & session)
+{
+  const Handle(Interface_InterfaceModel) model = session->Model();
+  const Handle(Transfer_TransientProcess) process = session->TransferReader()->TransientProcess();
+  std::vector<FoundLook> found;
+  for (int number = 1; number <= model->NbEntities(); ++number)
+  {
+    const auto item = Handle(StepRepr_RepresentationItem)::DownCast(model->Value(number));
+    const TopoDS_Shape shape =
+      item.IsNull() ? TopoDS_Shape() : TransferBRep::ShapeResult(process, item);
+    if (!shape.IsNull())
+    {
+      found.push_back({ shape, { nameOf(*item), std::nullopt } });
+    }
+  }
+  STEPConstruct_Styles styles(session);
+  styles.LoadStyles();
+  for (int i = 1; i <= styles.NbStyles(); ++i)
+  {
+    const Handle(StepVisual_StyledItem) style = styles.Style(i);
+    const TopoDS_Shape shape =
+      style->Item().IsNull() ? TopoDS_Shape() : TransferBRep::ShapeResult(process, style->Item());
+    if (!shape.IsNull())
+    {
+      found.push_back({ shape, { "", colourOf(styles, style, shape) } });
+    }
+  }
+  return sortLooks(std::move(found));
+}
+
+} // namespace cadrefine

@@ -1,0 +1,101 @@
+// Patches that the file leaves apart become one topology; gaps that stay are reported.
+
+#include "CADFile.h"
+#include "IgesCases.h"
+#include "TestFiles.h"
+
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRep_Builder.hxx>
+#include <TopoDS_Compound.hxx>
+#include <TopoDS_Shell.hxx>
+#include <gp_Pln.hxx>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace
+{
+
+using namespace cadrefine;
+using namespace cadtest;
+
+/// The model's size is about this.
+const double size = std::sqrt(5.0);
+/// The largest tolerance of sewing.
+const double tolerance = 1e-4 * size;
+
+std::shared_ptr<const CADModel> twoSquaresApart(double gap)
+{
+  IgesWriter file;
+  addSquare(file, { 0, 0, 0 }, {});
+  addSquare(file, { 1 + gap, 0, 0 }, {});
+  return readWritten(file);
+}
+
+TEST(Gaps, PatchesThatMeetShareAnEdge)
+{
+  for (const double gap : { 0.0, 0.5 * tolerance })
+  {
+    const auto model = twoSquaresApart(gap);
+    EXPECT_EQ(model->count(2), 2);
+    EXPECT_EQ(model->count(1), 7) << gap;
+    EXPECT_EQ(model->count(0), 6) << gap;
+    EXPECT_GT(model->report().sewingTolerance, gap);
+    EXPECT_LE(model->report().sewingTolerance, 1.01 * tolerance);
+    EXPECT_TRUE(model->report().gaps.empty());
+  }
+}
+
+TEST(Gaps, AWiderOneIsReportedWithItsPlace)
+{
+  const double width = 5 * tolerance;
+  const auto model = twoSquaresApart(width);
+  EXPECT_EQ(model->count(1), 8);
+  ASSERT_EQ(model->report().gaps.size(), 1u);
+  const Gap& gap = model->report().gaps[0];
+  EXPECT_NEAR(gap.width, width, 1e-6 * size);
+  EXPECT_NEAR(gap.point[0], 1, 1.1 * width);
+  EXPECT_GT(gap.point[1], 0);
+  EXPECT_LT(gap.point[1], 1);
+  for (const int edge : gap.edges)
+  {
+    EXPECT_LT(model->nearestOn({ 1, edge }, gap.point).distance, 1.1 * width);
+  }
+}
+
+TEST(Gaps, AreNotSeenWhereEdgesMeetAtAnAngle)
+{
+  IgesWriter file;
+  addSquare(file, { 0, 0, 0 }, {});
+  addBilinear(file, { { 1, 0, 0.002 }, { 2, 0, 1 }, { 1, 1, 1 }, { 2, 1, 2 } });
+  const auto model = readWritten(file);
+  EXPECT_EQ(model->count(2), 2);
+  EXPECT_TRUE(model->report().gaps.empty());
+}
+
+/// A shell of the one face that stands on the unit square's edge along y, at `x`.
+TopoDS_Shell shellAt(double x, const gp_Dir& normal)
+{
+  const gp_Pln plane(gp_Ax3(gp_Pnt(x, 0, 0), normal, gp_Dir(0, 1, 0)));
+  TopoDS_Shell shell;
+  BRep_Builder().MakeShell(shell);
+  BRep_Builder().Add(shell, BRepBuilderAPI_MakeFace(plane, 0, 1, 0, 1).Face());
+  return shell;
+}
+
+TEST(Gaps, BetweenOpenShellsAreSewnToo)
+{
+  TopoDS_Compound both;
+  BRep_Builder().MakeCompound(both);
+  BRep_Builder().Add(both, shellAt(0, gp_Dir(0, 0, 1)));
+  BRep_Builder().Add(both, shellAt(0, gp_Dir(1, 0, 0)));
+  const TemporaryFolder folder;
+  writeShape(both, folder.file("shells.brep"));
+  const auto model = readCADFile(folder.file("shells.brep"));
+  EXPECT_EQ(model->count(2), 2);
+  EXPECT_EQ(model->count(1), 7);
+  EXPECT_EQ(model->count(0), 6);
+}
+
+} // namespace
