@@ -32,7 +32,7 @@ Handle(TCollection_HAsciiString) text(const char* characters)
 
 void describe(IGESControl_Writer& writer)
 {
-  const Handle(IGESData_IGESModel) model = writer.Model();
+  const Handle(IGESData_IGESModel)& model = writer.Model();
   IGESData_GlobalSection head = model->GlobalSection();
   head.SetSendName(text("aeroplane"));
   head.SetFileName(text("aeroplane.igs"));

@@ -13,7 +13,7 @@ import math
 import gmsh
 import numpy as np
 
-from coarse_mesh import TETRAHEDRON, used_points
+from coarse_mesh import TETRAHEDRON, boundary_faces, used_points
 from vtu import mean_ratio, write_vtu
 
 BOX = ((-2.0, -3.0, -2.5), (5.0, 3.0, 2.5))
@@ -63,9 +63,7 @@ def mesh_around(path, size, nose_size):
 
 def boundary_triangles(points, cells):
     """The boundary's triangles, pointing outward, and their tags."""
-    faces = cells[:, [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]]].reshape(-1, 3)
-    _, first, count = np.unique(np.sort(faces, axis=1), axis=0, return_index=True, return_counts=True)
-    triangles = faces[np.sort(first[count == 1])]
+    triangles = boundary_faces(cells)
     low, high = np.array(BOX)
     corners = points[triangles]
     far = (np.isclose(corners, low) | np.isclose(corners, high)).all(axis=1).any(axis=1)

@@ -50,3 +50,10 @@ def used_points(points, cells):
     inverted = (np.linalg.det(edges) if cells.shape[1] == 4 else np.cross(edges[:, 0], edges[:, 1])[:, 2]) < 0
     cells[inverted, -2:] = cells[inverted, -2:][:, ::-1]
     return points, cells
+
+
+def boundary_faces(cells):
+    """The faces that belong to one tetrahedron only, pointing outward."""
+    faces = cells[:, [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]]].reshape(-1, 3)
+    _, first, count = np.unique(np.sort(faces, axis=1), axis=0, return_index=True, return_counts=True)
+    return faces[np.sort(first[count == 1])]

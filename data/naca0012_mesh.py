@@ -15,7 +15,7 @@ import math
 
 import numpy as np
 
-from coarse_mesh import mesh_around
+from coarse_mesh import boundary_faces, mesh_around
 from naca0012 import CHORD, SPAN, half_thickness
 from vtu import mean_ratio, write_vtu
 
@@ -77,9 +77,7 @@ def move_off_surface(points, polygon):
 
 def boundary_triangles(points, cells, wing, span):
     """The boundary's triangles, pointing outward, and their tags."""
-    faces = cells[:, [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]]].reshape(-1, 3)
-    _, first, count = np.unique(np.sort(faces, axis=1), axis=0, return_index=True, return_counts=True)
-    triangles = faces[np.sort(first[count == 1])]
+    triangles = boundary_faces(cells)
     y = points[triangles, 1]
     walls = (y == 0.0).all(axis=1) | (y == span).all(axis=1)
     tags = np.where(walls, TAGS["walls"], np.where(wing[triangles].all(axis=1), TAGS["wing"], TAGS["far"]))
