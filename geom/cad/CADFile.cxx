@@ -40,12 +40,14 @@ ReadShape readShape(const std::string& path, CADFormat format)
   }
 }
 
+/// Of the box round all faces and edges; round splines that of their poles, which may be larger
+/// than it must be (BRepBndLib::AddOptimal takes longer than all the rest of reading).
 double diagonalOf(const TopoDS_Shape& shape)
 {
   constexpr bool useTriangulation = false;
-  constexpr bool useTolerance = false;
   Bnd_Box box;
-  BRepBndLib::AddOptimal(shape, box, useTriangulation, useTolerance);
+  BRepBndLib::Add(shape, box, useTriangulation);
+  box.SetGap(0);
   return box.IsVoid() ? 0 : std::sqrt(box.SquareExtent());
 }
 
