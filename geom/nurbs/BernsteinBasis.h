@@ -79,13 +79,17 @@ inline void bernsteinDerivatives(int degree, double s, BernsteinBasis& basis)
   }
 }
 
-/// Binomial coefficients up to 2 * maximumDegree: row n, column k. Exact.
-using BinomialTable = std::array<std::array<double, 2 * maximumDegree + 1>, 2 * maximumDegree + 1>;
+/// Highest degree of a product that is worked with.
+constexpr int maximumProductDegree = 2 * maximumDegree;
+
+/// Binomial coefficients up to maximumProductDegree: row n, column k. Exact.
+using BinomialTable =
+  std::array<std::array<double, maximumProductDegree + 1>, maximumProductDegree + 1>;
 
 constexpr BinomialTable makeBinomialTable()
 {
   BinomialTable table{};
-  for (int n = 0; n <= 2 * maximumDegree; ++n)
+  for (int n = 0; n <= maximumProductDegree; ++n)
   {
     table[n][0] = 1.0;
     for (int k = 1; k <= n; ++k)

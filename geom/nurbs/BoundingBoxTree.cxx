@@ -101,6 +101,47 @@ BoundingBoxTree::BoundingBoxTree(const Point3& centre, double size)
 {
 }
 
+BoundingBoxTree::Root BoundingBoxTree::addNode()
+{
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  Node node;
+  node.low.fill(Lanes{} + infinity);
+  node.high.fill(Lanes{} - infinity);
+  node.child.fill(none);
+  nodes_.push_back(node);
+  return static_cast<Root>(nodes_.size()) - 1;
+}
+
+BoundingBoxTree::Root BoundingBoxTree::join(Root a, Root b)
+{
+  if (a == none || b == none)
+  {
+    return a == none ? b : a;
+  }
+  const Root index = addNode();
+  for (int c = 0; c < 2; ++c)
+  {
+    const Root root = c == 0 ? a : b;
+    nodes_[index].child[c] = root;
+    for (int k = 0; k < 3; ++k)
+    {
+      // The box of an item is not kept: it is visited in any case.
+      float low = -std::numeric_limits<float>::max();
+      float high = std::numeric_limits<float>::max();
+      if (root >= 0)
+      {
+        const Lanes lows = nodes_[root].low[k];
+        const Lanes highs = nodes_[root].high[k];
+        low = std::min(std::min(lows[0], lows[1]), std::min(lows[2], lows[3]));
+        high = std::max(std::max(highs[0], highs[1]), std::max(highs[2], highs[3]));
+      }
+      nodes_[index].low[k][c] = low;
+      nodes_[index].high[k][c] = high;
+    }
+  }
+  return index;
+}
+
 BoundingBoxTree::Root BoundingBoxTree::build(std::vector<Entry>& entries)
 {
   return entries.empty() ? none : buildRange(entries, 0, entries.size());
@@ -123,13 +164,7 @@ BoundingBoxTree::Root BoundingBoxTree::buildRange(
     }
     cuts.insert(cuts.begin() + largest, partition(entries, cuts[largest - 1], cuts[largest]));
   }
-  Node node;
-  node.child.fill(none);
-  constexpr float infinity = std::numeric_limits<float>::infinity();
-  node.low.fill(Lanes{} + infinity);
-  node.high.fill(Lanes{} - infinity);
-  const auto index = static_cast<Root>(nodes_.size());
-  nodes_.push_back(node);
+  const Root index = addNode();
   for (std::size_t c = 1; c < cuts.size(); ++c)
   {
     BoundingBox box;
@@ -139,14 +174,15 @@ BoundingBoxTree::Root BoundingBoxTree::buildRange(
     }
     const RoundedPoint low = rounded(box.low);
     const RoundedPoint high = rounded(box.high);
+    const Root child = buildRange(entries, cuts[c - 1], cuts[c]);
+    Node& node = nodes_[index];
+    node.child[c - 1] = child;
     for (int k = 0; k < 3; ++k)
     {
       node.low[k][c - 1] = low.low[k];
       node.high[k][c - 1] = high.high[k];
     }
-    node.child[c - 1] = buildRange(entries, cuts[c - 1], cuts[c]);
   }
-  nodes_[index] = node;
   return index;
 }
 

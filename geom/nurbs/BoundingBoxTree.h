@@ -35,6 +35,9 @@ public:
   /// A tree over `entries`, which are put into an order in which neighbours are near each other.
   Root build(std::vector<Entry>& entries);
 
+  /// A tree over two others, each of which may be `none`.
+  Root join(Root a, Root b);
+
   /// Calls `visit(item, bound)` for every item below `root` whose box may be within the square root
   /// of `limit()` of q, nearer boxes first; the squared distance of the box is at least `bound`.
   /// `limit` is asked again after every visit.
@@ -62,6 +65,8 @@ private:
   static Root toRoot(int item) { return ~item; }
   static int toItem(Root root) { return ~root; }
 
+  /// Appends a node without children.
+  Root addNode();
   Root buildRange(std::vector<Entry>& entries, std::size_t first, std::size_t last);
   RoundedPoint rounded(const Point3& p) const;
   static Lanes squaredDistances(const Node& node, const RoundedPoint& q);
@@ -143,19 +148,20 @@ void BoundingBoxTree::visitNear(
     }
     const Node& node = nodes_[here.root];
     const Lanes bounds = squaredDistances(node, at);
+    // Without branches: those within reach go onto the stack, and the nearest of them on top.
     const int first = size;
     for (int i = 0; i < width; ++i)
     {
-      if (bounds[i] > reach)
-      {
-        continue;
-      }
-      int place = size++;
-      for (; place > first && stack[place - 1].bound < bounds[i]; --place)
-      {
-        stack[place] = stack[place - 1];
-      }
-      stack[place] = { node.child[i], bounds[i] };
+      stack[size] = { node.child[i], bounds[i] };
+      size += bounds[i] <= reach ? 1 : 0;
+    }
+    for (int i = first + 1; i < size; ++i)
+    {
+      const Waiting a = stack[i - 1];
+      const Waiting b = stack[i];
+      const bool nearer = a.bound < b.bound;
+      stack[i - 1] = nearer ? b : a;
+      stack[i] = nearer ? a : b;
     }
   }
 }

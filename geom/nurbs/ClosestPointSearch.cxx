@@ -88,10 +88,18 @@ ClosestPoint ClosestPointSearch::Implementation::onPatch(
   ClosestPoint result;
   result.entity = candidate.id;
   result.parameters = patch.parametersAt(candidate.s, candidate.t);
-  const ParameterRectangle& range = patch.range;
-  const double s = range.width() > 0 ? (result.parameters[0] - range.s0) / range.width() : 0.0;
-  const double t = range.height() > 0 ? (result.parameters[1] - range.t0) / range.height() : 0.0;
-  result.point = evaluateLocal(patch.view, s, t);
+  result.point = patch.evaluateAt(result.parameters);
+  const Seams& seams = structure.entities[patch.entity].seams;
+  if (seams.any())
+  {
+    const SearchPatch* grid = &structure.patches[structure.entities[patch.entity].firstPatch];
+    const auto canonical = seams.canonical(grid, result.point, result.parameters);
+    if (canonical != result.parameters)
+    {
+      result.parameters = canonical;
+      result.point = structure.patchAt(patch.entity, canonical).evaluateAt(canonical);
+    }
+  }
   result.distance = distance(result.point, q);
   return result;
 }
@@ -188,21 +196,19 @@ ClosestPoint ClosestPointSearch::nearestOn(EntityId entity, const Point3& point)
   {
     return {};
   }
-  LeafQuery query(implementation_->structure, point, std::numeric_limits<double>::infinity());
-  if (entity.dimension == 1)
+  const SearchStructure& structure = implementation_->structure;
+  LeafQuery query(structure, point, std::numeric_limits<double>::infinity());
+  switch (entity.dimension)
   {
-    implementation_->visitEdge(entity.index, point, query);
-  }
-  else
-  {
-    implementation_->visitEntity(entity, point, query);
-  }
-  if (entity.dimension == 2)
-  {
-    for (const std::int32_t edge : model.faces[entity.index].edges)
-    {
-      implementation_->visitEdge(edge, point, query);
-    }
+    case 0:
+      implementation_->visitEntity(entity, point, query);
+      break;
+    case 1:
+      implementation_->visitEdge(entity.index, point, query);
+      break;
+    default:
+      visitTree(
+        structure, structure.entities[structure.entityNumber(entity)].closure, point, {}, query);
   }
   return implementation_->answer(point, query);
 }

@@ -1,9 +1,11 @@
 #include "ConvexityBounds.h"
 
-#include "BernsteinForm.h"
+#include "RationalForm.h"
 #include "SquareMinimum.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace cadrefine
@@ -14,15 +16,16 @@ namespace
 /// Positive definiteness is asked for with this relative margin, far above rounding.
 constexpr double margin = 1.0 + 1e-9;
 
-struct IntervalVector
+double largestNorm(const std::array<Interval, 3>& v)
 {
-  std::array<Interval, 3> x;
-  double largestNorm() const
-  {
-    return std::sqrt(x[0].magnitude() * x[0].magnitude() + x[1].magnitude() * x[1].magnitude() +
-                     x[2].magnitude() * x[2].magnitude());
-  }
-};
+  return norm({ v[0].magnitude(), v[1].magnitude(), v[2].magnitude() });
+}
+
+float roundedUp(double x)
+{
+  const auto near = static_cast<float>(x);
+  return near < x ? std::nextafter(near, std::numeric_limits<float>::infinity()) : near;
+}
 
 /// Minimum of g x + a x^2 / 2 over [-1/2, 1/2], for any a.
 double leastOverHalves(double a, double g)
@@ -33,44 +36,27 @@ double leastOverHalves(double a, double g)
 
 } // namespace
 
-/// Ranges of the control coefficients of the homogeneous derivatives, relative to the middle point.
-struct ConvexityBounds::HomogeneousRanges
+/// Enclosures of the offset from the middle point and of the derivatives, in the patch's frame.
+struct ConvexityBounds::Ranges
 {
-  Interval weight;
-  IntervalVector offset; // S - c
-  std::array<std::array<Interval, 4>, 5> derivative;
-
-  HomogeneousRanges(const PatchView& patch, const Point3& c)
-  {
-    const Degrees degrees = { patch.degreeU, patch.degreeV };
-    std::array<std::vector<double>, 4> component;
-    offset.x.fill(Interval::empty());
-    for (int i = 0; i < patch.count(); ++i)
-    {
-      const ControlPoint& p = patch.points[i];
-      for (int k = 0; k < 3; ++k)
-      {
-        component[k].push_back(p[k] - c[k] * p[3]);
-        offset.x[k].include(component[k].back() / p[3]);
-      }
-      component[3].push_back(p[3]);
-    }
-    constexpr int orders[5][2] = { { 1, 0 }, { 0, 1 }, { 2, 0 }, { 1, 1 }, { 0, 2 } };
-    for (int k = 0; k < 4; ++k)
-    {
-      for (int order = 0; order < 5; ++order)
-      {
-        derivative[order][k] =
-          derivativeRange(degrees, component[k].data(), orders[order][0], orders[order][1]);
-      }
-    }
-    weight = derivativeRange(degrees, component[3].data(), 0, 0);
-  }
+  std::array<Interval, 3> offset, s, t, ss, st, tt;
 };
+
+ConvexityBounds::VectorBounds::VectorBounds(const std::array<Interval, 3>& bounds)
+{
+  // The frame is orthonormal to within 2e-7, so scalar products in it are wrong by up to this part.
+  constexpr double frameError = 4e-7;
+  const double spread = frameError * cadrefine::largestNorm(bounds);
+  for (int k = 0; k < 3; ++k)
+  {
+    middle[k] = static_cast<float>(bounds[k].middle());
+    radius[k] = roundedUp(bounds[k].radius() + std::abs(bounds[k].middle() - middle[k]) + spread);
+  }
+}
 
 Interval ConvexityBounds::VectorBounds::dotRange(const Vector3& k) const
 {
-  const double middleDot = dot(k, middle);
+  const double middleDot = k[0] * middle[0] + k[1] * middle[1] + k[2] * middle[2];
   const double spread =
     std::abs(k[0]) * radius[0] + std::abs(k[1]) * radius[1] + std::abs(k[2]) * radius[2];
   return { middleDot - spread, middleDot + spread };
@@ -78,44 +64,93 @@ Interval ConvexityBounds::VectorBounds::dotRange(const Vector3& k) const
 
 double ConvexityBounds::VectorBounds::largestNorm() const
 {
-  return norm(middle) + norm(radius);
+  return norm({ middle[0], middle[1], middle[2] }) + norm({ radius[0], radius[1], radius[2] });
 }
 
-void ConvexityBounds::boundDerivatives(const HomogeneousRanges& r)
+ConvexityBounds::RoundedInterval ConvexityBounds::rounded(Interval x)
 {
-  enum
+  return { -roundedUp(-x.low), roundedUp(x.high) };
+}
+
+void ConvexityBounds::chooseFrame(const Vector3& tangentS, const Vector3& tangentT)
+{
+  const Vector3 along = normalized(squaredNorm(tangentS) > 0 ? tangentS : tangentT);
+  const Vector3 normal = normalized(cross(tangentS, tangentT));
+  std::array<Vector3, 3> frame = { Vector3{ 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };
+  if (squaredNorm(normal) > 0)
   {
-    s,
-    t,
-    ss,
-    st,
-    tt
-  };
-  const auto& d = r.derivative;
-  IntervalVector first[2];
-  VectorBounds* second[3] = { &ss_, &st_, &tt_ };
+    frame = { along, cross(normal, along), normal };
+  }
+  else if (squaredNorm(along) > 0)
+  {
+    const auto least = std::min_element(
+      along.begin(), along.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
+    const Vector3 across = normalized(cross(along, frame[least - along.begin()]));
+    frame = { along, across, cross(along, across) };
+  }
+  for (int row = 0; row < 3; ++row)
+  {
+    std::copy(frame[row].begin(), frame[row].end(), frame_[row].begin());
+  }
+}
+
+Vector3 ConvexityBounds::toFrame(const Vector3& v) const
+{
+  const auto along = [&](const std::array<float, 3>& axis)
+  { return axis[0] * v[0] + axis[1] * v[1] + axis[2] * v[2]; };
+  return { along(frame_[0]), along(frame_[1]), along(frame_[2]) };
+}
+
+ConvexityBounds::Ranges ConvexityBounds::rangesOf(const PatchView& patch) const
+{
+  const Degrees degrees = { patch.degreeU, patch.degreeV };
+  Form fullWeight{ degrees, {} };
+  std::array<Quotient, 3> component;
+  component.fill({ { degrees, {} }, 1 });
+  Ranges r;
+  r.offset.fill(Interval::empty());
+  for (int i = 0; i < patch.count(); ++i)
+  {
+    const ControlPoint& p = patch.points[i];
+    const Vector3 offset =
+      toFrame({ p[0] - middle_[0] * p[3], p[1] - middle_[1] * p[3], p[2] - middle_[2] * p[3] });
+    for (int k = 0; k < 3; ++k)
+    {
+      component[k].top.c.push_back(offset[k]);
+      r.offset[k].include(offset[k] / p[3]);
+    }
+    fullWeight.c.push_back(p[3]);
+  }
+  const Form weight = withoutConstantDirections(fullWeight);
   for (int k = 0; k < 3; ++k)
   {
-    const Interval x = r.offset.x[k];
-    const Interval xs = (d[s][k] - x * d[s][3]) / r.weight;
-    const Interval xt = (d[t][k] - x * d[t][3]) / r.weight;
-    const Interval bounds[3] = { (d[ss][k] - 2.0 * (xs * d[s][3]) - x * d[ss][3]) / r.weight,
-      (d[st][k] - xs * d[t][3] - xt * d[s][3] - x * d[st][3]) / r.weight,
-      (d[tt][k] - 2.0 * (xt * d[t][3]) - x * d[tt][3]) / r.weight };
-    first[0].x[k] = xs;
-    first[1].x[k] = xt;
-    for (int order = 0; order < 3; ++order)
-    {
-      second[order]->middle[k] = bounds[order].middle();
-      second[order]->radius[k] = bounds[order].radius();
-    }
+    const Quotient alongS = derivative(component[k], weight, true);
+    const Quotient alongT = derivative(component[k], weight, false);
+    r.s[k] = rangeOf(alongS, weight);
+    r.t[k] = rangeOf(alongT, weight);
+    r.ss[k] = slopeRange(alongS, r.s[k], weight, true);
+    r.st[k] = intersection(
+      slopeRange(alongS, r.s[k], weight, false), slopeRange(alongT, r.t[k], weight, true));
+    r.tt[k] = slopeRange(alongT, r.t[k], weight, false);
   }
-  radius_ = r.offset.largestNorm();
-  lengthS_ = first[0].largestNorm();
-  lengthT_ = first[1].largestNorm();
+  return r;
 }
 
-void ConvexityBounds::boundOwnHessian(const PatchView& patch)
+/// From the derivatives of the patch: sharp where it is long and narrow, and its weights vary.
+ConvexityBounds::Hessian ConvexityBounds::hessianByParts(const Ranges& r)
+{
+  Hessian h;
+  for (int k = 0; k < 3; ++k)
+  {
+    h.ss = h.ss + square(r.s[k]) + r.offset[k] * r.ss[k];
+    h.st = h.st + r.s[k] * r.t[k] + r.offset[k] * r.st[k];
+    h.tt = h.tt + square(r.t[k]) + r.offset[k] * r.tt[k];
+  }
+  return h;
+}
+
+/// From the Bernstein form of |S - c|^2: sharp where the parameter lines spread, as at poles.
+ConvexityBounds::Hessian ConvexityBounds::hessianByForm(const PatchView& patch) const
 {
   const Degrees degrees = { 2 * patch.degreeU, 2 * patch.degreeV };
   std::vector<double> numerator(degrees.count());
@@ -134,9 +169,18 @@ void ConvexityBounds::boundOwnHessian(const PatchView& patch)
   const Interval wt = bottom(0, 1);
   const Interval fs = (top(1, 0) - ratio * ws) / w;
   const Interval ft = (top(0, 1) - ratio * wt) / w;
-  ownSS_ = 0.5 * ((top(2, 0) - 2.0 * (fs * ws) - ratio * bottom(2, 0)) / w);
-  ownST_ = 0.5 * ((top(1, 1) - fs * wt - ft * ws - ratio * bottom(1, 1)) / w);
-  ownTT_ = 0.5 * ((top(0, 2) - 2.0 * (ft * wt) - ratio * bottom(0, 2)) / w);
+  return { 0.5 * ((top(2, 0) - 2.0 * (fs * ws) - ratio * bottom(2, 0)) / w),
+    0.5 * ((top(1, 1) - fs * wt - ft * ws - ratio * bottom(1, 1)) / w),
+    0.5 * ((top(0, 2) - 2.0 * (ft * wt) - ratio * bottom(0, 2)) / w) };
+}
+
+void ConvexityBounds::boundOwnHessian(const PatchView& patch, const Ranges& ranges)
+{
+  const Hessian a = hessianByParts(ranges);
+  const Hessian b = hessianByForm(patch);
+  ownSS_ = rounded(intersection(a.ss, b.ss));
+  ownST_ = rounded(intersection(a.st, b.st));
+  ownTT_ = rounded(intersection(a.tt, b.tt));
   if (patch.isCurve())
   {
     ownTT_ = { 1.0, 1.0 }; // the second parameter has no effect: any convex function of it will do
@@ -147,26 +191,35 @@ ConvexityBounds::ConvexityBounds(const PatchView& patch)
 {
   const PatchDerivatives atMiddle = evaluateLocalDerivatives(patch, 0.5, 0.5);
   middle_ = atMiddle.value;
+  chooseFrame(atMiddle.u, atMiddle.v);
   tangentS_ = atMiddle.u;
   tangentT_ = atMiddle.v;
-  boundDerivatives(HomogeneousRanges(patch, middle_));
-  boundOwnHessian(patch);
+  const Ranges r = rangesOf(patch);
+  boundOwnHessian(patch, r);
+  ss_ = VectorBounds(r.ss);
+  st_ = VectorBounds(r.st);
+  tt_ = VectorBounds(r.tt);
+  constexpr double frameError = 1e-6;
+  radius_ = roundedUp((1.0 + frameError) * largestNorm(r.offset));
+  lengthS_ = roundedUp((1.0 + frameError) * largestNorm(r.s));
+  lengthT_ = roundedUp((1.0 + frameError) * largestNorm(r.t));
   const double scaleS = lengthS_ > 0 ? 1.0 / lengthS_ : 0.0;
   const double scaleT = lengthT_ > 0 ? 1.0 / lengthT_ : 0.0;
   const double twist = st_.largestNorm();
-  variationS_ = ss_.largestNorm() * scaleS + twist * scaleT;
-  variationT_ = tt_.largestNorm() * scaleT + twist * scaleS;
+  variationS_ = static_cast<float>(ss_.largestNorm() * scaleS + twist * scaleT);
+  variationT_ = static_cast<float>(tt_.largestNorm() * scaleT + twist * scaleS);
 }
 
 ConvexityBounds::Answer ConvexityBounds::ask(const Point3& q) const
 {
   const Vector3 k = middle_ - q;
-  const Interval rangeSS = ss_.dotRange(k);
-  const Interval rangeST = st_.dotRange(k);
-  const Interval rangeTT = tt_.dotRange(k);
-  const double a = ownSS_.low + rangeSS.low;
-  const double d = ownTT_.low + rangeTT.low;
-  const double b = (ownST_ + rangeST).magnitude();
+  const Vector3 inFrame = toFrame(k);
+  const Interval hessianSS = ownSS_ + ss_.dotRange(inFrame);
+  const Interval hessianST = ownST_ + st_.dotRange(inFrame);
+  const Interval hessianTT = ownTT_ + tt_.dotRange(inFrame);
+  const double a = hessianSS.low;
+  const double d = hessianTT.low;
+  const double b = hessianST.magnitude();
   Answer answer;
   answer.convex = a > 0 && d > 0 && a * d > margin * b * b;
   // a x^2 - 2 b |x y| + d y^2 >= (a - b r) x^2 + (d - b / r) y^2 for any r > 0.
@@ -179,8 +232,8 @@ ConvexityBounds::Answer ConvexityBounds::ask(const Point3& q) const
   {
     return answer;
   }
-  const QuadraticModel model = { gradientS, gradientT, ownSS_.middle() + rangeSS.middle(),
-    ownST_.middle() + rangeST.middle(), ownTT_.middle() + rangeTT.middle() };
+  const QuadraticModel model = { gradientS, gradientT, hessianSS.middle(), hessianST.middle(),
+    hessianTT.middle() };
   const Point2 step = minimizeOverBox(model, { -0.5, 0.5, -0.5, 0.5 });
   answer.s = 0.5 + step[0];
   answer.t = 0.5 + step[1];

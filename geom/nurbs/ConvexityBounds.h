@@ -43,29 +43,47 @@ public:
   double lengthT() const { return lengthT_; }
 
 private:
-  /// Box that contains a vector.
+  /// Box that contains a vector, in the patch's frame.
   struct VectorBounds
   {
-    Vector3 middle{};
-    Vector3 radius{};
+    std::array<float, 3> middle{}, radius{};
+    VectorBounds() = default;
+    explicit VectorBounds(const std::array<Interval, 3>& bounds);
     Interval dotRange(const Vector3& k) const;
     double largestNorm() const;
   };
-  struct HomogeneousRanges;
+  struct RoundedInterval
+  {
+    float low = 0;
+    float high = 0;
+    operator Interval() const { return { low, high }; }
+  };
+  struct Ranges;
+  struct Hessian
+  {
+    Interval ss, st, tt;
+  };
 
-  void boundDerivatives(const HomogeneousRanges& ranges);
-  void boundOwnHessian(const PatchView& patch);
+  void chooseFrame(const Vector3& tangentS, const Vector3& tangentT);
+  Vector3 toFrame(const Vector3& v) const;
+  Ranges rangesOf(const PatchView& patch) const;
+  static RoundedInterval rounded(Interval x);
+  static Hessian hessianByParts(const Ranges& ranges);
+  Hessian hessianByForm(const PatchView& patch) const;
+  void boundOwnHessian(const PatchView& patch, const Ranges& ranges);
 
   Point3 middle_{};
   Vector3 tangentS_{}; // at the middle
   Vector3 tangentT_{};
-  VectorBounds ss_, st_, tt_;      // second derivatives of S
-  Interval ownSS_, ownST_, ownTT_; // Hessian of |S - c|^2 / 2
-  double radius_ = 0;
-  double variationS_ = 0;
-  double variationT_ = 0;
-  double lengthS_ = 0;
-  double lengthT_ = 0;
+  // In single precision, rounded outward: queries spend their time on fetching this.
+  std::array<std::array<float, 3>, 3> frame_{}; // rows, orthonormal to rounding
+  VectorBounds ss_, st_, tt_;                   // second derivatives of S
+  RoundedInterval ownSS_, ownST_, ownTT_;       // Hessian of |S - c|^2 / 2
+  float radius_ = 0;
+  float variationS_ = 0;
+  float variationT_ = 0;
+  float lengthS_ = 0;
+  float lengthT_ = 0;
 };
 
 } // namespace cadrefine

@@ -52,6 +52,19 @@ inline Interval operator*(Interval a, Interval b)
   return product;
 }
 
+/// Of two that have a number in common; rounding may have left them a little apart.
+inline Interval intersection(Interval a, Interval b)
+{
+  return { std::min(std::max(a.low, b.low), std::min(a.high, b.high)),
+    std::max(std::max(a.low, b.low), std::min(a.high, b.high)) };
+}
+
+inline Interval square(Interval a)
+{
+  const double least = a.low > 0 ? a.low : a.high < 0 ? a.high : 0.0;
+  return { least * least, a.magnitude() * a.magnitude() };
+}
+
 /// Quotient by an interval of positive numbers.
 inline Interval operator/(Interval a, Interval positive)
 {

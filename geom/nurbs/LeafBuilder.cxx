@@ -66,7 +66,7 @@ bool isFinished(const PatchView& view, const SearchLeaf& leaf, int depth, const 
   {
     return true;
   }
-  return !(leaf.cut && radius > limits.largestCutRadius) && isConvexNearby(view, leaf.bounds);
+  return radius <= limits.largestRadius && isConvexNearby(view, leaf.bounds);
 }
 
 /// Whether to cut across s: the direction along which the patch varies more, or else the longer.
@@ -104,7 +104,9 @@ std::vector<BuiltLeaf> buildLeaves(
     }
     const std::vector<ControlPoint> points = restrictPatch(patch.view, part.rectangle);
     BuiltLeaf candidate;
-    candidate.leaf.part = part.rectangle;
+    const ParameterRectangle& r = part.rectangle;
+    candidate.leaf.sides = { static_cast<float>(r.s0), static_cast<float>(r.s1),
+      static_cast<float>(r.t0), static_cast<float>(r.t1) };
     candidate.leaf.cut = cover == TrimCover::cut;
     const PatchView view = { points.data(), patch.view.degreeU, patch.view.degreeV };
     candidate.leaf.bounds = ConvexityBounds(view);

@@ -11,9 +11,9 @@ namespace cadrefine
 
 struct LeafLimits
 {
-  double smallestRadius = 0;   ///< Leaves smaller than this are not split, however curved.
-  double largestCutRadius = 0; ///< Leaves larger than this that trim loops cut are split.
-  int mostLeaves = 0;          ///< Of one patch.
+  double smallestRadius = 0; ///< Leaves smaller than this are not split, however curved.
+  double largestRadius = 0;  ///< Larger ones are split, however flat.
+  int mostLeaves = 0;        ///< Of one patch.
 };
 
 struct BuiltLeaf

@@ -85,7 +85,7 @@ void LeafQuery::visit(const SearchLeaf& leaf, EntityId id, bool border, double s
   {
     finish();
   }
-  const ParameterRectangle& part = leaf.part;
+  const ParameterRectangle part = leaf.part();
   const Waiting waiting = { &leaf, id, border, answer.convex, bound,
     part.s0 + answer.s * part.width(), part.t0 + answer.t * part.height() };
   waiting_[waitingCount_++] = waiting;
@@ -116,7 +116,7 @@ void LeafQuery::finish()
       // The minimum is unique. Where it is trimmed away, that over what is left of the leaf is on
       // the trim border, which the edges cover.
       const double limit = candidates_.limit();
-      solve(*waiting.leaf, waiting.leaf->part, waiting.s, waiting.t, limit * limit);
+      solve(*waiting.leaf, waiting.leaf->part(), waiting.s, waiting.t, limit * limit);
     }
     else
     {

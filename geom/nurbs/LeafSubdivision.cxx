@@ -91,7 +91,7 @@ Interval LeafSubdivision::ratioRange(int entry) const
 void LeafSubdivision::fillForms()
 {
   const PatchView& view = query_.structure_.patches[leaf_.patch].view;
-  const std::vector<ControlPoint> points = restrictPatch(view, leaf_.part);
+  const std::vector<ControlPoint> points = restrictPatch(view, leaf_.part());
   level_.resize(degrees_.count());
   forms_.resize(std::max<std::size_t>(forms_.size(), 2 * degrees_.count()));
   squaredDistanceForm(
@@ -114,8 +114,8 @@ void LeafSubdivision::run()
       return;
     }
   }
-  stack_ = { { leaf_.part, query_.trimOf(leaf_) != nullptr } };
-  solveIn(leaf_.part, stack_.front()); // even then: an entity of a smaller id may be as near
+  stack_ = { { leaf_.part(), query_.trimOf(leaf_) != nullptr } };
+  solveIn(leaf_.part(), stack_.front()); // even then: an entity of a smaller id may be as near
   const double cost = count * (degrees_.s + degrees_.t + 12.0);
   while (!stack_.empty() && !isFound() && spend(cost))
   {
@@ -227,7 +227,7 @@ bool LeafSubdivision::isDropped(int entry)
   }
   if (middle.value < 0)
   {
-    solveIn(leaf_.cut ? part.rectangle : leaf_.part, part);
+    solveIn(leaf_.cut ? part.rectangle : leaf_.part(), part);
   }
   return !canSplit(part, true) && !canSplit(part, false);
 }
@@ -237,9 +237,9 @@ bool LeafSubdivision::canSplit(const Part& part, bool acrossS) const
   const double shortest = smallestLength * query_.tolerance_;
   const ConvexityBounds& bounds = leaf_.bounds;
   return acrossS ? degrees_.s > 0 &&
-                     bounds.lengthS() * part.rectangle.width() > shortest * leaf_.part.width()
+                     bounds.lengthS() * part.rectangle.width() > shortest * leaf_.part().width()
                  : degrees_.t > 0 &&
-                     bounds.lengthT() * part.rectangle.height() > shortest * leaf_.part.height();
+                     bounds.lengthT() * part.rectangle.height() > shortest * leaf_.part().height();
 }
 
 /// The direction in which the distance bends more; where it hardly bends, that of larger slope.

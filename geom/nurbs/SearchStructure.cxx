@@ -15,6 +15,8 @@ namespace
 
 constexpr int mostLeavesOfModel = 400000;
 constexpr int fewestLeavesOfPatch = 64;
+/// Of the model's size: points nearer to each other than this are one.
+constexpr double sameTolerance = 1e-12;
 
 std::string nameOf(EntityId id)
 {
@@ -70,6 +72,7 @@ public:
       addFace(i);
     }
     buildTrees();
+    findSeams();
   }
 
 private:
@@ -102,7 +105,7 @@ private:
       }
     }
     limits_.smallestRadius = 1e-4 * box.diagonal();
-    limits_.largestCutRadius = 0.05 * box.diagonal();
+    limits_.largestRadius = 0.02 * box.diagonal();
     limits_.mostLeaves =
       std::max(fewestLeavesOfPatch, mostLeavesOfModel / static_cast<int>(patches));
   }
@@ -124,6 +127,7 @@ private:
     const int entity = addEntity(id);
     structure_.entities[entity].sharp = edge.sharp;
     structure_.entities[entity].face = edge.faces.empty() ? -1 : edge.faces.front();
+    startGrid(entity, static_cast<int>(edge.segments.size()), 1);
     for (const BezierCurve& segment : edge.segments)
     {
       const PatchView view = viewOf(segment);
@@ -141,12 +145,13 @@ private:
     {
       structure_.entities[entity].trim = std::make_unique<TrimRegion>(face.loops);
     }
+    const int columns = std::max(face.patchesV, 1);
+    startGrid(entity, static_cast<int>(face.patches.size()) / columns, columns);
     for (std::size_t i = 0; i < face.patches.size(); ++i)
     {
       const BezierPatch& patch = face.patches[i];
       const PatchView view = viewOf(patch);
       checkPatch(view, patch.points.size(), id);
-      const int columns = std::max(face.patchesV, 1);
       const int row = static_cast<int>(i) / columns;
       const int column = static_cast<int>(i) % columns;
       addPatch({ view, { patch.u0, patch.u1, patch.v0, patch.v1 }, entity,
@@ -160,6 +165,13 @@ private:
     structure_.entities.emplace_back();
     structure_.entities.back().id = id;
     return static_cast<int>(structure_.entities.size()) - 1;
+  }
+
+  void startGrid(int entity, int rows, int columns)
+  {
+    structure_.entities[entity].firstPatch = static_cast<int>(structure_.patches.size());
+    structure_.entities[entity].rows = rows;
+    structure_.entities[entity].columns = columns;
   }
 
   void addLeaf(const SearchLeaf& leaf, const BoundingBox& box)
@@ -190,16 +202,67 @@ private:
     }
     structure_.size = box.diagonal();
     structure_.tree = BoundingBoxTree(box.isEmpty() ? Point3{} : box.middle(), structure_.size);
-    for (auto first = entries_.begin(); first != entries_.end();)
+    for (SearchEntity& entity : structure_.entities)
     {
-      const int entity = structure_.leaves[first->item].entity;
-      const auto last = std::find_if(first, entries_.end(),
-        [&](const auto& e) { return structure_.leaves[e.item].entity != entity; });
-      Entries own(first, last);
-      structure_.entities[entity].root = structure_.tree.build(own);
-      first = last;
+      Entries own = entriesOf(structure_.entityNumber(entity.id));
+      entity.root = structure_.tree.build(own);
+    }
+    for (int i = 0; i < model_.count(2); ++i)
+    {
+      SearchEntity& face = structure_.entities[structure_.entityNumber({ 2, i })];
+      Entries border = borderOf(model_.faces[i]);
+      face.closure = structure_.tree.join(face.root, structure_.tree.build(border));
     }
     structure_.root = structure_.tree.build(entries_);
+  }
+
+  void findSeams()
+  {
+    for (SearchEntity& entity : structure_.entities)
+    {
+      if (entity.rows > 0)
+      {
+        entity.seams = Seams(&structure_.patches[entity.firstPatch], entity.rows, entity.columns,
+          sameTolerance * structure_.size);
+      }
+    }
+  }
+
+  /// Of the leaves of one entity, which are consecutive.
+  Entries entriesOf(int entity) const
+  {
+    const auto isBefore = [&](const BoundingBoxTree::Entry& e, int number)
+    { return structure_.leaves[e.item].entity < number; };
+    const auto begin = entries_.begin();
+    return { std::lower_bound(begin, entries_.end(), entity, isBefore),
+      std::lower_bound(begin, entries_.end(), entity + 1, isBefore) };
+  }
+
+  /// Of the leaves of a face's edges and their vertices.
+  Entries borderOf(const NurbsFace& face) const
+  {
+    std::vector<int> numbers;
+    for (const std::int32_t index : face.edges)
+    {
+      const NurbsEdge& edge = model_.edges[index];
+      numbers.push_back(structure_.entityNumber({ 1, index }));
+      for (const std::int32_t vertex : { edge.firstVertex, edge.lastVertex })
+      {
+        if (vertex >= 0)
+        {
+          numbers.push_back(structure_.entityNumber({ 0, vertex }));
+        }
+      }
+    }
+    std::sort(numbers.begin(), numbers.end());
+    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+    Entries border;
+    for (const int number : numbers)
+    {
+      const Entries own = entriesOf(number);
+      border.insert(border.end(), own.begin(), own.end());
+    }
+    return border;
   }
 
   SearchStructure& structure_;
@@ -209,6 +272,24 @@ private:
 };
 
 } // namespace
+
+const SearchPatch& SearchStructure::patchAt(
+  int entity, const std::array<double, 2>& parameters) const
+{
+  const SearchEntity& e = entities[entity];
+  const SearchPatch* grid = &patches[e.firstPatch];
+  int row = 0;
+  int column = 0;
+  while (row + 1 < e.rows && parameters[0] > grid[row * e.columns].range.s1)
+  {
+    ++row;
+  }
+  while (column + 1 < e.columns && parameters[1] > grid[column].range.t1)
+  {
+    ++column;
+  }
+  return grid[row * e.columns + column];
+}
 
 SearchStructure::SearchStructure(const NurbsModel& nurbsModel) : model(nurbsModel)
 {

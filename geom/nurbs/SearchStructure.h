@@ -7,6 +7,7 @@
 #include "NurbsModel.h"
 #include "ParameterRectangle.h"
 #include "PatchView.h"
+#include "Seams.h"
 #include "TrimRegion.h"
 
 #include <memory>
@@ -29,14 +30,24 @@ struct SearchPatch
   {
     return { (1.0 - s) * range.s0 + s * range.s1, (1.0 - t) * range.t0 + t * range.t1 };
   }
+  /// The point at the entity's parameters, evaluated as anyone else would.
+  Point3 evaluateAt(const std::array<double, 2>& parameters) const
+  {
+    return evaluateLocal(view, range.width() > 0 ? (parameters[0] - range.s0) / range.width() : 0.0,
+      range.height() > 0 ? (parameters[1] - range.t0) / range.height() : 0.0);
+  }
 };
 
-/// Part of a patch or segment over which the distance is simple for points near it.
-struct SearchLeaf
+/// Part of a patch or segment over which the distance is simple for points near it. It fills four
+/// cache lines.
+struct alignas(64) SearchLeaf
 {
+  /// In the patch's local parameters, which halving leaves exact in single precision.
+  ParameterRectangle part() const { return { sides[0], sides[1], sides[2], sides[3] }; }
+
   ConvexityBounds bounds;
-  ParameterRectangle part; ///< In the patch's local parameters.
-  int patch = -1;          ///< -1: a vertex.
+  std::array<float, 4> sides{ 0, 1, 0, 1 };
+  int patch = -1; ///< -1: a vertex.
   int entity = -1;
   bool cut = false; ///< Trim loops run through it.
 };
@@ -46,9 +57,15 @@ struct SearchEntity
   EntityId id;
   /// Tree over its own leaves; none where nothing is left of it.
   BoundingBoxTree::Root root = BoundingBoxTree::none;
+  /// Of a face, tree over these and the leaves of its edges and their vertices.
+  BoundingBoxTree::Root closure = BoundingBoxTree::none;
   bool sharp = false;                     ///< Of an edge.
   int face = -1;                          ///< Of an edge, the first face that it bounds.
   std::unique_ptr<const TrimRegion> trim; ///< Of a face.
+  int firstPatch = 0;                     ///< Its patches are consecutive, in a grid.
+  int rows = 0;
+  int columns = 0;
+  Seams seams;
 };
 
 /// Built once for a model; immutable. Memory: about 400 bytes a leaf.
@@ -56,6 +73,9 @@ struct SearchStructure
 {
   /// Throws Error where a degree is above maximumDegree or the control points do not fit it.
   explicit SearchStructure(const NurbsModel& model);
+
+  /// The patch of an entity that holds these of its parameters, the first of several.
+  const SearchPatch& patchAt(int entity, const std::array<double, 2>& parameters) const;
 
   int entityNumber(EntityId id) const { return firstEntity[id.dimension] + id.index; }
 

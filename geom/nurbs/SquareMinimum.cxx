@@ -146,20 +146,22 @@ SquareMinimum minimizeDistance(const PatchView& patch, const Point3& q,
       return { std::clamp(s + part * move[0], box.s0, box.s1),
         std::clamp(t + part * move[1], box.t0, box.t1) };
     };
-    if (!modified && length <= 1e-16 * scale * scale)
+    // What of half the squared distance is rounding: so much it may seem to grow.
+    const double rounding = 1e-14 * here.half + 1e-15 * std::sqrt(here.half) * norm(q);
+    if (!modified && length <= 1e-14 * scale * scale)
     {
-      // Quadratic convergence: what is left after this step is below rounding.
+      // Quadratic convergence: what is left after this step does not matter.
       const Point2 last = moved(1.0);
       const double left = squaredNorm(evaluateLocal(patch, last[0], last[1]) - q);
-      return left <= 2.0 * here.half * (1.0 + 1e-15) ? SquareMinimum{ last[0], last[1], left }
-                                                     : SquareMinimum{ s, t, 2.0 * here.half };
+      return 0.5 * left <= here.half + rounding ? SquareMinimum{ last[0], last[1], left }
+                                                : SquareMinimum{ s, t, 2.0 * here.half };
     }
     bool fell = false;
     for (double part = 1.0; part > 1e-9 && !fell; part *= 0.5)
     {
       const Point2 next = moved(part);
       DistanceModel there = distanceModel(patch, q, next[0], next[1]);
-      fell = there.half <= here.half + 1e-4 * part * slope;
+      fell = there.half <= here.half + 1e-4 * part * slope + rounding;
       if (fell)
       {
         s = next[0];

@@ -45,6 +45,17 @@ ParameterRectangle boundsOf(const std::vector<ControlPoint2>& points)
   return box;
 }
 
+/// Of the grid, each way.
+constexpr int cellsAlong = 32;
+
+/// Column or row of `x` in the grid over [low, high]; the same for whatever lies beyond as at the
+/// border.
+int cellIn(double x, double low, double high)
+{
+  const double share = high > low ? (x - low) / (high - low) : 0.0;
+  return std::min(static_cast<int>(std::clamp(share, 0.0, 1.0) * cellsAlong), cellsAlong - 1);
+}
+
 /// Splits at the middle (de Casteljau): the first half is returned, `points` becomes the second.
 std::vector<ControlPoint2> splitOffFirstHalf(std::vector<ControlPoint2>& points)
 {
@@ -101,6 +112,10 @@ TrimRegion::TrimRegion(const std::vector<TrimLoop>& loops)
     }
   }
   fillBins();
+  if (!unbounded_)
+  {
+    fillCells();
+  }
 }
 
 void TrimRegion::addLine(const Point2& from, const Point2& to)
@@ -173,6 +188,47 @@ void TrimRegion::fillBins()
   {
     binItems_.insert(binItems_.end(), lists[bin].begin(), lists[bin].end());
     binStart_[bin + 1] = static_cast<int>(binItems_.size());
+  }
+}
+
+int TrimRegion::cellOf(double u, double v) const
+{
+  return cellIn(u, extent_.s0, extent_.s1) + cellsAlong * cellIn(v, extent_.t0, extent_.t1);
+}
+
+/// Cells that the box of a piece, with the band round it, touches are cut. The others are like
+/// their left neighbour, or else like their middle.
+void TrimRegion::fillCells()
+{
+  cells_.assign(cellsAlong * cellsAlong, TrimCover::out);
+  for (const Piece& piece : pieces_)
+  {
+    const ParameterRectangle& box = piece.box;
+    const int lastRow = cellIn(box.t1 + bandV_, extent_.t0, extent_.t1);
+    const int lastColumn = cellIn(box.s1 + bandU_, extent_.s0, extent_.s1);
+    for (int row = cellIn(box.t0 - bandV_, extent_.t0, extent_.t1); row <= lastRow; ++row)
+    {
+      for (int i = cellIn(box.s0 - bandU_, extent_.s0, extent_.s1); i <= lastColumn; ++i)
+      {
+        cells_[cellsAlong * row + i] = TrimCover::cut;
+      }
+    }
+  }
+  for (int i = 0; i < cellsAlong * cellsAlong; ++i)
+  {
+    if (cells_[i] == TrimCover::cut)
+    {
+      continue;
+    }
+    const int column = i % cellsAlong;
+    if (column > 0 && cells_[i - 1] != TrimCover::cut)
+    {
+      cells_[i] = cells_[i - 1];
+      continue;
+    }
+    const double u = extent_.s0 + (column + 0.5) / cellsAlong * extent_.width();
+    const double v = extent_.t0 + (i / cellsAlong + 0.5) / cellsAlong * extent_.height();
+    cells_[i] = containsByRay(u, v) ? TrimCover::in : TrimCover::out;
   }
 }
 
@@ -253,6 +309,12 @@ bool TrimRegion::contains(double u, double v) const
   {
     return false;
   }
+  const TrimCover cover = cells_[cellOf(u, v)];
+  return cover == TrimCover::cut ? containsByRay(u, v) : cover == TrimCover::in;
+}
+
+bool TrimRegion::containsByRay(double u, double v) const
+{
   const int bin = binOf(v);
   bool inside = false;
   for (int i = binStart_[bin]; i < binStart_[bin + 1]; ++i)

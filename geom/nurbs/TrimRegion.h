@@ -4,13 +4,14 @@
 #include "NurbsModel.h"
 #include "ParameterRectangle.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace cadrefine
 {
 
 /// How a rectangle lies to a trimmed region.
-enum class TrimCover
+enum class TrimCover : std::uint8_t
 {
   in,
   out,
@@ -21,7 +22,9 @@ enum class TrimCover
 /// The loops are cut into pieces on which u and v are monotone (by their control polygons), and
 /// crossings are solved on the curves themselves. Gaps between consecutive curves are closed with
 /// straight lines. Points within 1e-9 of the region's extent of a loop count as inside. No loops:
-/// everything is inside. Memory: some pieces for each curve; a test looks at those at the same v.
+/// everything is inside. A grid of cells that no loop touches answers for most points at once; for
+/// the others a test looks at the pieces at the same v. Memory: some pieces for each curve, and a
+/// byte a cell, 1 kB.
 class TrimRegion
 {
 public:
@@ -45,7 +48,10 @@ private:
   void addPiece(std::vector<ControlPoint2> points, double smallest, int depth);
   void addLine(const Point2& from, const Point2& to);
   void fillBins();
+  void fillCells();
   int binOf(double v) const;
+  int cellOf(double u, double v) const;
+  bool containsByRay(double u, double v) const;
   Point2 pointOn(const Piece& piece, double x) const;
   double otherCoordinate(const Piece& piece, int known, double value) const;
   bool isNear(const Piece& piece, double u, double v) const;
@@ -53,6 +59,7 @@ private:
   std::vector<Piece> pieces_;
   std::vector<ControlPoint2> points_;
   std::vector<int> binStart_, binItems_;
+  std::vector<TrimCover> cells_; ///< Row by row along u.
   ParameterRectangle extent_;
   double bandU_ = 0;
   double bandV_ = 0;

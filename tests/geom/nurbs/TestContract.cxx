@@ -204,6 +204,83 @@ TEST(Purity, SameBitsInAnyOrderAndOnAnyThread)
   }
 }
 
+/// Points at `offset` from `on`, straight out and to either side of the plane y = 0.
+std::vector<Point3> pointsAbout(const Point3& on, const Vector3& outward)
+{
+  std::vector<Point3> points;
+  for (const double offset : { -0.3, -1e-6, 0.0, 1e-6, 0.4 })
+  {
+    for (const double side : { -1e-14, 0.0, 1e-14 })
+    {
+      points.push_back(on + offset * outward + Vector3{ 0.0, side, 0.0 });
+    }
+  }
+  return points;
+}
+
+TEST(Canonical, SeamHasTheLowerParameter)
+{
+  // u counts quarter turns: the half plane y = 0, x > 0 holds the seam u = 0 = 4.
+  for (const bool isTorus : { false, true })
+  {
+    const NurbsModel model =
+      shapes::modelOf(isTorus ? shapes::torus(3.0, 1.0) : shapes::cylinder(1.0, 0.0, 3.0));
+    const ClosestPointSearch search(model);
+    const Point3 on = isTorus ? Point3{ 3.6, 0.0, 0.8 } : Point3{ 1.0, 0.0, 1.3 };
+    const Vector3 outward = isTorus ? Vector3{ 0.6, 0.0, 0.8 } : Vector3{ 1.0, 0.0, 0.0 };
+    for (const Point3& q : pointsAbout(on, outward))
+    {
+      const ClosestPoint answer = search.nearest(q);
+      reference::expectConsistent(model, search.modelSize(), q, answer);
+      EXPECT_EQ(answer.parameters[0], 0.0);
+    }
+    const ClosestPoint beside = search.nearest(on - Vector3{ 0.0, 1e-9, 0.0 });
+    EXPECT_GT(beside.parameters[0], 3.9); // not on the seam: not moved
+  }
+}
+
+TEST(Canonical, SeamOfTheSecondParameter)
+{
+  const NurbsModel model = shapes::modelOf(shapes::torus(3.0, 1.0)); // v = 0 = 4 where z = 0, r = 4
+  const ClosestPointSearch search(model);
+  for (const double z : { -1e-14, 0.0, 1e-14 })
+  {
+    const Point3 q = { 4.2 * 0.6, 4.2 * 0.8, z };
+    EXPECT_EQ(search.nearest(q).parameters[1], 0.0);
+  }
+}
+
+TEST(Canonical, PoleHasTheLowestParameter)
+{
+  const NurbsModel model = shapes::modelOf(shapes::sphere(2.0));
+  const ClosestPointSearch search(model);
+  for (const double z : { 1.0, 1.9, 2.0, 2.1, 5.0 })
+  {
+    for (const double side : { -1e-14, 0.0, 1e-14 })
+    {
+      for (const double pole : { -1.0, 1.0 })
+      {
+        const Point3 q = { 0.5 * side, side, pole * z };
+        const ClosestPoint answer = search.nearest(q);
+        reference::expectConsistent(model, search.modelSize(), q, answer);
+        EXPECT_EQ(answer.parameters[0], 0.0) << z;
+        EXPECT_NEAR(answer.point[2], 2.0 * pole, 1e-12 * search.modelSize()) << z;
+      }
+    }
+  }
+}
+
+TEST(Canonical, ClosedEdgeStartsAtItsLowerParameter)
+{
+  NurbsModel model;
+  model.edges.push_back(shapes::circle(2.0, 0.5));
+  const ClosestPointSearch search(model);
+  for (const Point3& q : pointsAbout({ 2.0, 0.0, 0.5 }, { 1.0, 0.0, 0.0 }))
+  {
+    EXPECT_EQ(search.nearest(q).parameters[0], model.edges[0].segments.front().t0);
+  }
+}
+
 TEST(BadInput, IsReported)
 {
   NurbsModel model = shapes::modelOf(shapes::sphere(1.0));
