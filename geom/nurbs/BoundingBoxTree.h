@@ -35,7 +35,8 @@ public:
   /// A tree over `entries`, which are put into an order in which neighbours are near each other.
   Root build(std::vector<Entry>& entries);
 
-  /// A tree over two others, each of which may be `none`.
+  /// A tree over two others, each of which may be `none`. Where both are equally near, `b` is
+  /// visited first.
   Root join(Root a, Root b);
 
   /// Calls `visit(item, bound)` for every item below `root` whose box may be within the square root

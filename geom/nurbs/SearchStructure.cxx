@@ -211,7 +211,7 @@ private:
     {
       SearchEntity& face = structure_.entities[structure_.entityNumber({ 2, i })];
       Entries border = borderOf(model_.faces[i]);
-      face.closure = structure_.tree.join(face.root, structure_.tree.build(border));
+      face.closure = structure_.tree.join(structure_.tree.build(border), face.root);
     }
     structure_.root = structure_.tree.build(entries_);
   }

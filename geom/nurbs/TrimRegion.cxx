@@ -159,8 +159,36 @@ void TrimRegion::addPiece(std::vector<ControlPoint2> points, double largestShare
     points = { points.front(), points.back() };
     piece.degree = 1;
   }
+  fitStrip(piece, points);
   points_.insert(points_.end(), points.begin(), points.end());
   pieces_.push_back(piece);
+}
+
+void TrimRegion::fitStrip(Piece& piece, const std::vector<ControlPoint2>& points) const
+{
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const double height = piece.last[1] - piece.first[1];
+  if (!(std::abs(height) > bandV_))
+  {
+    piece.strip = { -infinity, infinity };
+    return;
+  }
+  piece.slope = (piece.last[0] - piece.first[0]) / height;
+  piece.strip = Interval::empty();
+  for (const ControlPoint2& point : points)
+  {
+    const Point2 p = toPoint(point);
+    piece.strip.include(p[0] - piece.first[0] - piece.slope * (p[1] - piece.first[1]));
+  }
+  const double band = 2.0 * (bandU_ + std::abs(piece.slope) * bandV_);
+  piece.strip.low -= band;
+  piece.strip.high += band;
+}
+
+int TrimRegion::sideOf(const Piece& piece, double u, double v) const
+{
+  const double beside = u - piece.first[0] - piece.slope * (v - piece.first[1]);
+  return beside < piece.strip.low ? -1 : beside > piece.strip.high ? 1 : 0;
 }
 
 int TrimRegion::binOf(double v) const
@@ -320,15 +348,17 @@ bool TrimRegion::containsByRay(double u, double v) const
   for (int i = binStart_[bin]; i < binStart_[bin + 1]; ++i)
   {
     const Piece& piece = pieces_[binItems_[i]];
-    if (isNear(piece, u, v))
-    {
-      return true;
-    }
-    if ((piece.first[1] <= v) == (piece.last[1] <= v) || piece.box.s1 < u)
+    if (u > piece.box.s1 + bandU_)
     {
       continue;
     }
-    if (piece.box.s0 > u || otherCoordinate(piece, 1, v) > u)
+    const int side = u < piece.box.s0 - bandU_ ? -1 : sideOf(piece, u, v);
+    if (side == 0 && isNear(piece, u, v))
+    {
+      return true;
+    }
+    const bool spans = (piece.first[1] <= v) != (piece.last[1] <= v);
+    if (spans && (side < 0 || (side == 0 && otherCoordinate(piece, 1, v) > u)))
     {
       inside = !inside;
     }

@@ -1,6 +1,7 @@
 // The trimmed region of a face in its parameter plane. Private to geom/nurbs.
 #pragma once
 
+#include "Interval.h"
 #include "NurbsModel.h"
 #include "ParameterRectangle.h"
 
@@ -40,6 +41,9 @@ private:
   {
     ParameterRectangle box;
     Point2 first, last;
+    /// The curve lies where u - first u - slope (v - first v) is in `strip`: beside its chord.
+    double slope = 0;
+    Interval strip;
     int offset = 0; // of its control points
     int degree = 1;
   };
@@ -52,6 +56,9 @@ private:
   int binOf(double v) const;
   int cellOf(double u, double v) const;
   bool containsByRay(double u, double v) const;
+  void fitStrip(Piece& piece, const std::vector<ControlPoint2>& points) const;
+  /// Where a point in the piece's box is: to the left or to the right (-1, 1); 0: not told.
+  int sideOf(const Piece& piece, double u, double v) const;
   Point2 pointOn(const Piece& piece, double x) const;
   double otherCoordinate(const Piece& piece, int known, double value) const;
   bool isNear(const Piece& piece, double u, double v) const;
