@@ -68,7 +68,7 @@ struct SearchEntity
   Seams seams;
 };
 
-/// Built once for a model; immutable. Memory: about 400 bytes a leaf.
+/// Built once for a model; immutable. Memory: about 350 bytes a leaf.
 struct SearchStructure
 {
   /// Throws Error where a degree is above maximumDegree or the control points do not fit it.
