@@ -200,6 +200,21 @@ std::size_t countInSplineSurface(const Walk& walk)
   return 5 + m + n + 48 * m * n;
 }
 
+/// Knots, weights, points and the range of a spline curve (126).
+std::size_t countInCurve(const Walk& walk)
+{
+  const std::size_t points = walk.count(1) + 1;
+  return 7 + points + walk.count(2) + 1 + 4 * points + 2;
+}
+
+/// The same of a spline surface (128).
+std::size_t countInSurface(const Walk& walk)
+{
+  const std::size_t m = walk.count(1) + 1;
+  const std::size_t n = walk.count(2) + 1;
+  return 10 + m + walk.count(3) + 1 + n + walk.count(4) + 1 + 4 * m * n + 4;
+}
+
 } // namespace
 
 std::vector<int> igesParts(const IgesEntry& entry, const IgesParameters& parameters)
@@ -255,6 +270,10 @@ std::size_t igesParameterCount(const IgesEntry& entry, const IgesParameters& par
       return 5;
     case 124:
       return 13;
+    case 126:
+      return countInCurve(walk);
+    case 128:
+      return countInSurface(walk);
     case 130:
       return 15;
     case 140:

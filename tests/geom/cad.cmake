@@ -13,6 +13,7 @@ cadrefine_geom_test(cad_tests
     cad/GapsTest.cxx
     cad/IgesCases.cxx
     cad/IgesCurvesTest.cxx
+    cad/IgesRepairTest.cxx
     cad/IgesStatusTest.cxx
     cad/IgesSurfacesTest.cxx
     cad/IgesWriter.cxx
