@@ -9,6 +9,7 @@
 
 #include <vtkCompositeDataSet.h>
 #include <vtkDataAssembly.h>
+#include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
@@ -18,10 +19,13 @@
 #include <vtkPartitionedDataSet.h>
 #include <vtkPartitionedDataSetCollection.h>
 #include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
 #include <vtkStringArray.h>
 #include <vtkUnsignedCharArray.h>
 
+#include <sstream>
 #include <string>
+#include <vector>
 
 namespace
 {
@@ -40,15 +44,71 @@ void AddStrings(vtkDataObject* output, const char* name, const std::vector<std::
   output->GetFieldData()->AddArray(array);
 }
 
-std::vector<std::string> UnreadLines(const cadrefine::CADModel& model)
+using Lines = std::vector<std::string>;
+
+Lines EntityLines(const std::vector<cadrefine::UnreadEntity>& entities)
 {
-  std::vector<std::string> lines;
-  for (const auto& unread : model.unread())
+  Lines lines;
+  for (const auto& entity : entities)
   {
-    const char* prefix = unread.type.rfind("IGES", 0) == 0 ? "DE " : "#"; // as the formats do
+    const char* prefix = entity.type.rfind("IGES", 0) == 0 ? "DE " : "#"; // as the formats do
     const std::string number =
-      unread.entity > 0 ? prefix + std::to_string(unread.entity) : std::string("file");
-    lines.push_back(number + ": " + unread.type + ": " + unread.reason);
+      entity.entity > 0 ? prefix + std::to_string(entity.entity) : std::string("file");
+    lines.push_back(number + ": " + entity.type + ": " + entity.reason);
+  }
+  return lines;
+}
+
+/// Width, place and the two edges.
+vtkSmartPointer<vtkDoubleArray> GapArray(const std::vector<cadrefine::Gap>& gaps)
+{
+  auto array = vtkSmartPointer<vtkDoubleArray>::New();
+  array->SetName("CADGaps");
+  array->SetNumberOfComponents(6);
+  for (const cadrefine::Gap& gap : gaps)
+  {
+    const auto& p = gap.point;
+    const double tuple[6] = { gap.width, p[0], p[1], p[2], static_cast<double>(gap.edges[0]),
+      static_cast<double>(gap.edges[1]) };
+    array->InsertNextTuple(tuple);
+  }
+  return array;
+}
+
+void AddReport(vtkDataObject* output, const cadrefine::CADReport& report)
+{
+  AddStrings(output, "CADUnit", { report.unit });
+  AddStrings(output, "CADUnread", EntityLines(report.unread));
+  AddStrings(output, "CADLeftOut", EntityLines(report.leftOut));
+  AddStrings(output, "CADRepairs", report.repairs);
+  vtkNew<vtkDoubleArray> tolerance;
+  tolerance->SetName("CADSewingTolerance");
+  tolerance->InsertNextValue(report.sewingTolerance);
+  output->GetFieldData()->AddArray(tolerance);
+  output->GetFieldData()->AddArray(GapArray(report.gaps));
+}
+
+std::string Section(const char* heading, const Lines& lines)
+{
+  std::string text;
+  for (const std::string& line : lines)
+  {
+    text += "\n  " + line;
+  }
+  return lines.empty() ? text : std::string("\n") + heading + text;
+}
+
+Lines GapLines(const cadrefine::CADReport& report)
+{
+  Lines lines;
+  if (!report.gaps.empty())
+  {
+    const cadrefine::Gap& widest = report.gaps.front();
+    std::ostringstream line;
+    line << report.gaps.size() << " gaps wider than " << report.sewingTolerance
+         << ", the widest of " << widest.width << " near (" << widest.point[0] << ", "
+         << widest.point[1] << ", " << widest.point[2] << ")";
+    lines.push_back(line.str());
   }
   return lines;
 }
@@ -104,16 +164,16 @@ std::shared_ptr<const cadrefine::CADModel> vtkCADReader::ReadModel(
   return model;
 }
 
-void vtkCADReader::WarnOfUnread(const cadrefine::CADModel& model)
+void vtkCADReader::Warn(const cadrefine::CADReport& report)
 {
-  std::string text;
-  for (const std::string& line : UnreadLines(model))
-  {
-    text += "\n  " + line;
-  }
+  const std::string text = Section("not read:", EntityLines(report.unread)) +
+                           Section("repaired:", report.repairs) +
+                           Section("faces that are not joined:", GapLines(report));
   if (!text.empty())
   {
-    vtkWarningMacro(<< this->FileName << ": not everything could be read:" << text);
+    vtkWarningMacro(<< this->FileName << ":" << text
+                    << Section(
+                         "left out by the rules of the format:", EntityLines(report.leftOut)));
   }
 }
 
@@ -127,10 +187,9 @@ int vtkCADReader::RequestData(
     const auto model = this->ReadModel(exchange, output);
     if (exchange.rank() == 0)
     {
-      this->WarnOfUnread(*model);
+      this->Warn(model->report());
     }
-    AddStrings(output, "CADUnit", { model->unit() });
-    AddStrings(output, "CADUnread", UnreadLines(*model));
+    AddReport(output, model->report());
     for (unsigned int part = 0; part < 3; ++part)
     {
       const int dimension = PartDimensions[part];

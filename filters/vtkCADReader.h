@@ -4,11 +4,16 @@
  *
  * Output: a vtkPartitionedDataSetCollection of the partitioned data sets Faces, Edges and Vertices
  * (poly data to look at, with the cell array CADEntity; each rank tessellates its share), with the
- * exact model as field data (see vtkCADModelCache), which every rank holds. The field array CADUnit
- * names the file's unit of length; CADUnread lists what could not be read, a line each.
+ * exact model as field data (see vtkCADModelCache), which every rank holds. Where the file has
+ * them, names and colours of faces and edges are the cell arrays Name and Color.
+ *
+ * Field arrays tell of the file: CADUnit, its unit of length; CADUnread, what could not be read;
+ * CADLeftOut, what by the rules of the format is no part of the model; CADRepairs, what was wrong
+ * with it and could be repaired, a line each; CADSewingTolerance; CADGaps, the gaps that are wider:
+ * width, place, and the two edges beside it.
  *
  * Rank 0 alone reads the file and broadcasts the model. A file that cannot be read is an error on
- * all ranks, reported by rank 0; entities that could not be read give a warning.
+ * all ranks, reported by rank 0; what could not be read, repairs and gaps give a warning.
  */
 #ifndef vtkCADReader_h
 #define vtkCADReader_h
@@ -22,6 +27,7 @@ namespace cadrefine
 {
 class CADModel;
 class RankExchange;
+struct CADReport;
 } // namespace cadrefine
 class vtkMultiProcessController;
 
@@ -69,7 +75,7 @@ private:
 
   std::shared_ptr<const cadrefine::CADModel> ReadModel(
     cadrefine::RankExchange& exchange, vtkPartitionedDataSetCollection* output);
-  void WarnOfUnread(const cadrefine::CADModel& model);
+  void Warn(const cadrefine::CADReport& report);
 
   char* FileName = nullptr;
   double TessellationTolerance = 0.001;

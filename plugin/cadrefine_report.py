@@ -1,5 +1,6 @@
 """What the driver tells: the table on standard output, the report and the convergence plot."""
 
+import collections
 import json
 import math
 import os
@@ -48,17 +49,15 @@ class Report:
     def describe_input(self, pipeline):
         cad = pipeline.cad_values()
         counts = {name: pipeline.count_cad(name.capitalize()) for name in ("faces", "edges", "vertices")}
-        unread = [parse_unread(line) for line in as_list(cad.get("CADUnread"))]
-        unit = "".join(as_list(cad.get("CADUnit")))
+        facts = cad_facts(cad)
         self.flat = pipeline.flat()
         self.input = {"ranks": session.ranks(), "mesh": self.options.mesh,
-                      "cad": {"file": self.options.cad, **counts, "unread": unread, "unit": unit}}
+                      "cad": {"file": self.options.cad, **counts, **facts}}
         self.seconds = {name: pipeline.seconds[name] for name in ("read_cad", "read_mesh")}
         self.say(f"CAD: {counts['faces']} faces, {counts['edges']} edges, {counts['vertices']} vertices, "
-                 f"unit {unit or 'unknown'}, read in {self.seconds['read_cad']:.2f} s")
-        for item in unread:
-            number = f"entity {item['entity']}, " if item["entity"] else ""
-            self.say(f"CAD: not read: {number}{item['type']}: {item['reason']}")
+                 f"unit {facts['unit'] or 'unknown'}, read in {self.seconds['read_cad']:.2f} s")
+        for line in fact_lines(facts):
+            self.say(f"CAD: {line}")
         self.say("".join(f"{head:>{column_width(head, style)}}" for head, _, style in COLUMNS) + "  seconds  method")
 
     def add_step(self, method, pipeline):
@@ -101,6 +100,38 @@ def column_width(heading, style):
 
 def as_list(value):
     return value if isinstance(value, list) else [] if value is None else [value]
+
+
+def cad_facts(cad):
+    """What the reader's field data tell of the CAD file."""
+    gaps = cad.get("CADGaps")
+    rows = [gaps[i:i + 6] for i in range(0, len(gaps) - 5, 6)] if isinstance(gaps, list) else []
+    return {
+        "unread": [parse_unread(line) for line in as_list(cad.get("CADUnread"))],
+        "left_out": [parse_unread(line) for line in as_list(cad.get("CADLeftOut"))],
+        "repairs": as_list(cad.get("CADRepairs")),
+        "unit": "".join(as_list(cad.get("CADUnit"))),
+        "sewing_tolerance": cad.get("CADSewingTolerance"),
+        "gaps": [{"width": row[0], "point": row[1:4], "edges": [int(e) for e in row[4:6]]} for row in rows],
+    }
+
+
+def fact_lines(facts):
+    for item in facts["unread"]:
+        yield f"not read: {describe(item)}: {item['reason']}"
+    for (kind, reason), count in collections.Counter(
+            (item["type"], item["reason"]) for item in facts["left_out"]).items():
+        yield f"left out: {count} of {kind}: {reason}"
+    for repair in facts["repairs"]:
+        yield f"repaired: {repair}"
+    if facts["gaps"]:
+        widest = facts["gaps"][0]
+        yield (f"{len(facts['gaps'])} gaps wider than {facts['sewing_tolerance']:.3g}, the widest of "
+               f"{widest['width']:.3g} near {tuple(widest['point'])}")
+
+
+def describe(item):
+    return (f"entity {item['entity']}, " if item["entity"] else "") + item["type"]
 
 
 def parse_unread(line):

@@ -10,6 +10,10 @@
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
+#include <vtkStringArray.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <cmath>
 
 namespace cadrefine
 {
@@ -43,6 +47,9 @@ public:
     entities_->SetName(arrays::entity);
     normals_->SetName("Normals");
     normals_->SetNumberOfComponents(3);
+    names_->SetName("Name");
+    colours_->SetName("Color");
+    colours_->SetNumberOfComponents(3);
   }
 
   void addVertex(int entity)
@@ -51,7 +58,7 @@ public:
     drawing.points.push_back(model_.nurbs().vertices[entity].point);
     const vtkIdType id = addPoints({ 0, entity }, drawing);
     cells_->InsertNextCell(1, &id);
-    entities_->InsertNextValue(entity);
+    addCell({ 0, entity });
   }
 
   void addEdge(int entity)
@@ -63,7 +70,7 @@ public:
     {
       cells_->InsertCellPoint(first + point);
     }
-    entities_->InsertNextValue(entity);
+    addCell({ 1, entity });
   }
 
   void addFace(int entity)
@@ -73,7 +80,7 @@ public:
     for (const auto& triangle : drawing.triangles)
     {
       cells_->InsertNextCell({ first + triangle[0], first + triangle[1], first + triangle[2] });
-      entities_->InsertNextValue(entity);
+      addCell({ 2, entity });
     }
   }
 
@@ -85,6 +92,7 @@ public:
     : (dimension == 1) ? result->SetLines(cells_)
                        : result->SetPolys(cells_);
     result->GetCellData()->AddArray(entities_);
+    addLooks(dimension, *result->GetCellData());
     if (model_.count(2) > 0)
     {
       result->GetPointData()->SetNormals(normals_);
@@ -93,6 +101,39 @@ public:
   }
 
 private:
+  void addCell(EntityId entity)
+  {
+    constexpr std::array<float, 3> white{ 1, 1, 1 };
+    entities_->InsertNextValue(entity.index);
+    const EntityLook& look = model_.look(entity);
+    names_->InsertNextValue(look.name);
+    for (const float part : look.colour.value_or(white))
+    {
+      colours_->InsertNextValue(static_cast<unsigned char>(std::lround(255 * part)));
+    }
+  }
+
+  /// The same arrays on every rank, whatever it draws.
+  void addLooks(int dimension, vtkCellData& data) const
+  {
+    bool named = false;
+    bool coloured = false;
+    for (int entity = 0; entity < model_.count(dimension); ++entity)
+    {
+      const EntityLook& look = model_.look({ static_cast<std::int8_t>(dimension), entity });
+      named = named || !look.name.empty();
+      coloured = coloured || look.colour.has_value();
+    }
+    if (named)
+    {
+      data.AddArray(names_);
+    }
+    if (coloured)
+    {
+      data.AddArray(colours_);
+    }
+  }
+
   vtkIdType addPoints(EntityId entity, const Tessellation& drawing)
   {
     const vtkIdType first = points_->GetNumberOfPoints();
@@ -116,6 +157,8 @@ private:
   vtkNew<vtkCellArray> cells_;
   vtkNew<vtkIntArray> entities_;
   vtkNew<vtkFloatArray> normals_;
+  vtkNew<vtkStringArray> names_;
+  vtkNew<vtkUnsignedCharArray> colours_;
 };
 
 } // namespace

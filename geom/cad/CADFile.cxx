@@ -85,6 +85,11 @@ ModelContent readContent(const std::string& path, CADFormat format)
   ReadShape read = readShape(path, format);
   ModelContent content;
   const PreparedShape prepared = prepareShape(read.shape, read.looks);
+  if (prepared.removedFaces > 0)
+  {
+    read.report.unread.push_back({ 0, "face",
+      std::to_string(prepared.removedFaces) + " of them have neither border nor end" });
+  }
   if (prepared.shape.IsNull())
   {
     throw Error(path + ": holds no face and no curve that can be read" +

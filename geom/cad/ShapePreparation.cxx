@@ -1,9 +1,10 @@
-// 1. Sort: solids and closed shells stay as they are; faces that are open to others; edges outside
+// 1. Give faces without edges their border (FaceBounding.cxx).
+// 2. Sort: solids and closed shells stay as they are; faces that are open to others; edges outside
 //    of faces.
-// 2. Sew the open faces, unless they are one shell already (FaceSewing.cxx).
-// 3. Heal what Open CASCADE's own checker finds broken; make solids of closed shells, which turns
+// 3. Sew the open faces, unless they are one shell already (FaceSewing.cxx).
+// 4. Heal what Open CASCADE's own checker finds broken; make solids of closed shells, which turns
 //    them outward.
-// 4. See that every edge has its curve in space.
+// 5. See that every edge has its curve in space.
 
 #include "ShapePreparation.h"
 
@@ -161,8 +162,14 @@ PreparedShape prepareShape(const TopoDS_Shape& shape, LookMap& looks)
     return {};
   }
   PreparedShape prepared;
+  const BoundedFaces bounded = boundFaces(shape, looks);
+  prepared.removedFaces = bounded.removed;
+  if (bounded.shape.IsNull())
+  {
+    return prepared;
+  }
   std::vector<TopoDS_Shape> parts;
-  Surfaces surfaces = collectSurfaces(shape);
+  Surfaces surfaces = collectSurfaces(bounded.shape);
   if (!surfaces.openFaces.empty())
   {
     const SewnFaces sewn = sewFaces(surfaces.openFaces, looks);
@@ -173,7 +180,7 @@ PreparedShape prepareShape(const TopoDS_Shape& shape, LookMap& looks)
   {
     parts.push_back(orientShells(heal(compoundOf(surfaces.whole), looks)));
   }
-  const std::vector<TopoDS_Shape> curves = freeShapes(shape, TopAbs_EDGE, TopAbs_FACE);
+  const std::vector<TopoDS_Shape> curves = freeShapes(bounded.shape, TopAbs_EDGE, TopAbs_FACE);
   if (!curves.empty())
   {
     parts.push_back(joinCurves(compoundOf(curves), looks));

@@ -14,11 +14,22 @@ struct PreparedShape
 {
   TopoDS_Shape shape; ///< Null where there is neither face nor curve.
   double sewingTolerance = 0;
+  int removedFaces = 0; ///< Faces without border and without end.
 };
 
 /// The model made of `shape`: free faces and open shells sewn, broken ones healed, closed shells
 /// turned outward, free curves joined at their ends. `looks` follow.
 PreparedShape prepareShape(const TopoDS_Shape& shape, LookMap& looks);
+
+struct BoundedFaces
+{
+  TopoDS_Shape shape;
+  int removed = 0;
+};
+
+/// Faces without an edge are the whole of their surface: they get its border and seams, or, where
+/// it has no end, are removed.
+BoundedFaces boundFaces(const TopoDS_Shape& shape, LookMap& looks);
 
 struct SewnFaces
 {

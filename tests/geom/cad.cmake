@@ -20,6 +20,7 @@ cadrefine_geom_test(cad_tests
     cad/IsolatedRunTest.cxx
     cad/LooksTest.cxx
     cad/ModelBytesTest.cxx
+    cad/NakedFacesTest.cxx
     cad/RealFilesTest.cxx
     cad/SurfaceConversionTest.cxx
     cad/TessellationTest.cxx
