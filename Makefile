@@ -38,6 +38,8 @@ test: build format-check ## Run all tests
 .PHONY: benchmarks
 benchmarks: build ## Measure against other programs: tables of rates and ratios
 	@build/release/tests/benchmarks/closest_point_benchmark
+	@.ci/install-packages python3-dolfin python3-dolfinx
+	@/usr/bin/python3 tests/benchmarks/refinement.py
 
 .PHONY: sanitizers
 sanitizers: packages ## Run the tests of the numerical core with address and undefined behaviour sanitizers
