@@ -1,4 +1,6 @@
-// 1. Every rank sorts its keys and drops duplicates.
+// 1. Every rank sorts its keys and drops duplicates: by radix, as many of the first words as 64
+// bits
+//    hold once the least value is taken off, and the rest by comparing.
 // 2. Samples of all ranks, one in each stretch of equal length, go to rank 0, which picks the
 //    splitters: the keys at which one rank's share ends and the next one's begins.
 // 3. Every rank sends its keys to the ranks whose share they are in.
@@ -12,9 +14,12 @@
 
 #include "GlobalNumbering.h"
 
+#include "RadixOrder.h"
+
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -26,37 +31,115 @@ namespace
 
 constexpr std::int64_t samplesPerRank = 64;
 
-// A key and where it stands in a list.
-template<std::size_t K>
-struct Place
+// The least and the largest value of one word of the keys.
+struct WordRange
 {
-  Key<K> key;
-  std::size_t list;
-  std::size_t position;
+  std::int64_t least = std::numeric_limits<std::int64_t>::max();
+  std::int64_t largest = std::numeric_limits<std::int64_t>::min();
 
-  friend bool operator<(const Place& a, const Place& b)
+  int bits() const
   {
-    if (a.key != b.key)
-      return a.key < b.key;
-    return std::pair(a.list, a.position) < std::pair(b.list, b.position);
+    int count = 0;
+    for (std::uint64_t width = largest < least ? 0 : offset(largest); width > 0; width >>= 1)
+      ++count;
+    return count;
+  }
+  std::uint64_t offset(std::int64_t value) const
+  {
+    return static_cast<std::uint64_t>(value) - static_cast<std::uint64_t>(least);
   }
 };
 
+// The first words of the keys, as many as there is room for in one number that orders them.
 template<std::size_t K>
-std::vector<Place<K>> sortedPlaces(const std::vector<std::vector<Key<K>>>& lists)
+struct PackedKeys
 {
-  std::size_t count = 0;
-  for (const std::vector<Key<K>>& list : lists)
-    count += list.size();
-  std::vector<Place<K>> places;
-  places.reserve(count);
-  for (std::size_t l = 0; l < lists.size(); ++l)
+  std::vector<PlacedKey> keys;
+  std::size_t words = 0; // that went in
+};
+
+template<std::size_t K>
+PackedKeys<K> pack(const std::vector<Key<K>>& keys)
+{
+  std::array<WordRange, K> ranges;
+  for (const Key<K>& key : keys)
   {
-    for (std::size_t i = 0; i < lists[l].size(); ++i)
-      places.push_back({ lists[l][i], l, i });
+    for (std::size_t w = 0; w < K; ++w)
+    {
+      ranges[w].least = std::min(ranges[w].least, key[w]);
+      ranges[w].largest = std::max(ranges[w].largest, key[w]);
+    }
   }
-  std::sort(places.begin(), places.end());
-  return places;
+  PackedKeys<K> packed;
+  std::array<int, K> shifts{};
+  int room = 64;
+  while (packed.words < K && ranges[packed.words].bits() <= room)
+  {
+    const int bits = ranges[packed.words].bits();
+    room -= bits;
+    shifts[packed.words] = bits;
+    ++packed.words;
+  }
+  packed.keys.resize(keys.size());
+  for (std::size_t i = 0; i < keys.size(); ++i)
+  {
+    std::uint64_t number = 0;
+    for (std::size_t w = 0; w < packed.words; ++w)
+      number = (shifts[w] < 64 ? number << shifts[w] : 0) | ranges[w].offset(keys[i][w]);
+    packed.keys[i] = { number, static_cast<std::uint32_t>(i) };
+  }
+  return packed;
+}
+
+// A list of keys put in order.
+struct SortedPlaces
+{
+  std::vector<std::uint32_t> places; // of the keys, ascending
+  std::vector<char> repeats;         // whether a key is equal to the one before it
+};
+
+// Orders the places first up to last, whose keys have the same first `words` words.
+template<std::size_t K>
+void sortByRest(const std::vector<Key<K>>& keys, std::size_t words, SortedPlaces& sorted,
+  std::size_t first, std::size_t last)
+{
+  const auto compare = [&](std::uint32_t a, std::uint32_t b)
+  {
+    for (std::size_t w = words; w < K; ++w)
+    {
+      if (keys[a][w] != keys[b][w])
+        return keys[a][w] < keys[b][w] ? -1 : 1;
+    }
+    return 0;
+  };
+  auto* places = sorted.places.data();
+  std::sort(places + first, places + last,
+    [&](std::uint32_t a, std::uint32_t b) { return compare(a, b) < 0; });
+  for (std::size_t i = first + 1; i < last; ++i)
+    sorted.repeats[i] = compare(places[i - 1], places[i]) == 0;
+}
+
+template<std::size_t K>
+SortedPlaces sortKeys(const std::vector<Key<K>>& keys)
+{
+  PackedKeys<K> packed = pack(keys);
+  radixSort(packed.keys);
+  SortedPlaces sorted{ std::vector<std::uint32_t>(keys.size()), std::vector<char>(keys.size(), 0) };
+  for (std::size_t i = 0; i < keys.size(); ++i)
+  {
+    sorted.places[i] = packed.keys[i].place;
+    sorted.repeats[i] = i > 0 && packed.keys[i].key == packed.keys[i - 1].key;
+  }
+  for (std::size_t first = 0; packed.words < K && first < keys.size();)
+  {
+    std::size_t last = first + 1;
+    while (last < keys.size() && packed.keys[last].key == packed.keys[first].key)
+      ++last;
+    if (last - first > 1)
+      sortByRest(keys, packed.words, sorted, first, last);
+    first = last;
+  }
+  return sorted;
 }
 
 // The distinct keys of a rank, ascending, and for each local key its place among them.
@@ -64,19 +147,20 @@ template<std::size_t K>
 struct LocalKeys
 {
   std::vector<Key<K>> distinct;
-  std::vector<std::size_t> placeOf;
+  std::vector<std::uint32_t> placeOf;
 };
 
 template<std::size_t K>
-LocalKeys<K> sortLocally(const std::vector<Key<K>>& keys)
+LocalKeys<K> takeDistinct(const std::vector<Key<K>>& keys, const SortedPlaces& sorted)
 {
   LocalKeys<K> local;
   local.placeOf.resize(keys.size());
-  for (const Place<K>& place : sortedPlaces<K>({ keys }))
+  local.distinct.reserve(keys.size());
+  for (std::size_t i = 0; i < keys.size(); ++i)
   {
-    if (local.distinct.empty() || local.distinct.back() != place.key)
-      local.distinct.push_back(place.key);
-    local.placeOf[place.position] = local.distinct.size() - 1;
+    if (!sorted.repeats[i])
+      local.distinct.push_back(keys[sorted.places[i]]);
+    local.placeOf[sorted.places[i]] = static_cast<std::uint32_t>(local.distinct.size() - 1);
   }
   return local;
 }
@@ -157,41 +241,54 @@ std::vector<std::vector<T>> cut(
   return pieces;
 }
 
-using NumberLists = std::vector<std::vector<std::int64_t>>;
-
-// The numbers of the keys of one share, in the lists in which they came, and the weight of the
+// The numbers of the keys of one share, in the order in which they came, and the weight of the
 // share; a key weighs 1 where there are no weights.
 struct Share
 {
-  NumberLists numbers;
+  std::vector<std::int64_t> numbers;
   std::int64_t weight = 0;
-  bool repeated = false; // a key that came twice
 };
 
-template<std::size_t K>
-Share numberShare(const std::vector<std::vector<Key<K>>>& keys, const NumberLists* weights)
+template<class T>
+std::vector<T> joined(std::vector<std::vector<T>> lists)
+{
+  std::vector<T> all = std::move(lists.front());
+  for (std::size_t l = 1; l < lists.size(); ++l)
+    all.insert(all.end(), lists[l].begin(), lists[l].end());
+  return all;
+}
+
+// Lists of these lengths in turn; `bounds` as from shareBounds.
+template<class T>
+std::vector<std::size_t> boundsOf(const std::vector<std::vector<T>>& lists)
+{
+  std::vector<std::size_t> bounds{ 0 };
+  for (const std::vector<T>& list : lists)
+    bounds.push_back(bounds.back() + list.size());
+  return bounds;
+}
+
+Share numberShare(const SortedPlaces& sorted, const std::vector<std::int64_t>* weights)
 {
   Share share;
-  share.numbers.resize(keys.size());
-  for (std::size_t l = 0; l < keys.size(); ++l)
-    share.numbers[l].resize(keys[l].size());
-  const std::vector<Place<K>> places = sortedPlaces(keys);
+  share.numbers.resize(sorted.places.size());
   std::int64_t number = 0;
-  for (std::size_t i = 0; i < places.size(); ++i)
+  for (std::size_t i = 0; i < sorted.places.size(); ++i)
   {
-    const Place<K>& place = places[i];
-    if (i > 0 && places[i - 1].key == place.key)
-    {
-      share.repeated = true;
-    }
-    else
+    const std::uint32_t place = sorted.places[i];
+    if (!sorted.repeats[i])
     {
       number = share.weight;
-      share.weight += weights ? (*weights)[place.list][place.position] : 1;
+      share.weight += weights ? (*weights)[place] : 1;
     }
-    share.numbers[place.list][place.position] = number;
+    share.numbers[place] = number;
   }
   return share;
+}
+
+bool anyRepeats(const SortedPlaces& sorted)
+{
+  return std::find(sorted.repeats.begin(), sorted.repeats.end(), 1) != sorted.repeats.end();
 }
 
 // Steps 2 to 5, for the sorted distinct keys of a rank.
@@ -201,24 +298,22 @@ Numbering numberSorted(RankExchange& exchange, const std::vector<Key<K>>& sorted
 {
   const std::vector<std::size_t> bounds =
     shareBounds(sorted, findSplitters(exchange, sorted), static_cast<std::size_t>(exchange.size()));
-  const auto keysHere = exchange.allToAll(cut(sorted, bounds));
-  NumberLists weightsHere;
+  auto keysHere = exchange.allToAll(cut(sorted, bounds));
+  const std::vector<std::size_t> boundsHere = boundsOf(keysHere);
+  const SortedPlaces sortedHere = sortKeys(joined(std::move(keysHere)));
+  std::vector<std::int64_t> weightsHere;
   if (weights)
-    weightsHere = exchange.allToAll(cut(*weights, bounds));
-  Share share = numberShare(keysHere, weights ? &weightsHere : nullptr);
+    weightsHere = joined(exchange.allToAll(cut(*weights, bounds)));
+  Share share = numberShare(sortedHere, weights ? &weightsHere : nullptr);
   if (weights)
-    exchange.agree(share.repeated ? "A key that must be unique occurs on two ranks." : "");
+    exchange.agree(anyRepeats(sortedHere) ? "A key that must be unique occurs on two ranks." : "");
 
   const std::int64_t first = exchange.sumBefore(share.weight);
-  for (std::vector<std::int64_t>& numbers : share.numbers)
-  {
-    for (std::int64_t& number : numbers)
-      number += first;
-  }
+  for (std::int64_t& number : share.numbers)
+    number += first;
   Numbering result;
   result.count = exchange.sum(share.weight);
-  for (const std::vector<std::int64_t>& numbers : exchange.allToAll(share.numbers))
-    result.numbers.insert(result.numbers.end(), numbers.begin(), numbers.end());
+  result.numbers = joined(exchange.allToAll(cut(share.numbers, boundsHere)));
   return result;
 }
 
@@ -228,7 +323,7 @@ Numbering inLocalOrder(const LocalKeys<K>& local, const Numbering& ofDistinct)
   Numbering result;
   result.count = ofDistinct.count;
   result.numbers.reserve(local.placeOf.size());
-  for (const std::size_t place : local.placeOf)
+  for (const std::uint32_t place : local.placeOf)
     result.numbers.push_back(ofDistinct.numbers[place]);
   return result;
 }
@@ -238,7 +333,13 @@ Numbering inLocalOrder(const LocalKeys<K>& local, const Numbering& ofDistinct)
 template<std::size_t K>
 Numbering numberDistinct(RankExchange& exchange, const std::vector<Key<K>>& keys)
 {
-  const LocalKeys<K> local = sortLocally(keys);
+  const SortedPlaces sorted = sortKeys(keys);
+  if (exchange.size() == 1)
+  {
+    Share all = numberShare(sorted, nullptr);
+    return { std::move(all.numbers), all.weight };
+  }
+  const LocalKeys<K> local = takeDistinct(keys, sorted);
   return inLocalOrder(local, numberSorted(exchange, local.distinct, nullptr));
 }
 
@@ -246,15 +347,20 @@ template<std::size_t K>
 Numbering offsets(
   RankExchange& exchange, const std::vector<Key<K>>& keys, const std::vector<std::int64_t>& weights)
 {
-  const LocalKeys<K> local = sortLocally(keys);
+  const SortedPlaces sorted = sortKeys(keys);
   std::string error;
   if (weights.size() != keys.size())
     error = "There are " + std::to_string(weights.size()) + " weights for " +
             std::to_string(keys.size()) + " keys.";
-  else if (local.distinct.size() != keys.size())
+  else if (anyRepeats(sorted))
     error = "A key that must be unique occurs twice on a rank.";
   exchange.agree(error);
-
+  if (exchange.size() == 1)
+  {
+    Share all = numberShare(sorted, &weights);
+    return { std::move(all.numbers), all.weight };
+  }
+  const LocalKeys<K> local = takeDistinct(keys, sorted);
   std::vector<std::int64_t> sortedWeights(weights.size());
   for (std::size_t i = 0; i < weights.size(); ++i)
     sortedWeights[local.placeOf[i]] = weights[i];

@@ -8,4 +8,5 @@ cadrefine_geom_test(mesh_tests
     mesh/FacetsTest.cxx
     mesh/OrientationTest.cxx
     mesh/QualityTest.cxx
+    mesh/RadixOrderTest.cxx
   LINKS CADRefineTestSupport)

@@ -30,6 +30,8 @@ protected:
   template<std::size_t K>
   std::vector<std::vector<Key<K>>> randomKeys(Spread spread, std::int64_t range, int count)
   {
+    // The first entries repeat, so that the others decide too.
+    std::uniform_int_distribution<std::int64_t> first(-3, 3);
     std::uniform_int_distribution<std::int64_t> entry(-range, range);
     const std::size_t size = static_cast<std::size_t>(exchange.size());
     std::vector<std::vector<Key<K>>> keys(size);
@@ -38,6 +40,8 @@ protected:
       Key<K> key;
       for (std::int64_t& value : key)
         value = spread == Spread::oneValue ? 5 : entry(commonRandom);
+      if (K > 1 && spread == Spread::even)
+        key[0] = first(commonRandom);
       const bool toLast = spread == Spread::skewed && i % 50 != 0;
       keys[toLast ? size - 1 : commonRandom() % size].push_back(key);
     }
