@@ -1,6 +1,7 @@
 #include "vtkRefineWithCAD.h"
 
 #include "Agreement.h"
+#include "ArrayAccess.h"
 #include "ArrayTransfer.h"
 #include "Balancing.h"
 #include "DistributedRefinement.h"
@@ -8,10 +9,14 @@
 #include "MeshSummary.h"
 
 #include <vtkCellData.h>
+#include <vtkFieldData.h>
 #include <vtkObjectFactory.h>
+#include <vtkPointData.h>
 #include <vtkPointSet.h>
 
 #include <algorithm>
+#include <iterator>
+#include <string>
 
 namespace
 {
@@ -22,72 +27,82 @@ using namespace cadrefine;
 class Refiner
 {
 public:
-  Refiner(RankExchange& exchange, vtkRefineWithCAD* settings, const CADModel& model)
-    : Exchange(exchange), Settings(settings), Model(model)
+  Refiner(RankExchange& exchange, vtkRefineWithCAD* settings, const CADModel& model,
+    RunStatistics& statistics)
+    : Exchange(exchange), Settings(settings), Model(model), Statistics(statistics)
   {
   }
 
   vtkSmartPointer<vtkPointSet> Run(vtkPointSet* input)
   {
-    this->Load(input, input);
+    vtkSmartPointer<vtkPointSet> source = input;
+    this->Load(source);
+    RefinementPlan plan = this->MakePlan();
     if (this->Settings->GetBalance() && this->Exchange.size() > 1)
     {
-      this->BalanceCells();
+      const auto balanced = this->BalanceCells(source, plan);
+      if (balanced != source)
+      {
+        source = balanced;
+        this->Load(source);
+        plan = this->MakePlan();
+      }
     }
-    this->Classified = this->Settings->GetProjectNewVertices() ||
-                       this->Exchange.any(hasClassification(this->Current));
-    if (this->Classified)
+    this->ReadPositions(source);
+    source = nullptr;
+    this->RefineOnce(plan);
+    for (int level = 1; level < this->Settings->GetLevels(); ++level)
     {
-      attempt(this->Exchange,
-        [&]
-        {
-          this->Positions =
-            readClassification(this->Current, this->Mesh.converted.pointOf, this->Model);
-        });
+      this->RefineOnce(this->MakePlan());
     }
-    for (int level = 0; level < this->Settings->GetLevels(); ++level)
-    {
-      this->RefineOnce();
-    }
-    this->Summarise();
-    return this->Current;
+    return this->MakeOutput(input);
   }
 
 private:
-  /// Makes the data set with ids, and cells in the order of their dimension, current; in the class
-  /// of `prototype`.
-  void Load(vtkPointSet* input, vtkPointSet* prototype)
+  RunStatistics::Stopwatch Watch(const char* name)
   {
-    this->Mesh = makeDistributedMesh(this->Exchange, input);
+    return RunStatistics::Stopwatch(this->Statistics, name);
+  }
+
+  void Load(vtkPointSet* source)
+  {
+    const auto watch = this->Watch("seconds reading cells");
+    this->Mesh = makeDistributedMesh(this->Exchange, source);
     if (this->Mesh.mesh().dimension == 0)
     {
       throw Error("the mesh has no triangles or tetrahedra to refine");
     }
-    this->Current = makePointSet(prototype, this->Mesh.mesh());
-    copyArrays(input, this->Mesh.converted, this->Current);
-    this->NumberPointsAsVertices();
+    this->Arrays = readArrays(source, this->Mesh.converted);
   }
 
-  void NumberPointsAsVertices()
+  /// The data set with its cells where the plan makes equal work; `source` itself if they are.
+  vtkSmartPointer<vtkPointSet> BalanceCells(vtkPointSet* source, const RefinementPlan& plan)
   {
-    auto& pointOf = this->Mesh.converted.pointOf;
-    pointOf.resize(this->Mesh.mesh().points.size());
-    for (std::size_t v = 0; v < pointOf.size(); ++v)
-    {
-      pointOf[v] = static_cast<vtkIdType>(v);
-    }
-  }
-
-  void BalanceCells()
-  {
-    const RefinementPlan plan = this->MakePlan();
+    const auto watch = this->Watch("seconds balancing");
     std::vector<std::int64_t> weights;
-    for (const auto& children : countChildren(this->Mesh.mesh(), plan))
+    weights.reserve(this->Mesh.mesh().cellCount());
+    for (const auto& firsts : countChildren(this->Mesh.mesh(), plan))
     {
-      weights.insert(weights.end(), children.begin(), children.end());
+      std::transform(firsts.begin() + 1, firsts.end(), firsts.begin(), std::back_inserter(weights),
+        [](Index end, Index first) { return end - first; });
     }
-    const auto coarse = this->Current;
-    this->Load(redistribute(this->Exchange, this->Mesh, coarse, weights), coarse);
+    return isBalanced(this->Exchange, this->Mesh, weights)
+             ? vtkSmartPointer<vtkPointSet>(source)
+             : redistribute(this->Exchange, this->Mesh, source, weights);
+  }
+
+  void ReadPositions(vtkPointSet* source)
+  {
+    const auto watch = this->Watch("seconds projection");
+    this->Classified =
+      this->Settings->GetProjectNewVertices() || this->Exchange.any(hasClassification(source));
+    if (this->Classified)
+    {
+      attempt(this->Exchange,
+        [&] {
+          this->Positions = readClassification(source, this->Mesh.converted.pointOf, this->Model);
+        });
+    }
   }
 
   std::vector<unsigned char> MarkCells() const
@@ -99,28 +114,28 @@ private:
     {
       return std::vector<unsigned char>(count, 1);
     }
-    vtkDataArray* values = this->Current->GetCellData()->GetArray(name.c_str());
-    if (!values)
+    vtkDataArray* array = this->Arrays.ofCells->GetArray(name.c_str());
+    if (!array)
     {
       throw Error("the mesh has no cell array " + name + " to mark cells by (MarkingArray)");
     }
-    if (values->GetNumberOfComponents() != 1)
+    if (array->GetNumberOfComponents() != 1)
     {
       throw Error("the marking array " + name + " has " +
-                  std::to_string(values->GetNumberOfComponents()) + " components instead of one");
+                  std::to_string(array->GetNumberOfComponents()) + " components instead of one");
     }
+    std::vector<double> values(array->GetNumberOfTuples());
+    copyValues(array, values.data());
     std::vector<unsigned char> marks(count);
-    const vtkIdType first = firstCellOfDimension(mesh, mesh.dimension);
-    for (std::size_t c = 0; c < count; ++c)
-    {
-      marks[c] =
-        values->GetTuple1(first + static_cast<vtkIdType>(c)) > this->Settings->GetThreshold();
-    }
+    const double threshold = this->Settings->GetThreshold();
+    std::transform(values.begin() + firstCellOfDimension(mesh, mesh.dimension), values.end(),
+      marks.begin(), [&](double value) { return value > threshold; });
     return marks;
   }
 
   RefinementPlan MakePlan()
   {
+    const auto watch = this->Watch("seconds marking");
     if (this->Settings->GetMethod() == vtkRefineWithCAD::UNIFORM_BISECTION)
     {
       return planUniform(this->Exchange, this->Mesh);
@@ -130,39 +145,46 @@ private:
     return planLongestEdge(this->Exchange, this->Mesh, marks);
   }
 
-  void RefineOnce()
+  void RefineOnce(const RefinementPlan& plan)
   {
-    const RefinementPlan plan = this->MakePlan();
     const auto newVertices = this->Settings->GetProjectNewVertices() ? NewVertices::MoveOntoCAD
                                                                      : NewVertices::StayStraight;
-    const RefinementTrace trace = this->Classified ? refineOntoCAD(this->Exchange, this->Mesh, plan,
-                                                       this->Model, this->Positions, newVertices)
-                                                   : refine(this->Exchange, this->Mesh, plan);
+    const RefinementTrace trace = this->Classified
+                                    ? refineOntoCAD(this->Exchange, this->Mesh, plan, this->Model,
+                                        this->Positions, newVertices, this->Statistics)
+                                    : refine(this->Exchange, this->Mesh, plan, this->Statistics);
     this->ProjectedPoints += trace.projectedPoints;
-    auto fine = makePointSet(this->Current, this->Mesh.mesh());
-    refineArrays(this->Current, this->Mesh.converted, trace, fine);
-    this->Current = fine;
-    this->NumberPointsAsVertices();
+    const auto watch = this->Watch("seconds copying fields");
+    this->Arrays = refineArrays(this->Arrays, trace.parentEdges, trace.firstChildren);
   }
 
-  void Summarise()
+  /// In the class of `prototype`.
+  vtkSmartPointer<vtkPointSet> MakeOutput(vtkPointSet* prototype)
   {
+    vtkSmartPointer<vtkPointSet> output;
+    {
+      const auto watch = this->Watch("seconds writing cells");
+      output = makePointSet(prototype, this->Mesh.mesh());
+      setArrays(this->Arrays, this->Mesh.converted, output);
+    }
+    const auto watch = this->Watch("seconds summary");
     if (this->Classified)
     {
-      writeClassification(this->Current, this->Positions);
+      writeClassification(output, this->Positions);
       summariseProjection(
-        this->Exchange, this->Mesh, this->Positions, this->ProjectedPoints, this->Current);
+        this->Exchange, this->Mesh, this->Positions, this->ProjectedPoints, output);
     }
-    summariseMesh(
-      this->Exchange, this->Mesh, measureQuality(this->Exchange, this->Mesh), this->Current);
+    summariseMesh(this->Exchange, this->Mesh, measureQuality(this->Exchange, this->Mesh), output);
+    return output;
   }
 
   RankExchange& Exchange;
   vtkRefineWithCAD* Settings;
   const CADModel& Model;
+  RunStatistics& Statistics;
   DistributedMesh Mesh;
-  vtkSmartPointer<vtkPointSet> Current; ///< The mesh with its arrays.
-  bool Classified = false;              ///< The mesh knows its places on the CAD.
+  MeshArrays Arrays;
+  bool Classified = false; ///< The mesh knows its places on the CAD.
   Classification Positions;
   std::int64_t ProjectedPoints = 0;
 };
@@ -178,7 +200,7 @@ vtkRefineWithCAD::~vtkRefineWithCAD() = default;
 void vtkRefineWithCAD::Execute(cadrefine::RankExchange& exchange, vtkPointSet* input,
   const cadrefine::CADModel* model, vtkPointSet* output)
 {
-  output->ShallowCopy(Refiner(exchange, this, *model).Run(input));
+  output->ShallowCopy(Refiner(exchange, this, *model, *this->Statistics).Run(input));
 }
 
 void vtkRefineWithCAD::PrintSelf(ostream& os, vtkIndent indent)

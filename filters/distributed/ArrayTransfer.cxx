@@ -1,9 +1,10 @@
 #include "ArrayTransfer.h"
 
 #include <vtkAbstractArray.h>
+#include <vtkArrayDispatch.h>
 #include <vtkCellData.h>
-#include <vtkCellType.h>
 #include <vtkDataArray.h>
+#include <vtkDataArrayRange.h>
 #include <vtkFieldData.h>
 #include <vtkIdList.h>
 #include <vtkIdTypeArray.h>
@@ -12,8 +13,7 @@
 #include <vtkPointSet.h>
 
 #include <algorithm>
-#include <numeric>
-#include <string>
+#include <type_traits>
 
 namespace cadrefine
 {
@@ -26,26 +26,15 @@ std::string nameOfIds(vtkDataSetAttributes* attributes, const char* otherwise)
   return ids && ids->GetName() ? ids->GetName() : otherwise;
 }
 
-vtkNew<vtkIdTypeArray> makeIds(const std::string& name, const std::vector<GlobalId>& ids)
+template<class... Lists>
+vtkNew<vtkIdTypeArray> makeIds(const std::string& name, const Lists&... lists)
 {
   vtkNew<vtkIdTypeArray> array;
   array->SetName(name.c_str());
-  array->SetNumberOfValues(static_cast<vtkIdType>(ids.size()));
-  std::copy(ids.begin(), ids.end(), array->GetPointer(0));
+  array->SetNumberOfValues(static_cast<vtkIdType>((lists.size() + ...)));
+  vtkIdType* next = array->GetPointer(0);
+  ((next = std::copy(lists.begin(), lists.end(), next)), ...);
   return array;
-}
-
-void setIds(vtkPointSet* source, const ConvertedMesh& mesh, vtkPointSet* output)
-{
-  output->GetPointData()->SetGlobalIds(
-    makeIds(nameOfIds(source->GetPointData(), "GlobalPointIds"), mesh.mesh.ids));
-  std::vector<GlobalId> cellIds;
-  for (const auto& ids : mesh.cellIds)
-  {
-    cellIds.insert(cellIds.end(), ids.begin(), ids.end());
-  }
-  output->GetCellData()->SetGlobalIds(
-    makeIds(nameOfIds(source->GetCellData(), "GlobalCellIds"), cellIds));
 }
 
 /// Arrays that are carried over; ids and ghosts are made anew or not at all.
@@ -66,125 +55,209 @@ vtkSmartPointer<vtkAbstractArray> emptyLike(vtkAbstractArray* array, vtkIdType c
   return result;
 }
 
-/// Adds the array, as scalars, vectors, ... if it was these.
-void addLike(
-  vtkDataSetAttributes* source, int index, vtkAbstractArray* array, vtkDataSetAttributes* output)
+/// Adds make(array) for each array that is carried over, as scalars, vectors, ... if it was these.
+template<class Make>
+void carryOver(vtkDataSetAttributes* source, vtkDataSetAttributes* target, const Make& make)
 {
-  const int added = output->AddArray(array);
-  const int attribute = source->IsArrayAnAttribute(index);
-  if (attribute >= 0)
-  {
-    output->SetActiveAttribute(added, attribute);
-  }
-}
-
-void copyTuples(vtkDataSetAttributes* source, vtkIdList* from, vtkDataSetAttributes* output)
-{
-  vtkNew<vtkIdList> to;
-  to->SetNumberOfIds(from->GetNumberOfIds());
-  std::iota(to->begin(), to->end(), vtkIdType{ 0 });
   for (int a = 0; a < source->GetNumberOfArrays(); ++a)
   {
     vtkAbstractArray* array = source->GetAbstractArray(a);
     if (isCarried(source, array))
     {
-      auto copy = emptyLike(array, from->GetNumberOfIds());
-      copy->InsertTuples(to, from, array);
-      addLike(source, a, copy, output);
+      const int added = target->AddArray(make(array));
+      const int attribute = source->IsArrayAnAttribute(a);
+      if (attribute >= 0)
+      {
+        target->SetActiveAttribute(added, attribute);
+      }
     }
   }
 }
 
-bool isReal(vtkAbstractArray* array)
+/// Calls work(from, to) with the arrays in their own type, if it is one of VTK's usual ones. `to`
+/// was made like `from`.
+template<class Work>
+bool inOwnType(vtkAbstractArray* from, vtkAbstractArray* to, const Work& work)
 {
-  return array->GetDataType() == VTK_DOUBLE || array->GetDataType() == VTK_FLOAT;
+  vtkDataArray* source = vtkDataArray::SafeDownCast(from);
+  vtkDataArray* target = vtkDataArray::SafeDownCast(to);
+  return source && target &&
+         vtkArrayDispatch::Dispatch2SameValueType::Execute(source, target, work);
 }
 
-void interpolatePointArray(
-  vtkAbstractArray* coarse, const RefinementTrace& trace, vtkAbstractArray* fine)
+/// The tuples of `array` at these places.
+template<class Place>
+vtkSmartPointer<vtkAbstractArray> gather(vtkAbstractArray* array, const std::vector<Place>& places)
 {
-  const vtkIdType oldCount = coarse->GetNumberOfTuples();
-  fine->InsertTuples(0, oldCount, 0, coarse);
-  for (std::size_t n = 0; n < trace.parentEdges.size(); ++n)
+  const std::size_t count = places.size();
+  auto result = emptyLike(array, static_cast<vtkIdType>(count));
+  const auto copy = [&](auto* from, auto* to)
   {
-    const auto [a, b] = trace.parentEdges[n];
-    const auto target = oldCount + static_cast<vtkIdType>(n);
-    if (isReal(coarse))
+    const auto source = vtk::DataArrayValueRange(from);
+    auto target = vtk::DataArrayValueRange(to);
+    const vtkIdType components = from->GetNumberOfComponents();
+    auto next = target.begin();
+    for (std::size_t i = 0; i < count; ++i)
     {
-      fine->InterpolateTuple(target, a, coarse, b, coarse, 0.5);
+      next = std::copy_n(source.begin() + places[i] * components, components, next);
     }
-    else
+  };
+  if (!inOwnType(array, result, copy))
+  {
+    for (std::size_t i = 0; i < count; ++i)
     {
-      fine->SetTuple(target, a, coarse);
+      result->SetTuple(static_cast<vtkIdType>(i), places[i], array);
     }
+  }
+  return result;
+}
+
+/// Whether the places are those of all `count` tuples in their order.
+bool areAll(const std::vector<vtkIdType>& places, vtkIdType count)
+{
+  vtkIdType next = 0;
+  return static_cast<vtkIdType>(places.size()) == count &&
+         std::all_of(
+           places.begin(), places.end(), [&](vtkIdType place) { return place == next++; });
+}
+
+void gatherAll(vtkDataSetAttributes* source, const std::vector<vtkIdType>& places, vtkIdType count,
+  vtkDataSetAttributes* target)
+{
+  const bool same = areAll(places, count);
+  carryOver(source, target,
+    [&](vtkAbstractArray* array)
+    { return same ? vtkSmartPointer<vtkAbstractArray>(array) : gather(array, places); });
+}
+
+template<class Value>
+Value middle(Value a, Value b)
+{
+  if constexpr (std::is_floating_point_v<Value>)
+  {
+    return static_cast<Value>(0.5 * a + 0.5 * b);
+  }
+  else
+  {
+    return a;
   }
 }
 
-vtkNew<vtkIdList> cellSources(vtkPointSet* coarse, const RefinementTrace& trace)
+/// The tuples of the vertices that were there, then those of the middles of edges.
+vtkSmartPointer<vtkAbstractArray> interpolate(
+  vtkAbstractArray* array, const std::vector<std::array<Index, 2>>& parentEdges)
 {
-  vtkNew<vtkIdList> from;
-  std::array<vtkIdType, 4> firsts{};
-  std::array<vtkIdType, 4> counts{};
-  for (vtkIdType c = 0; c < coarse->GetNumberOfCells(); ++c)
+  const vtkIdType oldCount = array->GetNumberOfTuples();
+  const auto newCount = static_cast<vtkIdType>(parentEdges.size());
+  auto result = emptyLike(array, oldCount + newCount);
+  result->InsertTuples(0, oldCount, 0, array);
+  const auto fill = [&](auto* from, auto* to)
   {
-    ++counts[coarse->GetCellType(c) == VTK_VERTEX     ? 0
-             : coarse->GetCellType(c) == VTK_LINE     ? 1
-             : coarse->GetCellType(c) == VTK_TRIANGLE ? 2
-                                                      : 3];
-  }
-  for (int d = 1; d < 4; ++d)
-  {
-    firsts[d] = firsts[d - 1] + counts[d - 1];
-  }
-  for (int d = 0; d < 4; ++d)
-  {
-    for (const Index parent : trace.parentCells[d])
+    const auto source = vtk::DataArrayValueRange(from);
+    auto target = vtk::DataArrayValueRange(to);
+    const vtkIdType components = from->GetNumberOfComponents();
+    auto next = target.begin() + oldCount * components;
+    for (const auto& ends : parentEdges)
     {
-      from->InsertNextId(firsts[d] + parent);
+      const auto a = source.begin() + ends[0] * components;
+      const auto b = source.begin() + ends[1] * components;
+      using Value = vtk::GetAPIType<std::remove_pointer_t<decltype(from)>>;
+      next = std::transform(a, a + components, b, next, middle<Value>);
+    }
+  };
+  if (!inOwnType(array, result, fill))
+  {
+    for (vtkIdType n = 0; n < newCount; ++n)
+    {
+      result->SetTuple(oldCount + n, parentEdges[n][0], array);
     }
   }
-  return from;
+  return result;
+}
+
+/// The cell that each child is a part of, cells of dimension 0 first.
+std::vector<Index> parentCells(const ChildRanges& firstChildren)
+{
+  std::size_t children = 0;
+  for (const auto& firsts : firstChildren)
+  {
+    children += firsts.back();
+  }
+  std::vector<Index> parents(children);
+  auto next = parents.begin();
+  Index cell = 0;
+  for (const auto& firsts : firstChildren)
+  {
+    for (std::size_t c = 0; c + 1 < firsts.size(); ++c)
+    {
+      next = std::fill_n(next, firsts[c + 1] - firsts[c], cell);
+      ++cell;
+    }
+  }
+  return parents;
+}
+
+/// Cells of the data set that the mesh's cells come from.
+std::vector<vtkIdType> cellSources(const ConvertedMesh& mesh)
+{
+  std::vector<vtkIdType> places;
+  for (const auto& cellOf : mesh.cellOf)
+  {
+    places.insert(places.end(), cellOf.begin(), cellOf.end());
+  }
+  return places;
+}
+
+MeshArrays emptyArrays(const std::string& vertexIdName, const std::string& cellIdName)
+{
+  return { vtkSmartPointer<vtkPointData>::New(), vtkSmartPointer<vtkCellData>::New(),
+    vtkSmartPointer<vtkFieldData>::New(), vertexIdName, cellIdName };
 }
 
 } // namespace
 
-void copyArrays(vtkPointSet* input, const ConvertedMesh& mesh, vtkPointSet* output)
+MeshArrays readArrays(vtkPointSet* input, const ConvertedMesh& mesh)
 {
-  vtkNew<vtkIdList> points;
-  std::for_each(mesh.pointOf.begin(), mesh.pointOf.end(),
-    [&](vtkIdType point) { points->InsertNextId(point); });
-  copyTuples(input->GetPointData(), points, output->GetPointData());
+  MeshArrays arrays = emptyArrays(nameOfIds(input->GetPointData(), "GlobalPointIds"),
+    nameOfIds(input->GetCellData(), "GlobalCellIds"));
+  gatherAll(input->GetPointData(), mesh.pointOf, input->GetNumberOfPoints(), arrays.ofVertices);
   if (input->GetNumberOfCells() > 0)
   {
-    vtkNew<vtkIdList> cells;
-    for (const auto& cellOf : mesh.cellOf)
-    {
-      std::for_each(
-        cellOf.begin(), cellOf.end(), [&](vtkIdType cell) { cells->InsertNextId(cell); });
-    }
-    copyTuples(input->GetCellData(), cells, output->GetCellData());
+    gatherAll(input->GetCellData(), cellSources(mesh), input->GetNumberOfCells(), arrays.ofCells);
   }
-  output->GetFieldData()->PassData(input->GetFieldData());
-  setIds(input, mesh, output);
+  arrays.ofMesh->PassData(input->GetFieldData());
+  return arrays;
 }
 
-void refineArrays(
-  vtkPointSet* coarse, const ConvertedMesh& mesh, const RefinementTrace& trace, vtkPointSet* fine)
+MeshArrays refineArrays(const MeshArrays& coarse,
+  const std::vector<std::array<Index, 2>>& parentEdges, const ChildRanges& firstChildren)
 {
-  vtkPointData* source = coarse->GetPointData();
-  for (int a = 0; a < source->GetNumberOfArrays(); ++a)
-  {
-    vtkAbstractArray* array = source->GetAbstractArray(a);
-    if (isCarried(source, array))
-    {
-      auto refined = emptyLike(array, fine->GetNumberOfPoints());
-      interpolatePointArray(array, trace, refined);
-      addLike(source, a, refined, fine->GetPointData());
-    }
-  }
-  copyTuples(coarse->GetCellData(), cellSources(coarse, trace), fine->GetCellData());
-  fine->GetFieldData()->PassData(coarse->GetFieldData());
-  setIds(coarse, mesh, fine);
+  MeshArrays fine = emptyArrays(coarse.vertexIdName, coarse.cellIdName);
+  carryOver(coarse.ofVertices, fine.ofVertices,
+    [&](vtkAbstractArray* array) { return interpolate(array, parentEdges); });
+  const auto parents =
+    coarse.ofCells->GetNumberOfArrays() > 0 ? parentCells(firstChildren) : std::vector<Index>{};
+  carryOver(
+    coarse.ofCells, fine.ofCells, [&](vtkAbstractArray* array) { return gather(array, parents); });
+  fine.ofMesh = coarse.ofMesh;
+  return fine;
+}
+
+void setArrays(const MeshArrays& arrays, const ConvertedMesh& mesh, vtkPointSet* output)
+{
+  const auto pass = [](vtkAbstractArray* array) { return array; };
+  carryOver(arrays.ofVertices, output->GetPointData(), pass);
+  carryOver(arrays.ofCells, output->GetCellData(), pass);
+  output->GetFieldData()->PassData(arrays.ofMesh);
+  output->GetPointData()->SetGlobalIds(makeIds(arrays.vertexIdName, mesh.mesh.ids));
+  const auto& cells = mesh.cellIds;
+  output->GetCellData()->SetGlobalIds(
+    makeIds(arrays.cellIdName, cells[0], cells[1], cells[2], cells[3]));
+}
+
+void copyArrays(vtkPointSet* input, const ConvertedMesh& mesh, vtkPointSet* output)
+{
+  setArrays(readArrays(input, mesh), mesh, output);
 }
 
 } // namespace cadrefine

@@ -1,24 +1,47 @@
 // Carrying a mesh's own arrays over to the mesh made from it.
 #pragma once
 
-#include "DistributedRefinement.h"
 #include "PointSetConversion.h"
+#include "Split.h"
 
+#include <vtkSmartPointer.h>
+
+#include <string>
+
+class vtkCellData;
+class vtkFieldData;
+class vtkPointData;
 class vtkPointSet;
 
 namespace cadrefine
 {
 
-/// Copies the point, cell and field arrays of `input` to `output`, which was made from it by
-/// convert and makePointSet; ghost arrays are left out. Sets the global ids, under the names that
-/// `input` has for them.
-void copyArrays(vtkPointSet* input, const ConvertedMesh& mesh, vtkPointSet* output);
+/// The arrays of a mesh: a tuple for each vertex, or for each cell in the order of makePointSet.
+/// Ghost arrays and ids are left out; the names of the ids are kept.
+struct MeshArrays
+{
+  vtkSmartPointer<vtkPointData> ofVertices;
+  vtkSmartPointer<vtkCellData> ofCells;
+  vtkSmartPointer<vtkFieldData> ofMesh;
+  std::string vertexIdName;
+  std::string cellIdName;
+};
 
-/// Fills the arrays of `fine` from those of `coarse`, which it was refined from: cell arrays are
-/// inherited, point arrays interpolated to the middle of the edge. Arrays of whole numbers or other
-/// types keep a value that both ends have, and otherwise take that of the end with the smaller
-/// global id (tags must not be averaged). Sets the global ids.
-void refineArrays(
-  vtkPointSet* coarse, const ConvertedMesh& mesh, const RefinementTrace& trace, vtkPointSet* fine);
+/// The arrays of `input`, which `mesh` was converted from. Arrays are shared with `input` where
+/// the mesh has all of its points or cells in their order.
+MeshArrays readArrays(vtkPointSet* input, const ConvertedMesh& mesh);
+
+/// The arrays of the mesh that `coarse` was split into: cell arrays are inherited, point arrays
+/// interpolated to the middle of the edge. Arrays of whole numbers or other types keep a value that
+/// both ends have, and otherwise take that of the end with the smaller global id (tags must not be
+/// averaged). Work: linear in the values made, in their own type.
+MeshArrays refineArrays(const MeshArrays& coarse,
+  const std::vector<std::array<Index, 2>>& parentEdges, const ChildRanges& firstChildren);
+
+/// Adds the arrays, and the global ids of `mesh`, to `output`, which was made from it.
+void setArrays(const MeshArrays& arrays, const ConvertedMesh& mesh, vtkPointSet* output);
+
+/// readArrays and setArrays.
+void copyArrays(vtkPointSet* input, const ConvertedMesh& mesh, vtkPointSet* output);
 
 } // namespace cadrefine

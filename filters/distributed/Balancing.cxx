@@ -15,6 +15,7 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
+#include <numeric>
 
 namespace cadrefine
 {
@@ -68,10 +69,11 @@ public:
     take(1, piece.segments, part_.mesh.segments);
     take(2, piece.triangles, part_.mesh.triangles);
     take(3, piece.tetrahedra, part_.mesh.tetrahedra);
-    for (const vtkIdType vertex : part_.pointOf)
+    for (const Index vertex : taken_)
     {
       vertexOf_[vertex] = -1;
     }
+    taken_.clear();
     return std::move(part_);
   }
 
@@ -88,7 +90,7 @@ private:
       auto& newCorners = taken.emplace_back();
       std::transform(corners.begin(), corners.end(), newCorners.begin(),
         [&](Index vertex) { return newVertex(vertex); });
-      part_.cellOf[dimension].push_back(*next_);
+      part_.cellOf[dimension].push_back(mesh_.converted.cellOf[dimension][*next_ - first]);
       part_.cellIds[dimension].push_back(mesh_.converted.cellIds[dimension][*next_ - first]);
     }
   }
@@ -97,8 +99,9 @@ private:
   {
     if (vertexOf_[vertex] < 0)
     {
-      vertexOf_[vertex] = static_cast<Index>(part_.pointOf.size());
-      part_.pointOf.push_back(vertex);
+      vertexOf_[vertex] = static_cast<Index>(taken_.size());
+      taken_.push_back(vertex);
+      part_.pointOf.push_back(mesh_.converted.pointOf[vertex]);
       part_.mesh.points.push_back(mesh_.mesh().points[vertex]);
       part_.mesh.ids.push_back(mesh_.mesh().ids[vertex]);
     }
@@ -107,6 +110,7 @@ private:
 
   const DistributedMesh& mesh_;
   std::vector<Index> vertexOf_; ///< Vertex of the part, or -1.
+  std::vector<Index> taken_;    ///< Vertices of the mesh, in the order of those of the part.
   ConvertedMesh part_;
   std::vector<vtkIdType>::const_iterator next_;
   std::vector<vtkIdType>::const_iterator end_;
@@ -149,6 +153,19 @@ void markGlobalIds(vtkDataSetAttributes* source, vtkDataSetAttributes* output)
 }
 
 } // namespace
+
+bool isBalanced(
+  RankExchange& exchange, const DistributedMesh& mesh, const std::vector<std::int64_t>& weights)
+{
+  constexpr double tolerance = 1.02;  // as good as partitionByWeight promises
+  constexpr std::int64_t compact = 4; // times as many vertices as the interface has
+  const std::int64_t mine = std::accumulate(weights.begin(), weights.end(), std::int64_t{ 0 });
+  const std::int64_t largest = exchange.max(mine);
+  const auto sums = exchange.sum({ mine, static_cast<std::int64_t>(mesh.shared.all.size()),
+    static_cast<std::int64_t>(mesh.mesh().points.size()) });
+  const double mean = static_cast<double>(sums[0]) / exchange.size();
+  return static_cast<double>(largest) <= tolerance * mean && compact * sums[1] <= sums[2];
+}
 
 vtkSmartPointer<vtkPointSet> redistribute(RankExchange& exchange, const DistributedMesh& mesh,
   vtkPointSet* input, const std::vector<std::int64_t>& weights)

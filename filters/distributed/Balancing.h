@@ -12,6 +12,12 @@ class vtkPointSet;
 namespace cadrefine
 {
 
+/// Whether the cells lie well as they are: the ranks' sums of weights differ from the mean by no
+/// more than redistribute would let them, and at most a quarter of the vertices are shared.
+/// Collective; two reductions.
+bool isBalanced(
+  RankExchange& exchange, const DistributedMesh& mesh, const std::vector<std::int64_t>& weights);
+
 /// Redistributes the cells of `input`, which `mesh` was made from, with their arrays: ranks get
 /// boxes of cells, about equal in weight (see partitionByWeight). One weight, at least 1, for each
 /// cell in the order of makePointSet. The result is an unstructured grid with the same arrays.

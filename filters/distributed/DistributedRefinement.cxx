@@ -6,6 +6,9 @@
 #include "GlobalNumbering.h"
 
 #include <algorithm>
+#include <numeric>
+#include <optional>
+#include <utility>
 
 namespace cadrefine
 {
@@ -16,7 +19,7 @@ RefinementPlan makePlan(RankExchange& exchange, const DistributedMesh& mesh)
 {
   RefinementPlan plan;
   plan.table = buildEdgeTable(mesh.mesh());
-  plan.sharedEdges = findSharedEdges(exchange, mesh.shared, mesh.mesh().ids, plan.table.edges());
+  plan.sharedEdges = findSharedEdges(exchange, mesh.shared, mesh.mesh().ids, plan.table.edges);
   return plan;
 }
 
@@ -40,35 +43,55 @@ std::vector<GlobalId> numberNewVertices(RankExchange& exchange, DistributedMesh&
 
 /// Ids of the children: parents in the order of their ids, the children of each in a row.
 std::array<std::vector<GlobalId>, 4> numberChildren(RankExchange& exchange,
-  const std::array<std::vector<GlobalId>, 4>& parentIds,
-  const std::array<std::vector<Index>, 4>& parentCells)
+  const std::array<std::vector<GlobalId>, 4>& parentIds, const ChildRanges& firstChildren)
 {
   std::vector<Key<1>> keys;
   std::vector<std::int64_t> weights;
-  std::array<std::size_t, 4> firsts{};
   for (int d = 0; d < 4; ++d)
   {
-    firsts[d] = keys.size();
-    for (const GlobalId id : parentIds[d])
+    const auto& firsts = firstChildren[d];
+    for (std::size_t c = 0; c < parentIds[d].size(); ++c)
     {
-      keys.push_back({ id });
-    }
-    weights.resize(keys.size(), 0);
-    for (const Index parent : parentCells[d])
-    {
-      ++weights[firsts[d] + parent];
+      keys.push_back({ parentIds[d][c] });
+      weights.push_back(firsts[c + 1] - firsts[c]);
     }
   }
-  auto next = offsets(exchange, keys, weights).numbers;
+  const auto firstIds = offsets(exchange, keys, weights).numbers;
   std::array<std::vector<GlobalId>, 4> ids;
+  auto parent = firstIds.begin();
   for (int d = 0; d < 4; ++d)
   {
-    for (const Index parent : parentCells[d])
+    const auto& firsts = firstChildren[d];
+    ids[d].resize(firsts.back());
+    for (std::size_t c = 0; c + 1 < firsts.size(); ++c)
     {
-      ids[d].push_back(next[firsts[d] + parent]++);
+      std::iota(ids[d].begin() + firsts[c], ids[d].begin() + firsts[c + 1], *parent);
+      ++parent;
     }
   }
   return ids;
+}
+
+/// The shared vertices of the refined mesh: those that were, and the midpoints of shared edges.
+/// New ids are larger than old ones, and in the order of their edges.
+SharedVertices sharedAfter(
+  const SharedVertices& before, const RefinementPlan& plan, const Midpoints& midpoints)
+{
+  auto items = before.items;
+  for (std::size_t n = 0; n < plan.sharedEdges.neighbours.size(); ++n)
+  {
+    const auto neighbour = std::lower_bound(
+      before.neighbours.begin(), before.neighbours.end(), plan.sharedEdges.neighbours[n]);
+    auto& vertices = items[neighbour - before.neighbours.begin()];
+    for (const Index edge : plan.sharedEdges.items[n])
+    {
+      if (plan.marks[edge])
+      {
+        vertices.push_back(midpoints.ofEdge[edge]);
+      }
+    }
+  }
+  return makeSharedItems(before.rank, before.neighbours, std::move(items));
 }
 
 /// Class of an edge and whether it lies on the boundary, as one number that ranks can combine by
@@ -92,11 +115,11 @@ std::vector<std::int64_t> edgeCodes(RankExchange& exchange, const DistributedMes
 {
   const BoundaryClasses classes =
     classifyBoundary(exchange, mesh.mesh(), boundary, classification.entities, projector);
-  std::vector<std::int64_t> codes(plan.table.edges().size(), 0);
+  std::vector<std::int64_t> codes(plan.table.edges.size(), 0);
   const auto& edges = boundary.edges.edges();
   for (std::size_t e = 0; e < edges.size(); ++e)
   {
-    codes[plan.table.list.find(edges[e][0], edges[e][1])] = encode(classes.ofEdges[e]);
+    codes[plan.table.find(edges[e][0], edges[e][1])] = encode(classes.ofEdges[e]);
   }
   combineShared(exchange, plan.sharedEdges, codes,
     [](std::int64_t a, std::int64_t b) { return std::max(a, b); });
@@ -113,7 +136,7 @@ std::vector<ClosestPoint> projectMidpoints(const SimplexMesh& mesh, const Refine
   {
     if (plan.marks[e])
     {
-      const auto [a, b] = plan.table.edges()[e];
+      const auto [a, b] = plan.table.edges[e];
       hits.push_back(projector.projectMidpoint(decode(codes[e]), { mesh.points[a], mesh.points[b] },
         { classification.entities[a], classification.entities[b] }));
     }
@@ -182,7 +205,7 @@ RefinementPlan planUniform(RankExchange& exchange, const DistributedMesh& mesh)
 {
   RefinementPlan plan = makePlan(exchange, mesh);
   plan.uniform = true;
-  plan.marks.assign(plan.table.edges().size(), 1);
+  plan.marks.assign(plan.table.edges.size(), 1);
   return plan;
 }
 
@@ -190,62 +213,54 @@ RefinementPlan planLongestEdge(
   RankExchange& exchange, const DistributedMesh& mesh, const std::vector<unsigned char>& cellMarks)
 {
   RefinementPlan plan = makePlan(exchange, mesh);
-  plan.marks.assign(plan.table.edges().size(), 0);
+  plan.marks.assign(plan.table.edges.size(), 0);
   markLongestEdges(mesh.mesh(), plan.table, cellMarks, plan.marks);
   const auto either = [](unsigned char a, unsigned char b) { return std::max(a, b); };
   bool changed = true;
   while (changed)
   {
     combineShared(exchange, plan.sharedEdges, plan.marks, either);
-    changed = exchange.any(closeMarks(mesh.mesh(), plan.table, plan.marks));
+    changed = exchange.any(closeMarks(plan.table, plan.marks));
   }
   return plan;
 }
 
-std::array<std::vector<Index>, 4> countChildren(const SimplexMesh& mesh, const RefinementPlan& plan)
+ChildRanges countChildren(const SimplexMesh& mesh, const RefinementPlan& plan)
 {
-  const std::size_t counts[4] = { mesh.vertices.size(), mesh.segments.size(), mesh.triangles.size(),
-    mesh.tetrahedra.size() };
-  std::array<std::vector<Index>, 4> children;
-  for (int d = 0; d < 4; ++d)
-  {
-    children[d].assign(counts[d], plan.uniform ? 1 << d : 0);
-  }
-  if (plan.uniform)
-  {
-    return children;
-  }
-  const Midpoints midpoints = makeMidpoints(mesh, plan.table, plan.marks);
-  const std::vector<GlobalId> noIds(midpoints.edges.size(), 0);
-  const SplitMesh split = splitMarked(mesh, plan.table, midpoints, noIds);
-  for (int d = 0; d < 4; ++d)
-  {
-    for (const Index parent : split.parentCells[d])
-    {
-      ++children[d][parent];
-    }
-  }
-  return children;
+  return plan.uniform ? countUniformChildren(mesh)
+                      : countMarkedChildren(mesh, plan.table, plan.marks);
 }
 
-RefinementTrace refine(RankExchange& exchange, DistributedMesh& mesh, const RefinementPlan& plan)
+RefinementTrace refine(RankExchange& exchange, DistributedMesh& mesh, const RefinementPlan& plan,
+  RunStatistics& statistics)
 {
   const Midpoints midpoints = makeMidpoints(mesh.mesh(), plan.table, plan.marks);
-  const auto ids = numberNewVertices(exchange, mesh, midpoints.parentEdges);
-  SplitMesh split = plan.uniform ? splitUniformly(mesh.mesh(), plan.table, midpoints, ids)
-                                 : splitMarked(mesh.mesh(), plan.table, midpoints, ids);
-  mesh.converted.cellIds = numberChildren(exchange, mesh.converted.cellIds, split.parentCells);
+  std::vector<GlobalId> ids;
+  {
+    const RunStatistics::Stopwatch watch(statistics, "seconds numbering");
+    ids = numberNewVertices(exchange, mesh, midpoints.parentEdges);
+  }
+  SplitMesh split;
+  {
+    const RunStatistics::Stopwatch watch(statistics, "seconds cutting");
+    split = plan.uniform ? splitUniformly(mesh.mesh(), plan.table, midpoints, ids)
+                         : splitMarked(mesh.mesh(), plan.table, plan.marks, midpoints, ids);
+  }
+  const RunStatistics::Stopwatch watch(statistics, "seconds numbering");
+  mesh.converted.cellIds = numberChildren(exchange, mesh.converted.cellIds, split.firstChildren);
   mesh.mesh() = std::move(split.mesh);
   mesh.converted.pointOf.clear();
   mesh.converted.cellOf = {};
-  mesh.shared = findShared(exchange, mesh.mesh());
-  return { std::move(split.parentEdges), std::move(split.parentCells), 0 };
+  mesh.shared = sharedAfter(mesh.shared, plan, midpoints);
+  return { std::move(split.parentEdges), std::move(split.firstChildren), 0 };
 }
 
 RefinementTrace refineOntoCAD(RankExchange& exchange, DistributedMesh& mesh,
   const RefinementPlan& plan, const CADModel& model, Classification& classification,
-  NewVertices newVertices)
+  NewVertices newVertices, RunStatistics& statistics)
 {
+  std::optional<RunStatistics::Stopwatch> watch;
+  watch.emplace(statistics, "seconds projection");
   const DistributedBoundary boundary = findBoundary(exchange, mesh, model);
   const BoundaryProjector projector(model, boundary.kind);
   const auto codes = edgeCodes(exchange, mesh, plan, boundary, projector, classification);
@@ -260,7 +275,9 @@ RefinementTrace refineOntoCAD(RankExchange& exchange, DistributedMesh& mesh,
       onBoundary.push_back(codes[e] != 0);
     }
   }
-  RefinementTrace trace = refine(exchange, mesh, plan);
+  watch.reset();
+  RefinementTrace trace = refine(exchange, mesh, plan, statistics);
+  watch.emplace(statistics, "seconds moves");
   trace.projectedPoints = countOwnedHits(exchange, mesh, hits);
   if (newVertices == NewVertices::StayStraight)
   {

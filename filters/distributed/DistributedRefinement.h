@@ -6,6 +6,7 @@
 #include "DistributedMesh.h"
 #include "EdgeTable.h"
 #include "LongestEdgeMarking.h"
+#include "RunStatistics.h"
 #include "SharedEdges.h"
 #include "Split.h"
 
@@ -32,21 +33,23 @@ RefinementPlan planUniform(RankExchange& exchange, const DistributedMesh& mesh);
 RefinementPlan planLongestEdge(
   RankExchange& exchange, const DistributedMesh& mesh, const std::vector<unsigned char>& cellMarks);
 
-/// Number of children of each cell, by the dimension of the cells.
-std::array<std::vector<Index>, 4> countChildren(
-  const SimplexMesh& mesh, const RefinementPlan& plan);
+/// How many cells `refine` makes of each cell.
+ChildRanges countChildren(const SimplexMesh& mesh, const RefinementPlan& plan);
 
 /// What refinement made of a mesh, beside the mesh: how to carry arrays over.
 struct RefinementTrace
 {
   std::vector<std::array<Index, 2>> parentEdges; ///< See SplitMesh.
-  std::array<std::vector<Index>, 4> parentCells;
+  ChildRanges firstChildren;
   std::int64_t projectedPoints = 0; ///< Over all ranks.
 };
 
 /// Cuts the mesh as planned (new vertices at midpoints; new ids by a parallel sort of the ids of
-/// the edges' ends, so that they do not depend on the partition). Collective.
-RefinementTrace refine(RankExchange& exchange, DistributedMesh& mesh, const RefinementPlan& plan);
+/// the edges' ends, so that they do not depend on the partition). What is shared with other ranks
+/// follows from what was. Adds to the figures "seconds cutting" and "seconds numbering".
+/// Collective.
+RefinementTrace refine(RankExchange& exchange, DistributedMesh& mesh, const RefinementPlan& plan,
+  RunStatistics& statistics);
 
 /// What is done with the new vertices of classified edges.
 enum class NewVertices
@@ -57,9 +60,10 @@ enum class NewVertices
 
 /// The same, and classifies the new vertices of classified edges: each belongs onto the entity of
 /// its edge (S. Strunk, KTH 2013, Algorithm 4.3). MoveOntoCAD moves them there as far as all cells
-/// stay valid; vertices that stopped on the way earlier try again. Collective.
+/// stay valid; vertices that stopped on the way earlier try again. Adds to "seconds projection" and
+/// "seconds moves" too. Collective.
 RefinementTrace refineOntoCAD(RankExchange& exchange, DistributedMesh& mesh,
   const RefinementPlan& plan, const CADModel& model, Classification& classification,
-  NewVertices newVertices);
+  NewVertices newVertices, RunStatistics& statistics);
 
 } // namespace cadrefine

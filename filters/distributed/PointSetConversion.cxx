@@ -1,8 +1,10 @@
 #include "PointSetConversion.h"
 
 #include "Agreement.h"
+#include "ArrayAccess.h"
 #include "Error.h"
 #include "GlobalNumbering.h"
+#include "RadixOrder.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -11,15 +13,15 @@
 #include <vtkIdList.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
+#include <vtkPointSet.h>
+#include <vtkTypeInt64Array.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <unordered_map>
+#include <utility>
 
 namespace cadrefine
 {
@@ -58,13 +60,6 @@ bool isGhost(vtkUnsignedCharArray* ghosts, vtkIdType cell)
   return ghosts && (ghosts->GetValue(cell) & vtkDataSetAttributes::DUPLICATECELL);
 }
 
-/// Cells in terms of the data set's points.
-struct RawCells
-{
-  std::array<std::vector<vtkIdType>, 4> cells;
-  std::array<std::vector<vtkIdType>, 4> points; ///< dimension + 1 for each cell.
-};
-
 void checkCell(int type, int dimension, vtkIdType cell)
 {
   if (dimension < 0)
@@ -76,176 +71,241 @@ void checkCell(int type, int dimension, vtkIdType cell)
   }
 }
 
-RawCells readCells(vtkPointSet* input)
+template<class Point, std::size_t Corners>
+void appendCell(const Point* points, Simplices<Corners>& cells)
 {
-  RawCells raw;
-  vtkUnsignedCharArray* ghosts = input->GetCellGhostArray();
-  vtkNew<vtkIdList> points;
-  for (vtkIdType c = 0; c < input->GetNumberOfCells(); ++c)
+  auto& cell = cells.emplace_back();
+  std::transform(
+    points, points + Corners, cell.begin(), [](Point point) { return static_cast<Index>(point); });
+}
+
+template<class Point>
+void appendCell(int dimension, const Point* points, SimplexMesh& mesh)
+{
+  switch (dimension)
   {
-    const int type = input->GetCellType(c);
-    if (isGhost(ghosts, c) || type == VTK_EMPTY_CELL)
-    {
-      continue;
-    }
-    input->GetCellPoints(c, points);
-    const bool isPolyVertex = type == VTK_POLY_VERTEX;
-    const bool isSegment = type == VTK_POLY_LINE && points->GetNumberOfIds() == 2;
-    const int dimension = isPolyVertex ? 0 : isSegment ? 1 : dimensionOf(type);
-    checkCell(type, dimension, c);
-    raw.points[dimension].insert(raw.points[dimension].end(), points->begin(), points->end());
-    raw.cells[dimension].insert(
-      raw.cells[dimension].end(), isPolyVertex ? points->GetNumberOfIds() : 1, c);
+    case 0:
+      return appendCell(points, mesh.vertices);
+    case 1:
+      return appendCell(points, mesh.segments);
+    case 2:
+      return appendCell(points, mesh.triangles);
+    default:
+      return appendCell(points, mesh.tetrahedra);
   }
-  return raw;
+}
+
+/// Calls use(cell, type, points) for every cell, `points` being a pointer and a count.
+template<class Use>
+void forEachCell(vtkPointSet* input, const Use& use)
+{
+  const vtkIdType count = input->GetNumberOfCells();
+  auto* grid = vtkUnstructuredGrid::SafeDownCast(input);
+  if (grid && count > 0 && grid->GetCells()->IsStorage64Bit())
+  {
+    const auto* offsets = grid->GetCells()->GetOffsetsArray64()->GetPointer(0);
+    const auto* corners = grid->GetCells()->GetConnectivityArray64()->GetPointer(0);
+    const unsigned char* types = grid->GetCellTypesArray()->GetPointer(0);
+    for (vtkIdType c = 0; c < count; ++c)
+    {
+      use(c, types[c], corners + offsets[c], offsets[c + 1] - offsets[c]);
+    }
+    return;
+  }
+  vtkNew<vtkIdList> buffer;
+  const vtkIdType* points = nullptr;
+  vtkIdType pointCount = 0;
+  for (vtkIdType c = 0; c < count; ++c)
+  {
+    input->GetCellPoints(c, pointCount, points, buffer);
+    use(c, input->GetCellType(c), points, pointCount);
+  }
+}
+
+/// Reads the cells, with the numbers of the data set's points for vertices.
+void readCells(vtkPointSet* input, ConvertedMesh& result)
+{
+  vtkUnsignedCharArray* ghosts = input->GetCellGhostArray();
+  forEachCell(input,
+    [&](vtkIdType cell, int type, const auto* points, vtkIdType count)
+    {
+      if (isGhost(ghosts, cell) || type == VTK_EMPTY_CELL)
+      {
+        return;
+      }
+      const bool isPolyVertex = type == VTK_POLY_VERTEX;
+      const bool isSegment = type == VTK_POLY_LINE && count == 2;
+      const int dimension = isPolyVertex ? 0 : isSegment ? 1 : dimensionOf(type);
+      checkCell(type, dimension, cell);
+      for (vtkIdType part = 0; part < (isPolyVertex ? count : 1); ++part)
+      {
+        appendCell(dimension, points + part, result.mesh);
+        result.cellOf[dimension].push_back(cell);
+      }
+    });
 }
 
 /// Points alone: a cell of dimension 0 each, without a cell in the data set.
-void addLonePoints(vtkPointSet* input, RawCells& raw)
+void addLonePoints(vtkPointSet* input, ConvertedMesh& result)
 {
   for (vtkIdType p = 0; p < input->GetNumberOfPoints(); ++p)
   {
-    raw.points[0].push_back(p);
-    raw.cells[0].push_back(-1);
+    result.mesh.vertices.push_back({ static_cast<Index>(p) });
+    result.cellOf[0].push_back(-1);
   }
 }
 
-int highestDimension(RankExchange& exchange, const RawCells& raw)
+int highestDimension(RankExchange& exchange, const ConvertedMesh& converted)
 {
   int dimension = -1;
   for (int d = 0; d < 4; ++d)
   {
-    dimension = raw.cells[d].empty() ? dimension : d;
+    dimension = converted.cellOf[d].empty() ? dimension : d;
   }
   return static_cast<int>(exchange.max(dimension));
 }
 
-/// The data set's point ids where every rank with points has them, otherwise from coordinates.
-std::vector<GlobalId> pointIds(RankExchange& exchange, vtkPointSet* input)
+std::vector<Point3> readPoints(vtkPointSet* input)
 {
-  vtkDataArray* given = input->GetPointData()->GetGlobalIds();
-  const vtkIdType count = input->GetNumberOfPoints();
-  if (exchange.any(!given && count > 0))
+  std::vector<Point3> points(input->GetNumberOfPoints());
+  if (!points.empty())
   {
-    std::vector<Key<3>> keys(count);
-    for (vtkIdType p = 0; p < count; ++p)
-    {
-      Point3 point;
-      input->GetPoint(p, point.data());
-      keys[p] = coordinateKey(point);
-    }
-    return numberDistinct(exchange, keys).numbers;
+    copyValues(input->GetPoints()->GetData(), points.front().data());
   }
-  std::vector<GlobalId> ids;
-  for (vtkIdType p = 0; given && p < count; ++p)
+  return points;
+}
+
+std::vector<GlobalId> readIds(vtkDataArray* array)
+{
+  std::vector<GlobalId> ids(array ? array->GetNumberOfTuples() : 0);
+  if (!ids.empty())
   {
-    ids.push_back(static_cast<GlobalId>(given->GetTuple1(p)));
+    copyValues(array, ids.data());
   }
   return ids;
 }
 
-/// Gives each used point its vertex, one for each id.
-class VertexMaker
+/// The data set's point ids where every rank with points has them, otherwise from coordinates.
+std::vector<GlobalId> pointIds(
+  RankExchange& exchange, vtkPointSet* input, const std::vector<Point3>& points)
 {
-public:
-  VertexMaker(vtkPointSet* input, const std::vector<GlobalId>& ids, ConvertedMesh& result)
-    : input_(input), ids_(ids), result_(result), vertexOf_(ids.size(), -1)
+  vtkDataArray* given = input->GetPointData()->GetGlobalIds();
+  if (!exchange.any(!given && !points.empty()))
   {
+    return readIds(given);
   }
+  std::vector<Key<3>> keys(points.size());
+  std::transform(points.begin(), points.end(), keys.begin(),
+    [](const Point3& point) { return coordinateKey(point); });
+  return numberDistinct(exchange, keys).numbers;
+}
 
-  Index vertex(vtkIdType point)
+template<class Use, std::size_t Corners>
+void forEachCorner(Simplices<Corners>& cells, const Use& use)
+{
+  for (auto& cell : cells)
   {
-    Index& vertex = vertexOf_[point];
-    if (vertex < 0)
+    std::for_each(cell.begin(), cell.end(), use);
+  }
+}
+
+template<class Use>
+void forEachCorner(SimplexMesh& mesh, const Use& use)
+{
+  forEachCorner(mesh.vertices, use);
+  forEachCorner(mesh.segments, use);
+  forEachCorner(mesh.triangles, use);
+  forEachCorner(mesh.tetrahedra, use);
+}
+
+/// The vertex that each point becomes, numbered in the order of the points: one for each id; -1 for
+/// points that are not used.
+std::vector<Index> numberVertices(
+  const std::vector<GlobalId>& ids, const std::vector<unsigned char>& used)
+{
+  std::vector<PlacedKey> keys;
+  keys.reserve(ids.size());
+  for (std::size_t p = 0; p < ids.size(); ++p)
+  {
+    if (used[p])
     {
-      const auto next = static_cast<Index>(result_.pointOf.size());
-      const auto [entry, isNew] = vertexOfId_.emplace(ids_[point], next);
-      vertex = entry->second;
-      if (isNew)
-      {
-        add(point);
-      }
+      keys.push_back({ orderedBits(ids[p]), static_cast<std::uint32_t>(p) });
     }
-    return vertex;
   }
-
-private:
-  void add(vtkIdType point)
+  radixSort(keys);
+  std::vector<Index> firstWithId(ids.size(), -1);
+  for (std::size_t k = 0; k < keys.size(); ++k)
   {
-    Point3 coordinates;
-    input_->GetPoint(point, coordinates.data());
-    for (const double x : coordinates)
-    {
-      if (!std::isfinite(x))
-      {
-        throw Error(
-          "the mesh has a coordinate that is not finite (point " + std::to_string(point) + ")");
-      }
-    }
-    result_.pointOf.push_back(point);
-    result_.mesh.points.push_back(coordinates);
-    result_.mesh.ids.push_back(ids_[point]);
+    const bool again = k > 0 && keys[k - 1].key == keys[k].key;
+    firstWithId[keys[k].place] =
+      again ? firstWithId[keys[k - 1].place] : static_cast<Index>(keys[k].place);
   }
+  std::vector<Index> vertexOf = std::move(firstWithId);
+  Index next = 0;
+  for (std::size_t p = 0; p < vertexOf.size(); ++p)
+  {
+    if (vertexOf[p] >= 0)
+    {
+      vertexOf[p] = vertexOf[p] == static_cast<Index>(p) ? next++ : vertexOf[vertexOf[p]];
+    }
+  }
+  return vertexOf;
+}
 
-  vtkPointSet* input_;
-  const std::vector<GlobalId>& ids_;
-  ConvertedMesh& result_;
-  std::vector<Index> vertexOf_;
-  std::unordered_map<GlobalId, Index> vertexOfId_;
-};
+void checkFinite(const Point3& point, std::size_t number)
+{
+  for (const double x : point)
+  {
+    if (!std::isfinite(x))
+    {
+      throw Error(
+        "the mesh has a coordinate that is not finite (point " + std::to_string(number) + ")");
+    }
+  }
+}
 
 template<std::size_t Corners>
-void makeCells(
-  const RawCells& raw, VertexMaker& maker, std::vector<std::array<Index, Corners>>& cells)
+void checkCells(const Simplices<Corners>& cells, const std::vector<vtkIdType>& cellOf)
 {
-  const auto& points = raw.points[Corners - 1];
-  for (std::size_t c = 0; c * Corners < points.size(); ++c)
+  for (std::size_t c = 0; c < cells.size(); ++c)
   {
-    auto& cell = cells.emplace_back();
-    for (std::size_t k = 0; k < Corners; ++k)
+    bool distinct = true;
+    for (std::size_t k = 1; k < Corners; ++k)
     {
-      cell[k] = maker.vertex(points[c * Corners + k]);
+      for (std::size_t i = 0; i < k; ++i)
+      {
+        distinct = distinct && cells[c][i] != cells[c][k];
+      }
     }
-    auto sorted = cell;
-    std::sort(sorted.begin(), sorted.end());
-    if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end())
+    if (!distinct)
     {
-      throw Error("cell " + std::to_string(raw.cells[Corners - 1][c]) +
+      throw Error("cell " + std::to_string(cellOf[c]) +
                   " of the mesh names a point twice, or two points at the same place");
     }
   }
 }
 
-/// Vertices for the points that cells use, in the order of the points.
-void makeVertices(const RawCells& raw, std::size_t pointCount, VertexMaker& maker)
+/// Makes vertices of the points that cells use, and makes the cells name them.
+void makeVertices(
+  const std::vector<Point3>& points, const std::vector<GlobalId>& ids, ConvertedMesh& result)
 {
-  std::vector<unsigned char> used(pointCount, 0);
-  for (const auto& points : raw.points)
+  std::vector<unsigned char> used(points.size(), 0);
+  forEachCorner(result.mesh, [&](Index point) { used[point] = 1; });
+  const std::vector<Index> vertexOf = numberVertices(ids, used);
+  for (std::size_t p = 0; p < points.size(); ++p)
   {
-    for (const vtkIdType point : points)
+    if (vertexOf[p] == static_cast<Index>(result.pointOf.size()))
     {
-      used[point] = 1;
+      checkFinite(points[p], p);
+      result.pointOf.push_back(static_cast<vtkIdType>(p));
+      result.mesh.points.push_back(points[p]);
+      result.mesh.ids.push_back(ids[p]);
     }
   }
-  for (std::size_t p = 0; p < pointCount; ++p)
-  {
-    if (used[p])
-    {
-      maker.vertex(static_cast<vtkIdType>(p));
-    }
-  }
-}
-
-void makeMesh(
-  vtkPointSet* input, const RawCells& raw, const std::vector<GlobalId>& ids, ConvertedMesh& result)
-{
-  VertexMaker maker(input, ids, result);
-  makeVertices(raw, ids.size(), maker);
-  makeCells(raw, maker, result.mesh.vertices);
-  makeCells(raw, maker, result.mesh.segments);
-  makeCells(raw, maker, result.mesh.triangles);
-  makeCells(raw, maker, result.mesh.tetrahedra);
-  result.cellOf = raw.cells;
+  forEachCorner(result.mesh, [&](Index& corner) { corner = vertexOf[corner]; });
+  checkCells(result.mesh.segments, result.cellOf[1]);
+  checkCells(result.mesh.triangles, result.cellOf[2]);
+  checkCells(result.mesh.tetrahedra, result.cellOf[3]);
 }
 
 /// Appends the sorted vertex ids of each cell, filled up with -1.
@@ -266,6 +326,7 @@ void appendKeys(const SimplexMesh& mesh, const std::vector<std::array<Index, Cor
 std::vector<GlobalId> numberCells(RankExchange& exchange, const SimplexMesh& mesh)
 {
   std::vector<Key<4>> keys;
+  keys.reserve(mesh.cellCount());
   appendKeys(mesh, mesh.vertices, keys);
   appendKeys(mesh, mesh.segments, keys);
   appendKeys(mesh, mesh.triangles, keys);
@@ -278,66 +339,17 @@ void setCellIds(RankExchange& exchange, vtkPointSet* input, ConvertedMesh& resul
   vtkDataArray* given = input->GetCellData()->GetGlobalIds();
   const bool usable = !exchange.any(!given && result.mesh.cellCount() > 0);
   const auto numbers = usable ? std::vector<GlobalId>{} : numberCells(exchange, result.mesh);
+  const auto idOf = readIds(usable ? given : nullptr);
   std::size_t next = 0;
   for (int d = 0; d < 4; ++d)
   {
+    result.cellIds[d].reserve(result.cellOf[d].size());
     for (const vtkIdType cell : result.cellOf[d])
     {
-      result.cellIds[d].push_back(
-        usable && given ? static_cast<GlobalId>(given->GetTuple1(cell)) : numbers[next]);
+      result.cellIds[d].push_back(idOf.empty() ? numbers[next] : idOf[cell]);
       ++next;
     }
   }
-}
-
-template<std::size_t Corners>
-void insertCells(const std::vector<std::array<Index, Corners>>& cells, vtkCellArray* output)
-{
-  for (const auto& cell : cells)
-  {
-    output->InsertNextCell(static_cast<vtkIdType>(Corners));
-    for (const Index vertex : cell)
-    {
-      output->InsertCellPoint(vertex);
-    }
-  }
-}
-
-vtkSmartPointer<vtkPointSet> makePolyData(const SimplexMesh& mesh)
-{
-  vtkNew<vtkCellArray> vertices;
-  vtkNew<vtkCellArray> lines;
-  vtkNew<vtkCellArray> triangles;
-  insertCells(mesh.vertices, vertices);
-  insertCells(mesh.segments, lines);
-  insertCells(mesh.triangles, triangles);
-  auto output = vtkSmartPointer<vtkPolyData>::New();
-  output->SetVerts(vertices);
-  output->SetLines(lines);
-  output->SetPolys(triangles);
-  return output;
-}
-
-vtkSmartPointer<vtkPointSet> makeUnstructuredGrid(const SimplexMesh& mesh)
-{
-  vtkNew<vtkCellArray> cells;
-  vtkNew<vtkUnsignedCharArray> types;
-  const auto count = static_cast<vtkIdType>(mesh.cellCount());
-  cells->AllocateExact(count, 4 * count);
-  insertCells(mesh.vertices, cells);
-  insertCells(mesh.segments, cells);
-  insertCells(mesh.triangles, cells);
-  insertCells(mesh.tetrahedra, cells);
-  types->SetNumberOfValues(count);
-  constexpr unsigned char typeOf[4] = { VTK_VERTEX, VTK_LINE, VTK_TRIANGLE, VTK_TETRA };
-  for (int d = 0; d < 4; ++d)
-  {
-    const vtkIdType end = d < 3 ? firstCellOfDimension(mesh, d + 1) : count;
-    std::fill(types->GetPointer(firstCellOfDimension(mesh, d)), types->GetPointer(end), typeOf[d]);
-  }
-  auto output = vtkSmartPointer<vtkUnstructuredGrid>::New();
-  output->SetCells(types, cells);
-  return output;
 }
 
 } // namespace
@@ -345,51 +357,25 @@ vtkSmartPointer<vtkPointSet> makeUnstructuredGrid(const SimplexMesh& mesh)
 ConvertedMesh convert(RankExchange& exchange, vtkPointSet* input)
 {
   ConvertedMesh result;
-  RawCells raw;
-  attempt(exchange, [&] { raw = readCells(input); });
+  attempt(exchange, [&] { readCells(input, result); });
   if (exchange.sum(input->GetNumberOfPoints()) == 0)
   {
     throw Error("the mesh has no points");
   }
   if (exchange.sum(input->GetNumberOfCells()) == 0)
   {
-    addLonePoints(input, raw);
+    addLonePoints(input, result);
   }
-  result.mesh.dimension = highestDimension(exchange, raw);
+  result.mesh.dimension = highestDimension(exchange, result);
   if (result.mesh.dimension == 1)
   {
     throw Error("the mesh is one of lines; CADRefine takes triangles and tetrahedra");
   }
-  const auto ids = pointIds(exchange, input);
-  attempt(exchange, [&] { makeMesh(input, raw, ids, result); });
+  const std::vector<Point3> points = readPoints(input);
+  const auto ids = pointIds(exchange, input, points);
+  attempt(exchange, [&] { makeVertices(points, ids, result); });
   setCellIds(exchange, input, result);
   return result;
-}
-
-vtkIdType firstCellOfDimension(const SimplexMesh& mesh, int dimension)
-{
-  const std::size_t counts[3] = { mesh.vertices.size(), mesh.segments.size(),
-    mesh.triangles.size() };
-  vtkIdType first = 0;
-  for (int d = 0; d < dimension; ++d)
-  {
-    first += static_cast<vtkIdType>(counts[d]);
-  }
-  return first;
-}
-
-vtkSmartPointer<vtkPointSet> makePointSet(vtkPointSet* input, const SimplexMesh& mesh)
-{
-  auto output = vtkPolyData::SafeDownCast(input) ? makePolyData(mesh) : makeUnstructuredGrid(mesh);
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  points->SetNumberOfPoints(static_cast<vtkIdType>(mesh.points.size()));
-  for (std::size_t v = 0; v < mesh.points.size(); ++v)
-  {
-    points->SetPoint(static_cast<vtkIdType>(v), mesh.points[v].data());
-  }
-  output->SetPoints(points);
-  return output;
 }
 
 } // namespace cadrefine

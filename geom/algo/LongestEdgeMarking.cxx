@@ -53,7 +53,7 @@ bool closeTetrahedron(const EdgeOrder& order, const std::array<Index, 6>& edges,
 void markLongestEdges(const SimplexMesh& mesh, const EdgeTable& table,
   const std::vector<unsigned char>& cellMarks, EdgeMarks& marks)
 {
-  const EdgeOrder order(table, mesh.ids);
+  const EdgeOrder order(table);
   for (std::size_t c = 0; c < cellMarks.size(); ++c)
   {
     if (cellMarks[c])
@@ -64,9 +64,9 @@ void markLongestEdges(const SimplexMesh& mesh, const EdgeTable& table,
   }
 }
 
-bool closeMarks(const SimplexMesh& mesh, const EdgeTable& table, EdgeMarks& marks)
+bool closeMarks(const EdgeTable& table, EdgeMarks& marks)
 {
-  const EdgeOrder order(table, mesh.ids);
+  const EdgeOrder order(table);
   bool changedEver = false;
   for (bool changed = true; changed;)
   {

@@ -35,6 +35,6 @@ void markLongestEdges(const SimplexMesh& mesh, const EdgeTable& table,
 /// Rules 2 and 3 within this piece. Returns true where an edge was marked. Work: cells times the
 /// number of sweeps, at most the length of the longest chain of marks within the piece; of cells
 /// without a mark only the marks are looked at.
-bool closeMarks(const SimplexMesh& mesh, const EdgeTable& table, EdgeMarks& marks);
+bool closeMarks(const EdgeTable& table, EdgeMarks& marks);
 
 } // namespace cadrefine

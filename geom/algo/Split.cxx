@@ -25,18 +25,27 @@ SplitMesh withNewPoints(
   return result;
 }
 
-void copyVertices(const SimplexMesh& mesh, SplitMesh& result)
+/// Children of one cell after the other: appends where those of a next cell begin.
+void countChild(std::vector<Index>& firsts, Index children)
 {
-  result.mesh.vertices = mesh.vertices;
-  for (std::size_t c = 0; c < mesh.vertices.size(); ++c)
+  firsts.push_back(firsts.back() + children);
+}
+
+/// Every cell has as many children.
+std::vector<Index> evenChildren(std::size_t cells, Index children)
+{
+  std::vector<Index> firsts(cells + 1);
+  for (std::size_t c = 0; c < firsts.size(); ++c)
   {
-    result.parentCells[0].push_back(static_cast<Index>(c));
+    firsts[c] = static_cast<Index>(c) * children;
   }
+  return firsts;
 }
 
 void splitSegments(
   const SimplexMesh& mesh, const EdgeTable& table, const Midpoints& midpoints, SplitMesh& result)
 {
+  result.mesh.segments.reserve(result.firstChildren[1].back());
   for (std::size_t c = 0; c < mesh.segments.size(); ++c)
   {
     const auto& cell = mesh.segments[c];
@@ -50,7 +59,6 @@ void splitSegments(
       result.mesh.segments.push_back({ cell[0], m });
       result.mesh.segments.push_back({ m, cell[1] });
     }
-    result.parentCells[1].resize(result.mesh.segments.size(), static_cast<Index>(c));
   }
 }
 
@@ -89,41 +97,79 @@ Part<Corners, Edges> withCornerAt(Part<Corners, Edges> part, int corner, Index t
   return part;
 }
 
-template<std::size_t Corners, std::size_t Edges>
-void bisect(const Part<Corners, Edges>& part, const EdgeOrder& order, const Midpoints& midpoints,
-  Simplices<Corners>& cells)
+/// The longest of the edges that are whole and marked, as a place in `edges`, or -1.
+template<std::size_t Edges, class IsMarked>
+int longestMarked(
+  const std::array<Index, Edges>& edges, const EdgeOrder& order, const IsMarked& isMarked)
 {
-  int cut = -1;
+  int longest = -1;
   for (int k = 0; k < static_cast<int>(Edges); ++k)
   {
-    const Index edge = part.edges[k];
-    if (edge >= 0 && midpoints.ofEdge[edge] >= 0 &&
-        (cut < 0 || order.longer(edge, part.edges[cut])))
+    if (edges[k] >= 0 && isMarked(edges[k]) &&
+        (longest < 0 || order.longer(edges[k], edges[longest])))
     {
-      cut = k;
+      longest = k;
     }
   }
+  return longest;
+}
+
+/// Calls use(vertices) for each leaf of the recursive bisection; vertexOf(edge) is its new vertex.
+template<std::size_t Corners, std::size_t Edges, class VertexOf, class Use>
+void bisect(const Part<Corners, Edges>& part, const EdgeOrder& order, const VertexOf& vertexOf,
+  const Use& use)
+{
+  const int cut = longestMarked(part.edges, order, [&](Index edge) { return vertexOf(edge) >= 0; });
   if (cut < 0)
   {
-    cells.push_back(part.vertices);
+    use(part.vertices);
     return;
   }
-  const Index m = midpoints.ofEdge[part.edges[cut]];
+  const Index m = vertexOf(part.edges[cut]);
   const auto ends = edgesOf(part)[cut];
-  bisect(withCornerAt(part, ends[1], m), order, midpoints, cells);
-  bisect(withCornerAt(part, ends[0], m), order, midpoints, cells);
+  bisect(withCornerAt(part, ends[1], m), order, vertexOf, use);
+  bisect(withCornerAt(part, ends[0], m), order, vertexOf, use);
 }
 
 template<std::size_t Corners, std::size_t Edges>
 void bisectAll(const Simplices<Corners>& cells, const std::vector<std::array<Index, Edges>>& edges,
-  const EdgeOrder& order, const Midpoints& midpoints, Simplices<Corners>& children,
-  std::vector<Index>& parents)
+  const EdgeOrder& order, const Midpoints& midpoints, const std::vector<Index>& firstChildren,
+  Simplices<Corners>& children)
 {
+  children.reserve(firstChildren.back());
+  const auto vertexOf = [&](Index edge) { return midpoints.ofEdge[edge]; };
   for (std::size_t c = 0; c < cells.size(); ++c)
   {
-    bisect(Part<Corners, Edges>{ cells[c], edges[c] }, order, midpoints, children);
-    parents.resize(children.size(), static_cast<Index>(c));
+    if (firstChildren[c + 1] - firstChildren[c] == 1)
+    {
+      children.push_back(cells[c]);
+    }
+    else
+    {
+      bisect(Part<Corners, Edges>{ cells[c], edges[c] }, order, vertexOf,
+        [&](const std::array<Index, Corners>& child) { children.push_back(child); });
+    }
   }
+}
+
+template<std::size_t Corners, std::size_t Edges>
+std::vector<Index> countParts(const std::vector<std::array<Index, Edges>>& cellEdges,
+  const EdgeOrder& order, const EdgeMarks& marks)
+{
+  const auto vertexOf = [&](Index edge) { return marks[edge] ? 0 : -1; };
+  std::vector<Index> firsts{ 0 };
+  firsts.reserve(cellEdges.size() + 1);
+  for (const auto& edges : cellEdges)
+  {
+    Index children = 1;
+    if (std::any_of(edges.begin(), edges.end(), [&](Index edge) { return marks[edge] != 0; }))
+    {
+      children = 0;
+      bisect(Part<Corners, Edges>{ {}, edges }, order, vertexOf, [&](const auto&) { ++children; });
+    }
+    countChild(firsts, children);
+  }
+  return firsts;
 }
 
 void splitTriangleUniformly(
@@ -194,30 +240,53 @@ std::array<Index, Edges> midpointsOf(
 Midpoints makeMidpoints(const SimplexMesh& mesh, const EdgeTable& table, const EdgeMarks& marks)
 {
   Midpoints result;
-  result.ofEdge.assign(table.edges().size(), -1);
-  for (std::size_t e = 0; e < table.edges().size(); ++e)
+  result.ofEdge.assign(table.edges.size(), -1);
+  for (std::size_t e = 0; e < table.edges.size(); ++e)
   {
     if (marks[e])
     {
       result.ofEdge[e] = static_cast<Index>(mesh.points.size() + result.edges.size());
       result.edges.push_back(static_cast<Index>(e));
-      result.parentEdges.push_back(table.edges()[e]);
+      result.parentEdges.push_back(table.edges[e]);
     }
   }
   return result;
 }
 
-SplitMesh splitMarked(const SimplexMesh& mesh, const EdgeTable& table, const Midpoints& midpoints,
-  const std::vector<GlobalId>& ids)
+ChildRanges countMarkedChildren(
+  const SimplexMesh& mesh, const EdgeTable& table, const EdgeMarks& marks)
+{
+  const EdgeOrder order(table);
+  ChildRanges firsts;
+  firsts[0] = evenChildren(mesh.vertices.size(), 1);
+  firsts[1] = { 0 };
+  for (const Index edge : table.ofSegments)
+  {
+    countChild(firsts[1], marks[edge] ? 2 : 1);
+  }
+  firsts[2] = countParts<3>(table.ofTriangles, order, marks);
+  firsts[3] = countParts<4>(table.ofTetrahedra, order, marks);
+  return firsts;
+}
+
+ChildRanges countUniformChildren(const SimplexMesh& mesh)
+{
+  return { evenChildren(mesh.vertices.size(), 1), evenChildren(mesh.segments.size(), 2),
+    evenChildren(mesh.triangles.size(), 4), evenChildren(mesh.tetrahedra.size(), 8) };
+}
+
+SplitMesh splitMarked(const SimplexMesh& mesh, const EdgeTable& table, const EdgeMarks& marks,
+  const Midpoints& midpoints, const std::vector<GlobalId>& ids)
 {
   SplitMesh result = withNewPoints(mesh, midpoints, ids);
-  const EdgeOrder order(table, mesh.ids);
-  copyVertices(mesh, result);
+  const EdgeOrder order(table);
+  result.firstChildren = countMarkedChildren(mesh, table, marks);
+  result.mesh.vertices = mesh.vertices;
   splitSegments(mesh, table, midpoints, result);
-  bisectAll<3, 3>(mesh.triangles, table.ofTriangles, order, midpoints, result.mesh.triangles,
-    result.parentCells[2]);
-  bisectAll<4, 6>(mesh.tetrahedra, table.ofTetrahedra, order, midpoints, result.mesh.tetrahedra,
-    result.parentCells[3]);
+  bisectAll<3, 3>(mesh.triangles, table.ofTriangles, order, midpoints, result.firstChildren[2],
+    result.mesh.triangles);
+  bisectAll<4, 6>(mesh.tetrahedra, table.ofTetrahedra, order, midpoints, result.firstChildren[3],
+    result.mesh.tetrahedra);
   return result;
 }
 
@@ -225,19 +294,20 @@ SplitMesh splitUniformly(const SimplexMesh& mesh, const EdgeTable& table,
   const Midpoints& midpoints, const std::vector<GlobalId>& ids)
 {
   SplitMesh result = withNewPoints(mesh, midpoints, ids);
-  copyVertices(mesh, result);
+  result.firstChildren = countUniformChildren(mesh);
+  result.mesh.vertices = mesh.vertices;
   splitSegments(mesh, table, midpoints, result);
+  result.mesh.triangles.reserve(result.firstChildren[2].back());
   for (std::size_t c = 0; c < mesh.triangles.size(); ++c)
   {
     splitTriangleUniformly(
       mesh.triangles[c], midpointsOf(table.ofTriangles[c], midpoints), result.mesh.triangles);
-    result.parentCells[2].resize(result.mesh.triangles.size(), static_cast<Index>(c));
   }
+  result.mesh.tetrahedra.reserve(result.firstChildren[3].back());
   for (std::size_t c = 0; c < mesh.tetrahedra.size(); ++c)
   {
     splitTetrahedronUniformly(result.mesh, mesh.tetrahedra[c],
       midpointsOf(table.ofTetrahedra[c], midpoints), result.mesh.tetrahedra);
-    result.parentCells[3].resize(result.mesh.tetrahedra.size(), static_cast<Index>(c));
   }
   return result;
 }

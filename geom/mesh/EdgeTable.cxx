@@ -1,9 +1,98 @@
 #include "EdgeTable.h"
 
+#include "RadixOrder.h"
+#include "VertexBuckets.h"
+
 #include <utility>
 
 namespace cadrefine
 {
+namespace
+{
+
+/// Vertices in the order of their ids.
+std::vector<Index> orderByIds(const std::vector<GlobalId>& ids)
+{
+  std::vector<PlacedKey> keys(ids.size());
+  for (std::size_t v = 0; v < ids.size(); ++v)
+  {
+    keys[v] = { orderedBits(ids[v]), static_cast<std::uint32_t>(v) };
+  }
+  radixSort(keys);
+  std::vector<Index> order(ids.size());
+  std::transform(keys.begin(), keys.end(), order.begin(),
+    [](const PlacedKey& key) { return static_cast<Index>(key.place); });
+  return order;
+}
+
+/// Calls use(place, a, b) for the sides of the cells in turn, `place` being where the number of the
+/// edge is to stand.
+template<std::size_t Corners, std::size_t Edges, class Use>
+void forEachSide(
+  const Simplices<Corners>& cells, const int (&ends)[Edges][2], std::size_t& place, const Use& use)
+{
+  for (const auto& cell : cells)
+  {
+    for (const auto& [i, k] : ends)
+    {
+      use(place++, cell[i], cell[k]);
+    }
+  }
+}
+
+template<class Use>
+void forEachSide(const SimplexMesh& mesh, const Use& use)
+{
+  constexpr int segmentEdges[1][2] = { { 0, 1 } };
+  std::size_t place = 0;
+  forEachSide(mesh.tetrahedra, tetrahedronEdges, place, use);
+  forEachSide(mesh.triangles, triangleEdges, place, use);
+  forEachSide(mesh.segments, segmentEdges, place, use);
+}
+
+/// A side in the bucket of its end of lower rank: the other end's rank and the side's place in one
+/// number.
+using Side = std::uint64_t;
+
+constexpr int placeBits = 32;
+constexpr Side placeMask = (Side{ 1 } << placeBits) - 1;
+
+/// Where the number of the edge of a side stands.
+class SidePlaces
+{
+public:
+  SidePlaces(const SimplexMesh& mesh, EdgeTable& table)
+    : table_(table), triangles_(6 * mesh.tetrahedra.size()),
+      segments_(triangles_ + 3 * mesh.triangles.size())
+  {
+    table.ofTetrahedra.resize(mesh.tetrahedra.size());
+    table.ofTriangles.resize(mesh.triangles.size());
+    table.ofSegments.resize(mesh.segments.size());
+  }
+
+  Index& operator[](std::size_t place)
+  {
+    return place < triangles_ ? table_.ofTetrahedra[place / 6][place % 6]
+           : place < segments_
+             ? table_.ofTriangles[(place - triangles_) / 3][(place - triangles_) % 3]
+             : table_.ofSegments[place - segments_];
+  }
+
+private:
+  EdgeTable& table_;
+  std::size_t triangles_; ///< Place of the first side of a triangle.
+  std::size_t segments_;
+};
+
+void measureLengths(const SimplexMesh& mesh, EdgeTable& table)
+{
+  table.squaredLengths.resize(table.edges.size());
+  std::transform(table.edges.begin(), table.edges.end(), table.squaredLengths.begin(),
+    [&](const std::array<Index, 2>& ends)
+    { return squaredNorm(mesh.points[ends[1]] - mesh.points[ends[0]]); });
+}
+
+} // namespace
 
 Index EdgeList::find(Index a, Index b) const
 {
@@ -37,38 +126,55 @@ Index EdgeList::findOrAdd(Index a, Index b)
   return edge;
 }
 
+Index EdgeTable::find(Index a, Index b) const
+{
+  const auto [low, high] = std::minmax(rankOfVertex[a], rankOfVertex[b]);
+  const auto last = edges.begin() + firstOfRank[low + 1];
+  const auto found = std::lower_bound(edges.begin() + firstOfRank[low], last, high,
+    [&](const std::array<Index, 2>& ends, Index rank) { return rankOfVertex[ends[1]] < rank; });
+  return found != last && rankOfVertex[(*found)[1]] == high
+           ? static_cast<Index>(found - edges.begin())
+           : -1;
+}
+
 EdgeTable buildEdgeTable(const SimplexMesh& mesh)
 {
   EdgeTable table;
-  table.list = EdgeList(mesh.ids);
-  EdgeList& builder = table.list;
-  table.ofTetrahedra.reserve(mesh.tetrahedra.size());
-  for (const auto& cell : mesh.tetrahedra)
+  const std::vector<Index> order = orderByIds(mesh.ids);
+  table.rankOfVertex.resize(order.size());
+  for (std::size_t rank = 0; rank < order.size(); ++rank)
   {
-    auto& edges = table.ofTetrahedra.emplace_back();
-    for (int k = 0; k < 6; ++k)
+    table.rankOfVertex[order[rank]] = static_cast<Index>(rank);
+  }
+  const auto& ranks = table.rankOfVertex;
+  VertexBuckets<Side> sides(order.size());
+  forEachSide(
+    mesh, [&](std::size_t, Index a, Index b) { sides.count(std::min(ranks[a], ranks[b])); });
+  sides.start();
+  forEachSide(mesh,
+    [&](std::size_t place, Index a, Index b)
     {
-      edges[k] = builder.findOrAdd(cell[tetrahedronEdges[k][0]], cell[tetrahedronEdges[k][1]]);
-    }
-  }
-  table.ofTriangles.reserve(mesh.triangles.size());
-  for (const auto& cell : mesh.triangles)
-  {
-    auto& edges = table.ofTriangles.emplace_back();
-    for (int k = 0; k < 3; ++k)
+      const auto [low, high] = std::minmax(ranks[a], ranks[b]);
+      sides.add(low, static_cast<Side>(high) << placeBits | place);
+    });
+
+  SidePlaces places(mesh, table);
+  table.firstOfRank.reserve(order.size() + 1);
+  sides.forEachSorted(
+    [&](Index rank, const Side* first, const Side* last)
     {
-      edges[k] = builder.findOrAdd(cell[triangleEdges[k][0]], cell[triangleEdges[k][1]]);
-    }
-  }
-  for (const auto& cell : mesh.segments)
-  {
-    table.ofSegments.push_back(builder.findOrAdd(cell[0], cell[1]));
-  }
-  table.squaredLengths.reserve(table.edges().size());
-  for (const auto& ends : table.edges())
-  {
-    table.squaredLengths.push_back(squaredNorm(mesh.points[ends[1]] - mesh.points[ends[0]]));
-  }
+      table.firstOfRank.push_back(static_cast<Index>(table.edges.size()));
+      for (const Side* side = first; side != last; ++side)
+      {
+        if (side == first || *side >> placeBits != *(side - 1) >> placeBits)
+        {
+          table.edges.push_back({ order[rank], order[*side >> placeBits] });
+        }
+        places[*side & placeMask] = static_cast<Index>(table.edges.size()) - 1;
+      }
+    });
+  table.firstOfRank.push_back(static_cast<Index>(table.edges.size()));
+  measureLengths(mesh, table);
   return table;
 }
 

@@ -32,19 +32,27 @@ private:
   std::vector<Index> next_;
 };
 
-/// Edges of a mesh, each once, and those of each cell. Refers to the ids of the mesh.
+/// Edges of a mesh, each once, and those of each cell.
 struct EdgeTable
 {
-  EdgeList list;
+  /// End vertices, the one with the smaller global id first; in ascending order of (smaller id,
+  /// larger id).
+  std::vector<std::array<Index, 2>> edges;
   std::vector<double> squaredLengths;
   std::vector<std::array<Index, 6>> ofTetrahedra;
   std::vector<std::array<Index, 3>> ofTriangles;
   std::vector<Index> ofSegments;
+  /// Place of each vertex in the order of the ids.
+  std::vector<Index> rankOfVertex;
+  /// The edges whose smaller end has rank r: firstOfRank[r] up to firstOfRank[r + 1].
+  std::vector<Index> firstOfRank;
 
-  const std::vector<std::array<Index, 2>>& edges() const { return list.edges(); }
+  /// Number of the edge between two vertices, or -1. Takes the logarithm of the edges there.
+  Index find(Index a, Index b) const;
 };
 
-/// Work and memory linear in the number of cells.
+/// Sorts the sides of all cells by their ends: work and memory linear in the number of cells but
+/// for a logarithm of the sides at a vertex.
 EdgeTable buildEdgeTable(const SimplexMesh& mesh);
 
 /// The total order by which the longest edge is chosen: by (squared length, smaller id, larger id).
@@ -53,26 +61,16 @@ EdgeTable buildEdgeTable(const SimplexMesh& mesh);
 class EdgeOrder
 {
 public:
-  EdgeOrder(const EdgeTable& table, const std::vector<GlobalId>& ids) : table_(table), ids_(ids) {}
+  explicit EdgeOrder(const EdgeTable& table) : lengths_(table.squaredLengths) {}
 
-  /// True where edge `a` is longer than edge `b`.
+  /// True where edge `a` is longer than edge `b`. The edges are numbered by their ids.
   bool longer(Index a, Index b) const
   {
-    const double lengthA = table_.squaredLengths[a];
-    const double lengthB = table_.squaredLengths[b];
-    return lengthA != lengthB ? lengthA > lengthB : longerById(a, b);
+    return lengths_[a] != lengths_[b] ? lengths_[a] > lengths_[b] : a > b;
   }
 
 private:
-  bool longerById(Index a, Index b) const
-  {
-    const auto& endsA = table_.edges()[a];
-    const auto& endsB = table_.edges()[b];
-    return endsA[0] != endsB[0] ? ids_[endsA[0]] > ids_[endsB[0]] : ids_[endsA[1]] > ids_[endsB[1]];
-  }
-
-  const EdgeTable& table_;
-  const std::vector<GlobalId>& ids_;
+  const std::vector<double>& lengths_;
 };
 
 } // namespace cadrefine

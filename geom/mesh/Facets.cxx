@@ -1,5 +1,7 @@
 #include "Facets.h"
 
+#include "VertexBuckets.h"
+
 #include <algorithm>
 
 namespace cadrefine
@@ -7,79 +9,90 @@ namespace cadrefine
 namespace
 {
 
-/// Counts how often each side is met, in a chain of the side's smallest vertex.
-class SideCounter
+/// A side in the bucket of its smallest vertex: the other vertices, ascending (a segment has
+/// one), and its place in the order of the cells and their local sides.
+struct Side
 {
-public:
-  explicit SideCounter(std::size_t vertexCount) : firstOfVertex_(vertexCount, -1) {}
+  std::uint64_t others;
+  std::size_t place;
 
-  void add(const Facet& side)
-  {
-    std::array<Index, 3> key = side.vertices;
-    std::sort(key.begin(), key.end());
-    const Index first = key[0] >= 0 ? key[0] : key[1];
-    for (Index s = firstOfVertex_[first]; s >= 0; s = next_[s])
-    {
-      if (keys_[s] == key)
-      {
-        met_[s] = 2;
-        return;
-      }
-    }
-    next_.push_back(firstOfVertex_[first]);
-    firstOfVertex_[first] = static_cast<Index>(keys_.size());
-    keys_.push_back(key);
-    sides_.push_back(side);
-    met_.push_back(1);
-  }
-
-  std::vector<Facet> metOnce() const
-  {
-    std::vector<Facet> result;
-    for (std::size_t s = 0; s < sides_.size(); ++s)
-    {
-      if (met_[s] == 1)
-      {
-        result.push_back(sides_[s]);
-      }
-    }
-    return result;
-  }
-
-private:
-  std::vector<Index> firstOfVertex_;
-  std::vector<Index> next_;
-  std::vector<std::array<Index, 3>> keys_;
-  std::vector<Facet> sides_;
-  std::vector<unsigned char> met_;
+  friend bool operator<(const Side& a, const Side& b) { return a.others < b.others; }
 };
+
+template<class Use, std::size_t Corners, std::size_t Sides, std::size_t SideCorners>
+void forEachSide(
+  const Simplices<Corners>& cells, const int (&sides)[Sides][SideCorners], const Use& use)
+{
+  std::size_t place = 0;
+  for (const auto& cell : cells)
+  {
+    for (const auto& side : sides)
+    {
+      std::array<Index, SideCorners> vertices;
+      for (std::size_t k = 0; k < SideCorners; ++k)
+      {
+        vertices[k] = cell[side[k]];
+      }
+      std::sort(vertices.begin(), vertices.end());
+      const auto second = SideCorners == 3 ? static_cast<std::uint64_t>(vertices[1]) : 0;
+      const auto last = static_cast<std::uint64_t>(vertices.back());
+      use(vertices[0], Side{ second << 32 | last, place });
+      ++place;
+    }
+  }
+}
+
+/// Places of the sides that are met once, ascending.
+template<std::size_t Corners, std::size_t Sides, std::size_t SideCorners>
+std::vector<std::size_t> metOnce(
+  std::size_t vertexCount, const Simplices<Corners>& cells, const int (&sides)[Sides][SideCorners])
+{
+  VertexBuckets<Side> buckets(vertexCount);
+  forEachSide(cells, sides, [&](Index vertex, const Side&) { buckets.count(vertex); });
+  buckets.start();
+  forEachSide(cells, sides, [&](Index vertex, const Side& side) { buckets.add(vertex, side); });
+  std::vector<std::size_t> places;
+  buckets.forEachSorted(
+    [&](Index, const Side* first, const Side* last)
+    {
+      while (first != last)
+      {
+        const Side* next =
+          std::find_if(first, last, [&](const Side& side) { return side.others != first->others; });
+        if (next - first == 1)
+        {
+          places.push_back(first->place);
+        }
+        first = next;
+      }
+    });
+  std::sort(places.begin(), places.end());
+  return places;
+}
+
+template<std::size_t Corners, std::size_t Sides, std::size_t SideCorners>
+std::vector<Facet> outerFacets(
+  std::size_t vertexCount, const Simplices<Corners>& cells, const int (&sides)[Sides][SideCorners])
+{
+  std::vector<Facet> facets;
+  for (const std::size_t place : metOnce(vertexCount, cells, sides))
+  {
+    const std::size_t cell = place / Sides;
+    Facet& facet = facets.emplace_back();
+    facet.vertices.fill(-1);
+    std::transform(std::begin(sides[place % Sides]), std::end(sides[place % Sides]),
+      facet.vertices.begin(), [&](int corner) { return cells[cell][corner]; });
+    facet.cell = static_cast<Index>(cell);
+  }
+  return facets;
+}
 
 } // namespace
 
 std::vector<Facet> findOuterFacets(const SimplexMesh& mesh)
 {
-  SideCounter counter(mesh.points.size());
-  if (mesh.dimension == 3)
-  {
-    for (std::size_t c = 0; c < mesh.tetrahedra.size(); ++c)
-    {
-      const auto& cell = mesh.tetrahedra[c];
-      for (const auto& face : tetrahedronFaces)
-      {
-        counter.add({ { cell[face[0]], cell[face[1]], cell[face[2]] }, static_cast<Index>(c) });
-      }
-    }
-    return counter.metOnce();
-  }
-  for (std::size_t c = 0; c < mesh.triangles.size(); ++c)
-  {
-    const auto& cell = mesh.triangles[c];
-    for (const auto& edge : triangleEdges)
-    {
-      counter.add({ { cell[edge[0]], cell[edge[1]], -1 }, static_cast<Index>(c) });
-    }
-  }
-  return counter.metOnce();
+  return mesh.dimension == 3 ? outerFacets(mesh.points.size(), mesh.tetrahedra, tetrahedronFaces)
+                             : outerFacets(mesh.points.size(), mesh.triangles, triangleEdges);
 }
 
 std::vector<Facet> facetsOfSurface(const SimplexMesh& mesh)

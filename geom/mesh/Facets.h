@@ -18,7 +18,8 @@ struct Facet
 };
 
 /// Sides of the cells of the mesh's own dimension that are met once in this piece: of tetrahedra,
-/// or of triangles. In the order of the cells. Work and memory linear in the number of cells.
+/// or of triangles. In the order of the cells. Sorts the sides by their vertices: work and memory
+/// linear in the number of cells but for a logarithm of the sides at a vertex.
 std::vector<Facet> findOuterFacets(const SimplexMesh& mesh);
 
 /// The triangles of a mesh in space, each a facet.

@@ -21,7 +21,7 @@ SplitMesh split(const SimplexMesh& mesh, const EdgeTable& table, const EdgeMarks
   const Midpoints midpoints = makeMidpoints(mesh, table, marks);
   std::vector<GlobalId> ids(midpoints.edges.size());
   std::iota(ids.begin(), ids.end(), GlobalId{ 1000 });
-  return splitMarked(mesh, table, midpoints, ids);
+  return splitMarked(mesh, table, marks, midpoints, ids);
 }
 
 EdgeMarks marksOf(unsigned long subset, std::size_t count)
@@ -77,6 +77,8 @@ TEST(Bisection, ofEverySubsetOfTheEdgesOfATetrahedronIsValid)
       EXPECT_NEAR(cadtest::measureOf(result.mesh), cadtest::measureOf(mesh), 1e-15);
       EXPECT_EQ(result.parentEdges.size(), std::bitset<6>(subset).count());
       EXPECT_GT(result.mesh.tetrahedra.size(), std::bitset<6>(subset).count());
+      EXPECT_EQ(result.firstChildren[3],
+        (std::vector<Index>{ 0, static_cast<Index>(result.mesh.tetrahedra.size()) }));
     }
   }
 }
@@ -87,7 +89,7 @@ TEST(Bisection, ofEverySubsetConformsWithEveryNeighbour)
   {
     const SimplexMesh mesh = twoTetrahedra(seed);
     const EdgeTable table = buildEdgeTable(mesh);
-    ASSERT_EQ(table.edges().size(), 9u);
+    ASSERT_EQ(table.edges.size(), 9u);
     for (unsigned long subset = 0; subset < 512; ++subset)
     {
       const SimplexMesh fine = split(mesh, table, marksOf(subset, 9)).mesh;
@@ -148,7 +150,7 @@ TEST(Bisection, withoutMarksChangesNothing)
 {
   const SimplexMesh mesh = cadtest::cubeMesh(2, 0.2, 1);
   const EdgeTable table = buildEdgeTable(mesh);
-  const SplitMesh result = split(mesh, table, EdgeMarks(table.edges().size(), 0));
+  const SplitMesh result = split(mesh, table, EdgeMarks(table.edges.size(), 0));
   EXPECT_EQ(result.mesh.tetrahedra, mesh.tetrahedra);
   EXPECT_EQ(result.mesh.points, mesh.points);
 }

@@ -118,15 +118,15 @@ std::set<IdPair> bruteForce(const SimplexMesh& mesh, const std::vector<unsigned 
 struct Closure
 {
   Closure(const SimplexMesh& mesh, const std::vector<unsigned char>& cellMarks)
-    : table(buildEdgeTable(mesh)), marks(table.edges().size(), 0)
+    : table(buildEdgeTable(mesh)), marks(table.edges.size(), 0)
   {
     markLongestEdges(mesh, table, cellMarks, marks);
-    closeMarks(mesh, table, marks);
+    closeMarks(table, marks);
     for (std::size_t e = 0; e < marks.size(); ++e)
     {
       if (marks[e])
       {
-        ids.insert({ mesh.ids[table.edges()[e][0]], mesh.ids[table.edges()[e][1]] });
+        ids.insert({ mesh.ids[table.edges[e][0]], mesh.ids[table.edges[e][1]] });
       }
     }
   }
@@ -210,7 +210,7 @@ TEST_P(LongestEdge, closedMarksStayAsTheyAre)
 {
   const SimplexMesh mesh = this->mesh(13);
   Closure closure(mesh, someCells(mesh, 14));
-  EXPECT_FALSE(closeMarks(mesh, closure.table, closure.marks));
+  EXPECT_FALSE(closeMarks(closure.table, closure.marks));
 }
 
 /// Six rounds of refinement near a corner: the mesh stays whole and its cells do not degenerate.
@@ -229,7 +229,7 @@ TEST_P(LongestEdge, bisectionKeepsMeshesConforming)
     std::vector<GlobalId> ids(midpoints.edges.size());
     std::iota(ids.begin(), ids.end(), static_cast<GlobalId>(mesh.points.size()));
     const std::size_t before = mesh.cellCount();
-    mesh = splitMarked(mesh, closure.table, midpoints, ids).mesh;
+    mesh = splitMarked(mesh, closure.table, closure.marks, midpoints, ids).mesh;
     EXPECT_GT(mesh.cellCount(), before);
     EXPECT_TRUE(cadtest::isValid(mesh));
     EXPECT_TRUE(cadtest::hasNoHangingVertex(mesh));

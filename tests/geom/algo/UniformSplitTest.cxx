@@ -20,7 +20,7 @@ struct Uniform
 {
   explicit Uniform(const SimplexMesh& mesh) : table(buildEdgeTable(mesh))
   {
-    const EdgeMarks marks(table.edges().size(), 1);
+    const EdgeMarks marks(table.edges.size(), 1);
     const Midpoints midpoints = makeMidpoints(mesh, table, marks);
     std::vector<GlobalId> ids(midpoints.edges.size());
     std::iota(ids.begin(), ids.end(), static_cast<GlobalId>(mesh.points.size()));
@@ -72,7 +72,7 @@ TEST_P(Diagonal, isTheShortestAndItsChildrenAreValid)
   EXPECT_NEAR(cadtest::measureOf(fine), cadtest::measureOf(mesh), 1e-15);
   std::vector<int> axes;
   const EdgeTable table = buildEdgeTable(fine);
-  for (const auto& [a, b] : table.edges())
+  for (const auto& [a, b] : table.edges)
   {
     const Vector3 along = fine.points[b] - fine.points[a];
     const Point3 middle = 0.5 * (fine.points[a] + fine.points[b]);
@@ -93,7 +93,7 @@ TEST(UniformSplit, choosesAmongEqualDiagonalsByIds)
   {
     const SimplexMesh fine = Uniform(coarse).split.mesh;
     const EdgeTable table = buildEdgeTable(fine);
-    for (const auto& [a, b] : table.edges())
+    for (const auto& [a, b] : table.edges)
     {
       if (norm(fine.points[a] + fine.points[b]) == 0)
       {
@@ -151,9 +151,9 @@ TEST_P(UniformMesh, namesParents)
   const SimplexMesh mesh = this->mesh(2);
   const Uniform uniform(mesh);
   const auto& split = uniform.split;
-  const auto& parents = split.parentCells[GetParam()];
-  ASSERT_EQ(parents.size(), split.mesh.tetrahedra.size() + split.mesh.triangles.size());
-  EXPECT_TRUE(std::is_sorted(parents.begin(), parents.end()));
+  const auto& firsts = split.firstChildren[GetParam()];
+  ASSERT_EQ(firsts.size(), mesh.tetrahedra.size() + mesh.triangles.size() + 1);
+  EXPECT_EQ(firsts.back(), static_cast<Index>(split.mesh.cellCount()));
   ASSERT_EQ(split.parentEdges.size() + mesh.points.size(), split.mesh.points.size());
   for (std::size_t n = 0; n < split.parentEdges.size(); ++n)
   {
