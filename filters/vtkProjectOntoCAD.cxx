@@ -9,6 +9,7 @@
 #include <vtkPointSet.h>
 
 #include <algorithm>
+#include <string>
 
 vtkStandardNewMacro(vtkProjectOntoCAD);
 
@@ -44,6 +45,12 @@ void vtkProjectOntoCAD::Execute(cadrefine::RankExchange& exchange, vtkPointSet* 
   {
     const DistributedBoundary boundary = findBoundary(exchange, mesh, *model);
     const BoundaryProjector projector(*model, boundary.kind);
+    const std::string warning = warningOfInvalidCells(exchange, mesh);
+    options.mendCells = !warning.empty();
+    if (options.mendCells && exchange.rank() == 0)
+    {
+      vtkWarningMacro(<< warning);
+    }
     result = projectBoundary(exchange, mesh, projector, boundary, options);
   }
 

@@ -37,6 +37,7 @@ public:
   {
     vtkSmartPointer<vtkPointSet> source = input;
     this->Load(source);
+    this->LookForInvalidCells();
     RefinementPlan plan = this->MakePlan();
     if (this->Settings->GetBalance() && this->Exchange.size() > 1)
     {
@@ -73,6 +74,25 @@ private:
       throw Error("the mesh has no triangles or tetrahedra to refine");
     }
     this->Arrays = readArrays(source, this->Mesh.converted);
+  }
+
+  void LookForInvalidCells()
+  {
+    const std::string warning = warningOfInvalidCells(this->Exchange, this->Mesh);
+    this->HasInvalidCells = !warning.empty();
+    if (this->HasInvalidCells && this->Exchange.rank() == 0)
+    {
+      vtkWarningWithObjectMacro(this->Settings, << warning);
+    }
+  }
+
+  NewVertices WhatBecomesOfNewVertices() const
+  {
+    if (!this->Settings->GetProjectNewVertices())
+    {
+      return NewVertices::StayStraight;
+    }
+    return this->HasInvalidCells ? NewVertices::MoveAndMend : NewVertices::MoveOntoCAD;
   }
 
   /// The data set with its cells where the plan makes equal work; `source` itself if they are.
@@ -147,12 +167,10 @@ private:
 
   void RefineOnce(const RefinementPlan& plan)
   {
-    const auto newVertices = this->Settings->GetProjectNewVertices() ? NewVertices::MoveOntoCAD
-                                                                     : NewVertices::StayStraight;
-    const RefinementTrace trace = this->Classified
-                                    ? refineOntoCAD(this->Exchange, this->Mesh, plan, this->Model,
-                                        this->Positions, newVertices, this->Statistics)
-                                    : refine(this->Exchange, this->Mesh, plan, this->Statistics);
+    const RefinementTrace trace =
+      this->Classified ? refineOntoCAD(this->Exchange, this->Mesh, plan, this->Model,
+                           this->Positions, this->WhatBecomesOfNewVertices(), this->Statistics)
+                       : refine(this->Exchange, this->Mesh, plan, this->Statistics);
     this->ProjectedPoints += trace.projectedPoints;
     const auto watch = this->Watch("seconds copying fields");
     this->Arrays = refineArrays(this->Arrays, trace.parentEdges, trace.firstChildren);
@@ -184,7 +202,8 @@ private:
   RunStatistics& Statistics;
   DistributedMesh Mesh;
   MeshArrays Arrays;
-  bool Classified = false; ///< The mesh knows its places on the CAD.
+  bool Classified = false;      ///< The mesh knows its places on the CAD.
+  bool HasInvalidCells = false; ///< Of the input.
   Classification Positions;
   std::int64_t ProjectedPoints = 0;
 };

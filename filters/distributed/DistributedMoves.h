@@ -1,6 +1,8 @@
-// Moving vertices over all ranks without inverting a cell.
+// Moving vertices onto the CAD over all ranks without inverting a cell.
 #pragma once
 
+#include "BoundaryProjector.h"
+#include "CADArrays.h"
 #include "DistributedMesh.h"
 #include "Relocation.h"
 
@@ -9,18 +11,37 @@
 namespace cadrefine
 {
 
-/// Moves the vertices of `moves` as far to their targets as all cells stay valid, on all ranks, and
-/// writes the new positions into the mesh. Where a vertex stops on the way, interior vertices
-/// around it are moved out of its way and it tries again, a few times, while that helps.
-/// `onBoundary` tells the vertices that are not interior (over all ranks); of these only those in
-/// `moves` move.
+/// What moveOntoCAD needs to know beside the mesh.
+struct MoveSettings
+{
+  const BoundaryProjector& projector;
+  /// 1 for vertices that are not interior, over all ranks.
+  const std::vector<unsigned char>& onBoundary;
+  /// Cells that are inverted or flat at the start are to be mended too.
+  bool mendCells = false;
+};
+
+/// Moves the vertices of `moves` as far to their targets as all cells stay valid, on all ranks;
+/// writes the new positions into the mesh, and the distances that are left into the classification.
+///
+///   1. The moves are made straight, and halved where cells do not accept them (see MoveGuard).
+///   2. Where vertices stopped on the way: they are put to their targets in mind, and the interior
+///      vertices of the cells round them are moved to where all cells are valid and well shaped
+///      (see PatchOptimiser). From where they are, all go there, guarded as before.
+///   3. Again, with more rings of cells round what is left, and from the third round on with the
+///      vertices of the CAD sliding on their own faces and edges: until all are there, or nothing
+///      has come of a few rounds.
+///   4. What is left stays where it stopped, and the cells round it are smoothed once more.
 ///
 /// The result does not depend on the partition: decisions are minima over the cells at a vertex,
-/// and positions are sums of whole numbers (see MoveGuard, proposeInteriorPositions).
+/// and vertices are moved in an order that their ids give. It ends: a vertex's way is halved a few
+/// times at most, and rounds and sweeps are limited.
 ///
-/// Returns for each vertex how far it still is from its target. Collective. Each sweep costs one
-/// message to each neighbour, of 8 bytes a shared vertex.
-std::vector<double> moveVertices(RankExchange& exchange, DistributedMesh& mesh, const Moves& moves,
-  const std::vector<unsigned char>& onBoundary);
+/// Collective. Where nothing stops: one look at each cell, one reduction, and one exchange of 8
+/// bytes a shared vertex. A halving costs as much, but for cells whose vertices move only. A round:
+/// some more looks at all cells, and a few sweeps over those round the stopped vertices (see
+/// MovingPatch).
+void moveOntoCAD(RankExchange& exchange, DistributedMesh& mesh, const Moves& moves,
+  Classification& classification, const MoveSettings& settings);
 
 } // namespace cadrefine

@@ -285,7 +285,8 @@ RefinementTrace refineOntoCAD(RankExchange& exchange, DistributedMesh& mesh,
     return trace;
   }
   const Moves moves = movesOntoCAD(mesh.mesh(), hits, projector, classification);
-  classification.distances = moveVertices(exchange, mesh, moves, onBoundary);
+  moveOntoCAD(exchange, mesh, moves, classification,
+    { projector, onBoundary, newVertices == NewVertices::MoveAndMend });
   return trace;
 }
 

@@ -55,6 +55,7 @@ RefinementTrace refine(RankExchange& exchange, DistributedMesh& mesh, const Refi
 enum class NewVertices
 {
   MoveOntoCAD,
+  MoveAndMend, ///< The same, and cells that are inverted or flat are mended (see MoveSettings).
   StayStraight ///< They are classified, and keep their distance from the CAD.
 };
 

@@ -100,7 +100,8 @@ ProjectionResult projectBoundary(RankExchange& exchange, DistributedMesh& mesh,
       moves.add(static_cast<Index>(v), hits[v].point);
     }
   }
-  result.classification.distances = moveVertices(exchange, mesh, moves, boundary.onBoundary);
+  moveOntoCAD(exchange, mesh, moves, result.classification,
+    { projector, boundary.onBoundary, options.mendCells });
   result.projectedPoints = nearest.asked;
   result.balance = nearest.balance;
   return result;

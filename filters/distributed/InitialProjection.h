@@ -31,7 +31,7 @@ struct ProjectionResult
 ///   3. mesh edges between them find the CAD edges that they run along, and put their ends onto
 ///      these; other vertices stay with the faces around them (see placeVertices);
 ///   4. CAD vertices go to mesh vertices, one to one (see giveCorners);
-///   5. the vertices move as far as all cells stay valid (see moveVertices).
+///   5. the vertices move as far as all cells stay valid (see moveOntoCAD).
 /// Work: one whole-model query for each boundary vertex; some for facets where faces meet and for
 /// mesh edges along CAD edges; all shared out evenly over ranks and threads. Collective.
 ProjectionResult projectBoundary(RankExchange& exchange, DistributedMesh& mesh,

@@ -1,5 +1,6 @@
 #include "MeshSummary.h"
 
+#include "MeshPlane.h"
 #include "Orientation.h"
 #include "Quality.h"
 
@@ -17,32 +18,6 @@ namespace cadrefine
 {
 namespace
 {
-
-/// Unit normal of the coordinate plane in which all triangles lie, turned the way most of them
-/// turn; zero where there is no such plane.
-Vector3 planeNormal(RankExchange& exchange, const SimplexMesh& mesh)
-{
-  std::vector<std::int64_t> turns(3, 0);
-  std::vector<std::int64_t> outside(3, 0);
-  for (const auto& cell : mesh.triangles)
-  {
-    const Vector3 area =
-      twofoldAreaVector(mesh.points[cell[0]], mesh.points[cell[1]], mesh.points[cell[2]]);
-    for (int k = 0; k < 3; ++k)
-    {
-      turns[k] += (area[k] > 0) - (area[k] < 0);
-      outside[k] += area[(k + 1) % 3] != 0 || area[(k + 2) % 3] != 0;
-    }
-  }
-  turns = exchange.sum(turns);
-  outside = exchange.sum(outside);
-  Vector3 normal{};
-  for (int k = 0; k < 3; ++k)
-  {
-    normal[k] = outside[k] == 0 ? (turns[k] < 0 ? -1 : 1) : 0;
-  }
-  return squaredNorm(normal) == 1 ? normal : Vector3{};
-}
 
 void add(CellQualities& qualities, double ratio, bool valid)
 {
@@ -85,6 +60,15 @@ CellQualities measureQuality(RankExchange& exchange, const DistributedMesh& mesh
   result.invalidCells = exchange.sum(invalid);
   result.minimum = exchange.min(minimum);
   return result;
+}
+
+std::string warningOfInvalidCells(RankExchange& exchange, const DistributedMesh& mesh)
+{
+  const std::int64_t count = measureQuality(exchange, mesh).invalidCells;
+  return count == 0 ? std::string()
+                    : "the input mesh has " + std::to_string(count) +
+                        " inverted or degenerate cells; those that moving vertices can mend are "
+                        "mended while vertices move onto the CAD";
 }
 
 void setFieldValue(vtkPointSet* output, const char* name, double value)

@@ -5,6 +5,8 @@
 #include "DistributedMesh.h"
 
 #include <cstdint>
+#include <string>
+#include <vector>
 
 class vtkPointSet;
 
@@ -25,6 +27,10 @@ struct CellQualities
 /// Both are decided exactly (see orientation); the mean ratio is a measure in floating point.
 /// Collective; two reductions.
 CellQualities measureQuality(RankExchange& exchange, const DistributedMesh& mesh);
+
+/// What to tell the user of invalid cells in the input; empty where there are none. The same on
+/// every rank; collective.
+std::string warningOfInvalidCells(RankExchange& exchange, const DistributedMesh& mesh);
 
 /// Adds a field array of one value to `output`.
 void setFieldValue(vtkPointSet* output, const char* name, double value);

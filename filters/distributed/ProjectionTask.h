@@ -21,6 +21,8 @@ struct ProjectionOptions
   /// Vertices farther from the CAD stay; 0: a vertex's longest boundary edge (points alone: no
   /// limit).
   double maximumDistance = 0;
+  /// Cells that are inverted or flat are to be mended (see MoveSettings).
+  bool mendCells = false;
 
   bool inRegion(const Point3& p) const
   {

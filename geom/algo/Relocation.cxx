@@ -1,5 +1,6 @@
 #include "Relocation.h"
 
+#include "Orientation.h"
 #include "Quality.h"
 
 #include <algorithm>
@@ -12,62 +13,55 @@ namespace
 
 const double smallestFraction = std::ldexp(1.0, -MoveGuard::maximumHalvings);
 
-bool accepts(double before, double after)
+CellState stateAt(const std::array<Point3, 4>& p, const Vector3&)
 {
-  return before > 0 ? after >= std::min(MoveGuard::qualityFloor, 0.5 * before) : after >= before;
+  return { orientation(p[0], p[1], p[2], p[3]) > 0, meanRatio(p[0], p[1], p[2], p[3]) };
 }
 
-/// Mean ratio of a triangle, negative where its normal has turned against `reference`.
-double orientedMeanRatio(
-  const Point3& a, const Point3& b, const Point3& c, const Vector3& reference)
+CellState stateAt(const std::array<Point3, 3>& p, const Vector3& side)
 {
-  const Vector3 normal = twofoldAreaVector(a, b, c);
-  return std::copysign(meanRatio(a, b, c), dot(normal, reference));
+  const int turn = turnOf(p[0], p[1], p[2], side);
+  return { turn > 0, std::copysign(meanRatio(p[0], p[1], p[2]), turn) };
 }
 
-/// Whether the cell stays good, by its state at the reference points `p`; called for the cells with
-/// a vertex that moves.
-bool acceptsMoves(const SimplexMesh& mesh, const std::vector<Point3>& p,
-  const std::array<Index, 4>& cell, const Moves& moves)
-{
-  const auto at = [&](int k) { return moves.position(mesh, cell[k]); };
-  return accepts(meanRatio(p[cell[0]], p[cell[1]], p[cell[2]], p[cell[3]]),
-    meanRatio(at(0), at(1), at(2), at(3)));
-}
-
-bool acceptsMoves(const SimplexMesh& mesh, const std::vector<Point3>& p,
-  const std::array<Index, 3>& cell, const Moves& moves)
-{
-  const auto at = [&](int k) { return moves.position(mesh, cell[k]); };
-  return accepts(meanRatio(p[cell[0]], p[cell[1]], p[cell[2]]),
-    orientedMeanRatio(at(0), at(1), at(2), twofoldAreaVector(p[cell[0]], p[cell[1]], p[cell[2]])));
-}
-
-/// Vertices of cells that do not accept.
 template<std::size_t Corners>
-void collectUnaccepted(const SimplexMesh& mesh, const std::vector<Point3>& reference,
-  const std::vector<std::array<Index, Corners>>& cells, const Moves& moves,
-  std::vector<Index>& vertices)
+std::array<Point3, Corners> pointsOf(
+  const std::array<Index, Corners>& cell, const std::vector<Point3>& points)
 {
-  for (const auto& cell : cells)
-  {
-    const bool moving = std::any_of(
-      cell.begin(), cell.end(), [&](Index vertex) { return moves.fractions[vertex] > 0; });
-    if (moving && !acceptsMoves(mesh, reference, cell, moves))
-    {
-      vertices.insert(vertices.end(), cell.begin(), cell.end());
-    }
-  }
+  std::array<Point3, Corners> result;
+  std::transform(cell.begin(), cell.end(), result.begin(), [&](Index v) { return points[v]; });
+  return result;
+}
+
+Vector3 sideOf(const std::array<Index, 4>&, const std::vector<Point3>&, const Vector3&)
+{
+  return {};
+}
+
+Vector3 sideOf(
+  const std::array<Index, 3>& cell, const std::vector<Point3>& points, const Vector3& plane)
+{
+  return plane != Vector3{} ? plane
+                            : twofoldAreaVector(points[cell[0]], points[cell[1]], points[cell[2]]);
 }
 
 } // namespace
 
-Moves::Moves(const SimplexMesh& mesh) : targets(mesh.points), fractions(mesh.points.size(), 0.0) {}
+Moves::Moves(const SimplexMesh& mesh)
+  : targets(mesh.points), fractions(mesh.points.size(), 0.0), whole(mesh.points.size(), 0)
+{
+}
 
 void Moves::add(Index vertex, const Point3& target)
 {
   targets[vertex] = target;
   fractions[vertex] = 1;
+}
+
+void Moves::addWhole(Index vertex, const Point3& target)
+{
+  add(vertex, target);
+  whole[vertex] = 1;
 }
 
 Point3 Moves::position(const SimplexMesh& mesh, Index vertex) const
@@ -81,16 +75,84 @@ Point3 Moves::position(const SimplexMesh& mesh, Index vertex) const
   return fraction == 0 ? start : start + fraction * (targets[vertex] - start);
 }
 
+CellState stateOf(
+  const std::array<Index, 4>& cell, const std::vector<Point3>& points, const Vector3& side)
+{
+  return stateAt(pointsOf(cell, points), side);
+}
+
+CellState stateOf(
+  const std::array<Index, 3>& cell, const std::vector<Point3>& points, const Vector3& side)
+{
+  return stateAt(pointsOf(cell, points), side);
+}
+
+MoveGuard::MoveGuard(const SimplexMesh& mesh, const Moves& moves,
+  const std::vector<Point3>& reference, const Vector3& plane)
+  : mesh_(mesh)
+{
+  if (mesh.dimension == 3)
+  {
+    collect(mesh.tetrahedra, moves, reference, plane);
+  }
+  else
+  {
+    collect(mesh.triangles, moves, reference, plane);
+  }
+}
+
+template<std::size_t Corners>
+void MoveGuard::collect(const Simplices<Corners>& cells, const Moves& moves,
+  const std::vector<Point3>& reference, const Vector3& plane)
+{
+  for (std::size_t c = 0; c < cells.size(); ++c)
+  {
+    const auto& cell = cells[c];
+    if (std::none_of(
+          cell.begin(), cell.end(), [&](Index vertex) { return moves.fractions[vertex] > 0; }))
+    {
+      continue;
+    }
+    const Vector3 side = sideOf(cell, reference, plane);
+    CellState before = stateOf(cell, reference, side);
+    if (!before.valid)
+    {
+      before = stateOf(cell, mesh_.points, side); // once mended, it stays so
+    }
+    const double least =
+      before.valid ? std::min(qualityFloor, 0.5 * before.quality) : before.quality;
+    guarded_.push_back({ static_cast<Index>(c), before, least, side });
+  }
+}
+
+template<std::size_t Corners>
+void MoveGuard::findUnaccepted(
+  const Simplices<Corners>& cells, const Moves& moves, std::vector<Index>& vertices) const
+{
+  for (const GuardedCell& guarded : guarded_)
+  {
+    const auto& cell = cells[guarded.cell];
+    std::array<Point3, Corners> points;
+    std::transform(cell.begin(), cell.end(), points.begin(),
+      [&](Index vertex) { return moves.position(mesh_, vertex); });
+    const CellState after = stateAt(points, guarded.side);
+    if (after.valid < guarded.before.valid || !(after.quality >= guarded.leastQuality))
+    {
+      vertices.insert(vertices.end(), cell.begin(), cell.end());
+    }
+  }
+}
+
 bool MoveGuard::halveUnaccepted(Moves& moves) const
 {
   std::vector<Index> vertices;
   if (mesh_.dimension == 3)
   {
-    collectUnaccepted(mesh_, reference_, mesh_.tetrahedra, moves, vertices);
+    findUnaccepted(mesh_.tetrahedra, moves, vertices);
   }
   else
   {
-    collectUnaccepted(mesh_, reference_, mesh_.triangles, moves, vertices);
+    findUnaccepted(mesh_.triangles, moves, vertices);
   }
   std::sort(vertices.begin(), vertices.end());
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
@@ -100,11 +162,40 @@ bool MoveGuard::halveUnaccepted(Moves& moves) const
     double& fraction = moves.fractions[vertex];
     if (fraction > 0)
     {
-      fraction = fraction > smallestFraction ? 0.5 * fraction : 0;
+      fraction = fraction > smallestFraction && !moves.whole[vertex] ? 0.5 * fraction : 0;
       halved = true;
     }
   }
   return halved;
+}
+
+template<std::size_t Corners>
+void MoveGuard::findSpoilt(
+  const Simplices<Corners>& cells, double part, std::vector<Index>& vertices) const
+{
+  for (const GuardedCell& guarded : guarded_)
+  {
+    const auto& cell = cells[guarded.cell];
+    const CellState now = stateOf(cell, mesh_.points, guarded.side);
+    if (guarded.before.valid && now.quality < part * guarded.before.quality)
+    {
+      vertices.insert(vertices.end(), cell.begin(), cell.end());
+    }
+  }
+}
+
+std::vector<Index> MoveGuard::verticesOfSpoiltCells(double part) const
+{
+  std::vector<Index> vertices;
+  if (mesh_.dimension == 3)
+  {
+    findSpoilt(mesh_.tetrahedra, part, vertices);
+  }
+  else
+  {
+    findSpoilt(mesh_.triangles, part, vertices);
+  }
+  return vertices;
 }
 
 } // namespace cadrefine

@@ -8,8 +8,9 @@ cadrefine_geom_test(algo_tests
     algo/BoundaryProjectorTest.cxx
     algo/FaceFinderTest.cxx
     algo/GeometricErrorTest.cxx
-    algo/InteriorSmoothingTest.cxx
     algo/LongestEdgeMarkingTest.cxx
     algo/MoveGuardTest.cxx
+    algo/PatchOptimiserTest.cxx
+    algo/ShapeEnergyTest.cxx
     algo/UniformSplitTest.cxx
   LINKS CADRefineTestSupport)

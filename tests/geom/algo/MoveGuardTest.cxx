@@ -1,5 +1,6 @@
 // Moves that must not spoil a cell: it may collapse, invert, or have been poor from the start.
 
+#include "Orientation.h"
 #include "Quality.h"
 #include "Relocation.h"
 #include "TestMeshes.h"
@@ -16,7 +17,7 @@ using namespace cadrefine;
 /// Sweeps until nothing is halved; the number of sweeps.
 int settle(const SimplexMesh& mesh, Moves& moves)
 {
-  const MoveGuard guard(mesh);
+  const MoveGuard guard(mesh, moves);
   int sweeps = 0;
   while (guard.halveUnaccepted(moves))
   {
@@ -155,6 +156,69 @@ TEST(MoveGuard, stopsATriangleInSpaceThatTurnsOver)
   moves.add(2, { 1, -1, 0.5 });
   EXPECT_GT(settle(mesh, moves), 0);
   EXPECT_GT(qualityAfter(mesh, moves), 0);
+}
+
+/// In the plane, cells that do not turn the way most do are invalid; in space there is no such way.
+TEST(MoveGuard, letsAnInvertedTriangleBecomeValidInThePlane)
+{
+  SimplexMesh mesh = cadtest::oneTriangle({ { { 0, 0, 0 }, { 1, 0, 0 }, { 0.5, -0.5, 0 } } });
+  const Vector3 plane{ 0, 0, 1 };
+  Moves over(mesh);
+  over.add(2, { 0.5, 0.5, 0 });
+  EXPECT_FALSE(MoveGuard(mesh, over, mesh.points, plane).halveUnaccepted(over));
+  EXPECT_TRUE(MoveGuard(mesh, over).halveUnaccepted(over));
+  const std::vector<Point3> reference = mesh.points;
+  mesh.points[2] = { 0.5, 0.5, 0 };
+  Moves back(mesh);
+  back.add(2, { 0.5, -0.5, 0 });
+  EXPECT_TRUE(MoveGuard(mesh, back, reference, plane).halveUnaccepted(back))
+    << "once mended, it stays so";
+}
+
+TEST(MoveGuard, stopsWholeMovesAtOnce)
+{
+  const SimplexMesh mesh =
+    cadtest::oneTetrahedron({ { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } });
+  Moves down(mesh);
+  down.addWhole(3, { 0, 0, -0.1 });
+  EXPECT_EQ(settle(mesh, down), 1);
+  EXPECT_EQ(down.position(mesh, 3), mesh.points[3]);
+  Moves up(mesh);
+  up.addWhole(3, { 0, 0, 2 });
+  EXPECT_EQ(settle(mesh, up), 0);
+  EXPECT_EQ(up.position(mesh, 3), (Point3{ 0, 0, 2 }));
+}
+
+/// The way ends in the plane of the others up to rounding: only exact arithmetic can tell.
+TEST(MoveGuard, acceptsNoFlatCellHoweverPoorItWas)
+{
+  const Point3 a{ 0.1, 0.2, 0.3 };
+  const Point3 b{ 1.7, 0.9, 0.7 };
+  const Point3 c{ 0.4, 1.3, 0.1 };
+  const Point3 inPlane = (1.0 / 3.0) * (a + b + c);
+  const Vector3 normal = normalized(twofoldAreaVector(a, b, c));
+  const SimplexMesh mesh = cadtest::oneTetrahedron({ { a, b, c, inPlane + 1e-12 * normal } });
+  for (int k = -3; k <= 3; ++k)
+  {
+    Moves moves(mesh);
+    moves.add(3, inPlane + k * 1e-17 * normal);
+    settle(mesh, moves);
+    EXPECT_EQ(orientation(a, b, c, moves.position(mesh, 3)), 1);
+  }
+}
+
+TEST(MoveGuard, namesTheVerticesOfSpoiltCells)
+{
+  SimplexMesh mesh =
+    cadtest::oneTetrahedron({ { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } });
+  Moves moves(mesh);
+  moves.add(3, { 0, 0, 0.3 });
+  const std::vector<Point3> reference = mesh.points;
+  const MoveGuard guard(mesh, moves, reference, {});
+  EXPECT_TRUE(guard.verticesOfSpoiltCells(0.9).empty());
+  mesh.points[3] = { 0, 0, 0.3 };
+  EXPECT_EQ(guard.verticesOfSpoiltCells(0.9), (std::vector<Index>{ 0, 1, 2, 3 }));
+  EXPECT_TRUE(guard.verticesOfSpoiltCells(0.1).empty());
 }
 
 /// Both cells at a vertex limit it: the result does not depend on which comes first.
