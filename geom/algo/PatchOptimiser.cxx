@@ -263,6 +263,10 @@ void PatchOptimiser::improve(Index vertex)
                                 : patch_.mesh.dimension == 3 ? Directions::everywhere()
                                                              : Directions::across(patch_.plane);
   const Vector3 step = energy.step(point, directions);
+  if (step == Vector3{})
+  {
+    return;
+  }
   Point3 best = point;
   const auto gains = [&](double length)
   {
@@ -286,7 +290,7 @@ void PatchOptimiser::improve(Index vertex)
   }
   else
   {
-    while (length > shortestStep && step != Vector3{} && !gains(0.5 * length))
+    while (length > shortestStep && !gains(0.5 * length))
     {
       length *= 0.5;
     }

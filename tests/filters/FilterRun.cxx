@@ -1,24 +1,31 @@
 #include "FilterRun.h"
 
+#include "DataSets.h"
+#include "MeshChecks.h"
+
 #include <vtkCallbackCommand.h>
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+
+#include <algorithm>
 
 namespace cadtest
 {
 namespace
 {
 
-void keepText(vtkObject*, unsigned long, void* errors, void* text)
+void keepText(vtkObject*, unsigned long, void* texts, void* text)
 {
-  static_cast<std::vector<std::string>*>(errors)->push_back(static_cast<const char*>(text));
+  static_cast<std::vector<std::string>*>(texts)->push_back(static_cast<const char*>(text));
 }
 
-/// Keeps the errors of `object` in `errors` instead of printing them.
-void observe(vtkObject* object, std::vector<std::string>& errors)
+/// Keeps what `object` reports by `event` in `texts` instead of printing it.
+void observe(vtkObject* object, unsigned long event, std::vector<std::string>& texts)
 {
   vtkNew<vtkCallbackCommand> command;
   command->SetCallback(keepText);
-  command->SetClientData(&errors);
-  object->AddObserver(vtkCommand::ErrorEvent, command);
+  command->SetClientData(&texts);
+  object->AddObserver(event, command);
 }
 
 } // namespace
@@ -27,8 +34,9 @@ Outcome execute(vtkAlgorithm* filter)
 {
   Outcome outcome;
   std::vector<std::string> ofExecutive;
-  observe(filter, outcome.errors);
-  observe(filter->GetExecutive(), ofExecutive);
+  observe(filter, vtkCommand::ErrorEvent, outcome.errors);
+  observe(filter, vtkCommand::WarningEvent, outcome.warnings);
+  observe(filter->GetExecutive(), vtkCommand::ErrorEvent, ofExecutive);
   outcome.succeeded = filter->GetExecutive()->Update(0) != 0 && ofExecutive.empty();
   outcome.output = filter->GetOutputDataObject(0);
   filter->RemoveAllObservers();
@@ -63,6 +71,29 @@ FilterRun::Data FilterRun::require(const Outcome& outcome)
       "the filter failed" + (outcome.errors.empty() ? "" : ": " + outcome.errors.front()));
   }
   return outcome.pointSet();
+}
+
+void FilterRun::expectValid(vtkPointSet* input, vtkPointSet* output)
+{
+  if (input && output && areCellsValid(toMesh(input)))
+  {
+    EXPECT_TRUE(areCellsValid(toMesh(output)));
+  }
+}
+
+double FilterRun::qualityPercentile(vtkPointSet* mesh, double part) const
+{
+  const Data data = run<vtkMeshValidity>(mesh, [](vtkMeshValidity*) {});
+  vtkDataArray* array = data->GetCellData()->GetArray("CellQuality");
+  std::vector<double> qualities(static_cast<std::size_t>(array->GetNumberOfTuples()));
+  for (std::size_t c = 0; c < qualities.size(); ++c)
+  {
+    qualities[c] = array->GetTuple1(static_cast<vtkIdType>(c));
+  }
+  const auto place =
+    qualities.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(qualities.size()));
+  std::nth_element(qualities.begin(), place, qualities.end());
+  return *place;
 }
 
 FilterRun::Data FilterRun::project(vtkPointSet* mesh) const

@@ -25,7 +25,8 @@ namespace cadtest
 struct Outcome
 {
   bool succeeded = false;
-  std::vector<std::string> errors; ///< Of the filter itself.
+  std::vector<std::string> errors;   ///< Of the filter itself.
+  std::vector<std::string> warnings; ///< The same.
   vtkSmartPointer<vtkDataObject> output;
 
   vtkPointSet* pointSet() const { return vtkPointSet::SafeDownCast(output); }
@@ -34,7 +35,8 @@ struct Outcome
 /// Runs a filter with its inputs set and keeps what it reports.
 Outcome execute(vtkAlgorithm* filter);
 
-/// Filters with one CAD file, on the ranks of a controller (none: one rank).
+/// Filters with one CAD file, on the ranks of a controller (none: one rank). Where the input has no
+/// invalid cell here, it is a failure of the test if the output has one, by exact orientation.
 class FilterRun
 {
 public:
@@ -56,7 +58,9 @@ public:
       filter->SetInputDataObject(1, cad_);
     }
     configure(filter.Get());
-    return execute(filter);
+    const Outcome outcome = execute(filter);
+    expectValid(mesh, outcome.pointSet());
+    return outcome;
   }
 
   /// The same; throws where the filter fails.
@@ -65,6 +69,9 @@ public:
   {
     return require(attempt<Filter>(mesh, configure));
   }
+
+  /// The mean ratio than which this part of the cells have a lower one.
+  double qualityPercentile(vtkPointSet* mesh, double part) const;
 
   Data project(vtkPointSet* mesh) const;
   Data measure(vtkPointSet* mesh, int depth) const;
@@ -78,6 +85,7 @@ public:
 
 private:
   static Data require(const Outcome& outcome);
+  static void expectValid(vtkPointSet* input, vtkPointSet* output);
 
   vtkSmartPointer<vtkDataObject> cad_;
   vtkMultiProcessController* controller_;

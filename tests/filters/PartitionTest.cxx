@@ -52,6 +52,12 @@ vtkSmartPointer<vtkPointSet> crowdedBall()
   return cadtest::toGrid(cadtest::crowdedBallMesh(2));
 }
 
+/// With a tetrahedron that has two facets on the sphere: vertices slide.
+vtkSmartPointer<vtkPointSet> coarseBall()
+{
+  return cadtest::readGrid(CADREFINE_DATA "/ball_coarse.vtu");
+}
+
 vtkSmartPointer<vtkPointSet> wing()
 {
   return cadtest::readGrid(CADREFINE_DATA "/naca0012_coarse.vtu");
@@ -66,6 +72,13 @@ bool onSphere(const std::vector<Point3>& side)
 {
   return std::all_of(
     side.begin(), side.end(), [](const Point3& p) { return std::abs(norm(p) - 2) < 1e-11; });
+}
+
+/// Of a mesh some of whose vertices may be on the way to the sphere.
+bool nearSphere(const std::vector<Point3>& side)
+{
+  return std::all_of(
+    side.begin(), side.end(), [](const Point3& p) { return std::abs(norm(p) - 2) < 0.1; });
 }
 
 bool nowhere(const std::vector<Point3>&)
@@ -122,12 +135,13 @@ bool roundBoxWithHole(const std::vector<Point3>& side)
          onPlane(1, size[1]) || onPlane(2, size[2]);
 }
 
-const std::array<Problem, 6> problems{ { { "Ball", "", taggedBall, 0.01, onSphere },
+const std::array<Problem, 7> problems{ { { "Ball", "", taggedBall, 0.01, onSphere },
   { "Surface", "", surface, 0.01, nowhere },
   { "Wing", CADREFINE_DATA "/naca0012_sharp.igs", wing, 1e-4, roundWing },
   { "Arcs", CADREFINE_DATA "/three_arcs.igs", arcs, 1e-3, roundArcs },
   { "Crowded", "", crowdedBall, 0.01, onSphere },
-  { "Hole", CADREFINE_TRUTH "/box_minus_cylinder.brep", boxWithHole, 1e-3, roundBoxWithHole } } };
+  { "Hole", CADREFINE_TRUTH "/box_minus_cylinder.brep", boxWithHole, 1e-3, roundBoxWithHole },
+  { "CoarseBall", "", coarseBall, 0.01, nearSphere } } };
 
 struct Case
 {

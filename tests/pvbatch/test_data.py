@@ -19,6 +19,8 @@ PROGRAMS = {
     "three_arcs.igs": ["three_arcs.py"],
     "three_arcs_nurbs.igs": ["three_arcs.py", "--nurbs"],
     "three_arcs_coarse.vtu": ["three_arcs.py"],
+    "part_coarse.vtu": ["solid_mesh.py", "part"],
+    "ball_coarse.vtu": ["solid_mesh.py", "ball"],
 }
 
 

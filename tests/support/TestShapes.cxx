@@ -12,6 +12,7 @@
 #include <BRepPrimAPI_MakeTorus.hxx>
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
+#include <gp.hxx>
 #include <gp_Ax2.hxx>
 #include <gp_Circ.hxx>
 #include <gp_Pln.hxx>
@@ -42,6 +43,14 @@ TopoDS_Shape cylinder(double radius, double height)
 TopoDS_Shape pipe(double innerRadius, double outerRadius, double height)
 {
   return BRepAlgoAPI_Cut(cylinder(outerRadius, height), cylinder(innerRadius, height)).Shape();
+}
+
+TopoDS_Shape partWithCavity()
+{
+  const TopoDS_Shape hole =
+    BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(1.5, 1.5, 0), gp::DZ()), 0.2, 2).Shape();
+  const TopoDS_Shape cavity = BRepPrimAPI_MakeSphere(gp_Pnt(0.7, 0.7, 1), 0.3).Shape();
+  return BRepAlgoAPI_Cut(BRepAlgoAPI_Cut(box(2, 2, 2), hole).Shape(), cavity).Shape();
 }
 
 TopoDS_Shape circle(double radius)

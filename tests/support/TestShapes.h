@@ -22,6 +22,8 @@ TopoDS_Shape box(double x, double y, double z);
 TopoDS_Shape cylinder(double radius, double height);
 /// What lies between two cylinders round the z axis, from z = 0 to `height`.
 TopoDS_Shape pipe(double innerRadius, double outerRadius, double height);
+/// The part of data/solid_mesh.py: a box with a hole through it and a round cavity.
+TopoDS_Shape partWithCavity();
 /// Circle in the plane z = 0 round the origin: an edge without a face.
 TopoDS_Shape circle(double radius);
 /// The rectangle from the origin to (x, y, 0): one face with four edges.

@@ -1,0 +1,60 @@
+#!/usr/bin/python3
+"""Coarse tetrahedra in a part with a small round cavity, or in a ball, with python3-gmsh.
+
+The part: the box from (0, 0, 0) to (2, 2, 2) without a cylinder (axis x = y = 1.5, radius 0.2, all the way through) and
+without a ball (centre (0.7, 0.7, 1), radius 0.3), which a dozen facets stand for. The ball: centre (0, 0, 0), radius 2.
+The coarsest meshes of a ball have tetrahedra with two facets on it, which become ever flatter under refinement.
+"""
+import argparse
+
+import gmsh
+import numpy as np
+
+from coarse_mesh import TETRAHEDRON, used_points
+from vtu import mean_ratio, write_vtu
+
+
+def make_part(occ):
+    box = occ.addBox(0, 0, 0, 2, 2, 2)
+    hole = occ.addCylinder(1.5, 1.5, 0, 0, 0, 2, 0.2)
+    cavity = occ.addSphere(0.7, 0.7, 1, 0.3)
+    occ.cut([(3, box)], [(3, hole), (3, cavity)])
+
+
+def make_ball(occ):
+    occ.addSphere(0, 0, 0, 2)
+
+
+def mesh_of(make, size):
+    """Points (n, 3) and tetrahedra of a solid, with edges of about `size`."""
+    gmsh.initialize()
+    gmsh.option.setNumber("General.Terminal", 0)
+    make(gmsh.model.occ)
+    gmsh.model.occ.synchronize()
+    gmsh.option.setNumber("Mesh.MeshSizeMin", size)
+    gmsh.option.setNumber("Mesh.MeshSizeMax", size)
+    gmsh.model.mesh.generate(3)
+    tags, coordinates, _ = gmsh.model.mesh.getNodes()
+    _, nodes = gmsh.model.mesh.getElementsByType(TETRAHEDRON)
+    gmsh.finalize()
+    number = {tag: i for i, tag in enumerate(tags)}
+    cells = np.array([number[node] for node in nodes]).reshape(-1, 4)
+    return used_points(coordinates.reshape(-1, 3), cells)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--size", type=float, help="edge length (default 0.5 for the part, 2 for the ball)")
+    parser.add_argument("solid", choices=("part", "ball"))
+    parser.add_argument("output", help="the .vtu file")
+    arguments = parser.parse_args()
+    make, size = {"part": (make_part, 0.5), "ball": (make_ball, 2.0)}[arguments.solid]
+    points, cells = mesh_of(make, arguments.size or size)
+    write_vtu(arguments.output, points, [cells])
+    quality = mean_ratio(points, cells)
+    print(f"{arguments.output}: {len(points)} vertices, {len(cells)} tetrahedra, "
+          f"quality {quality.min():.3f} to {quality.max():.3f}")
+
+
+if __name__ == "__main__":
+    main()
