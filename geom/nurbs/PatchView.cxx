@@ -82,7 +82,7 @@ ControlPoint homogeneousValue(const ControlPoint* point, U degreeU, V degreeV, d
 template<int degree>
 using Constant = std::integral_constant<int, degree>;
 
-/// Calls `function(degreeU, degreeV)` with constants where both are at most 3.
+/// Calls `function(degreeU, degreeV)` with constants for those that are at most 3.
 template<typename Function>
 auto withDegrees(const PatchView& patch, const Function& function)
 {
@@ -99,7 +99,7 @@ auto withDegrees(const PatchView& patch, const Function& function)
       case 3:
         return function(degreeU, Constant<3>());
       default:
-        return function(patch.degreeU, patch.degreeV);
+        return function(degreeU, patch.degreeV);
     }
   };
   switch (patch.degreeU)
@@ -111,7 +111,7 @@ auto withDegrees(const PatchView& patch, const Function& function)
     case 3:
       return withV(Constant<3>());
     default:
-      return function(patch.degreeU, patch.degreeV);
+      return withV(patch.degreeU);
   }
 }
 

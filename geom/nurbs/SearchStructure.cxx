@@ -104,7 +104,7 @@ private:
         includeAll(patch.points);
       }
     }
-    limits_.smallestRadius = 1e-4 * box.diagonal();
+    limits_.smallestRadius = 3e-4 * box.diagonal();
     limits_.largestRadius = 0.02 * box.diagonal(); // measured: smaller ones no longer pay
     limits_.mostLeaves =
       std::max(fewestLeavesOfPatch, mostLeavesOfModel / static_cast<int>(patches));

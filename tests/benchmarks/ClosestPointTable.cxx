@@ -1,5 +1,6 @@
 #include "ClosestPointTable.h"
 
+#include <cmath>
 #include <cstdio>
 #include <limits>
 
@@ -37,6 +38,10 @@ void printTable(const std::vector<std::unique_ptr<const Case>>& cases, const Rat
   {
     const auto rate = [&](const char* method) { return rates.rate(c->name, method); };
     const double nearest = rate("nearest");
+    if (std::isnan(nearest)) // left out by --benchmark_filter
+    {
+      continue;
+    }
     std::printf("%-10s %6d %7zu | %8.1f %8.1f %8.1f %8.1f %8.1f | %8.2f %8.2f %8.0f %8.2f %8.2f\n",
       c->name.c_str(), c->nurbs.count(2), c->preparation.patches, nearest / 1e3,
       rate("known") / 1e3, rate("surface") / 1e3, rate("GenLocateExtPS") / 1e3,
