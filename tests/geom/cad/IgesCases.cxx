@@ -7,11 +7,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ostream>
 
 namespace cadtest
 {
 
 using namespace cadrefine;
+
+void PrintTo(const IgesCase& shown, std::ostream* stream)
+{
+  *stream << shown.name;
+}
 
 std::shared_ptr<const CADModel> readWritten(const IgesWriter& file)
 {

@@ -4,7 +4,7 @@
 #include "CADModel.h"
 #include "IgesWriter.h"
 
-#include <functional>
+#include <iosfwd>
 #include <memory>
 #include <vector>
 
@@ -27,6 +27,9 @@ struct IgesCase
   };
   std::vector<Known> known; ///< Distances from the trimmed model.
 };
+
+/// So that GoogleTest shows the name, not the bytes.
+void PrintTo(const IgesCase& shown, std::ostream* stream);
 
 std::shared_ptr<const cadrefine::CADModel> readWritten(const IgesWriter& file);
 
