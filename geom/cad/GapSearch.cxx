@@ -61,16 +61,16 @@ std::vector<OpenEdge> openEdges(const ShapeIndex& index)
   return open;
 }
 
-/// The gap between `a` and the longer edge `b`; of width 0 where they do not run together.
+/// The gap between `a` and the longer edge `b`; of width 0 where they do not run together. The
+/// middle of `a` comes first, since that is where edges that only meet are apart.
 Gap measure(const OpenEdge& a, const OpenEdge& b, double limit)
 {
-  constexpr int points = 5;
   const BRepAdaptor_Curve curve(a.edge);
   Gap gap;
   gap.edges = { std::min(a.index, b.index), std::max(a.index, b.index) };
-  for (int i = 1; i <= points; ++i)
+  for (const int sixth : { 3, 1, 2, 4, 5 })
   {
-    const double part = i / (points + 1.0);
+    const double part = sixth / 6.0;
     const gp_Pnt p =
       curve.Value((1 - part) * curve.FirstParameter() + part * curve.LastParameter());
     const BRepExtrema_DistShapeShape nearest(BRepBuilderAPI_MakeVertex(p).Vertex(), b.edge);

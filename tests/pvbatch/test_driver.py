@@ -36,7 +36,8 @@ class Driver(unittest.TestCase):
         cad = report["cad"]
         self.assertEqual((cad["faces"], cad["edges"], cad["vertices"]), (38, 95, 57))
         self.assertEqual((cad["unread"], cad["unit"]), ([], "m"))
-        self.assertEqual((cad["left_out"], cad["repairs"], cad["gaps"]), ([], [], []))
+        self.assertEqual((cad["repairs"], cad["gaps"]), ([], []))
+        self.assertEqual({item["reason"] for item in cad["left_out"]}, {"construction geometry (use flag 06)"})
         self.assertGreater(cad["sewing_tolerance"], 0.0)
         self.assertEqual([step["step"] for step in report["steps"]], [0, 1])
         for step in report["steps"]:
