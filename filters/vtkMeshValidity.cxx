@@ -41,5 +41,5 @@ void vtkMeshValidity::Execute(cadrefine::RankExchange& exchange, vtkPointSet* in
   }
   output->GetCellData()->AddArray(validity);
   output->GetCellData()->AddArray(quality);
-  summariseMesh(exchange, mesh, qualities, output);
+  summariseMesh(exchange, mesh, qualities.summary, output);
 }

@@ -60,7 +60,7 @@ void vtkProjectOntoCAD::Execute(cadrefine::RankExchange& exchange, vtkPointSet* 
   copyArrays(input, mesh.converted, output);
   writeClassification(output, result.classification);
   writeConflicts(output, result.conflicts);
-  summariseMesh(exchange, mesh, measureQuality(exchange, mesh), output);
+  summariseMesh(exchange, mesh, summariseQuality(exchange, mesh), output);
   summariseProjection(exchange, mesh, result.classification, result.projectedPoints, output);
   summariseConflicts(exchange, mesh, result.conflicts, output);
 }

@@ -192,7 +192,7 @@ private:
       summariseProjection(
         this->Exchange, this->Mesh, this->Positions, this->ProjectedPoints, output);
     }
-    summariseMesh(this->Exchange, this->Mesh, measureQuality(this->Exchange, this->Mesh), output);
+    summariseMesh(this->Exchange, this->Mesh, summariseQuality(this->Exchange, this->Mesh), output);
     return output;
   }
 

@@ -11,7 +11,6 @@
 #include <vtkPointSet.h>
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 
 namespace cadrefine
@@ -48,23 +47,40 @@ CellQualities measureCells(RankExchange& exchange, const SimplexMesh& mesh)
   return result;
 }
 
+QualitySummary summaryOf(const CellQualities& qualities)
+{
+  const auto& ratios = qualities.meanRatios;
+  QualitySummary summary;
+  summary.invalidCells = std::count(qualities.valid.begin(), qualities.valid.end(), 0);
+  summary.minimum = std::accumulate(ratios.begin(), ratios.end(), summary.minimum,
+    [](double a, double b) { return std::min(a, b); });
+  return summary;
+}
+
+QualitySummary overRanks(RankExchange& exchange, const QualitySummary& mine)
+{
+  return { exchange.sum(mine.invalidCells), exchange.min(mine.minimum) };
+}
+
 } // namespace
 
 CellQualities measureQuality(RankExchange& exchange, const DistributedMesh& mesh)
 {
   CellQualities result = measureCells(exchange, mesh.mesh());
-  const auto& ratios = result.meanRatios;
-  const auto invalid = std::count(result.valid.begin(), result.valid.end(), 0);
-  const double minimum = std::accumulate(ratios.begin(), ratios.end(),
-    std::numeric_limits<double>::infinity(), [](double a, double b) { return std::min(a, b); });
-  result.invalidCells = exchange.sum(invalid);
-  result.minimum = exchange.min(minimum);
+  result.summary = overRanks(exchange,
+    mesh.mesh().dimension == 3 ? summariseTetrahedra(mesh.mesh()) : summaryOf(result));
   return result;
+}
+
+QualitySummary summariseQuality(RankExchange& exchange, const DistributedMesh& mesh)
+{
+  return mesh.mesh().dimension == 3 ? overRanks(exchange, summariseTetrahedra(mesh.mesh()))
+                                    : measureQuality(exchange, mesh).summary;
 }
 
 std::string warningOfInvalidCells(RankExchange& exchange, const DistributedMesh& mesh)
 {
-  const std::int64_t count = measureQuality(exchange, mesh).invalidCells;
+  const std::int64_t count = summariseQuality(exchange, mesh).invalidCells;
   return count == 0 ? std::string()
                     : "the input mesh has " + std::to_string(count) +
                         " inverted or degenerate cells; those that moving vertices can mend are "
@@ -88,13 +104,13 @@ void setFieldValue(vtkPointSet* output, const char* name, std::int64_t value)
 }
 
 void summariseMesh(RankExchange& exchange, const DistributedMesh& mesh,
-  const CellQualities& qualities, vtkPointSet* output)
+  const QualitySummary& quality, vtkPointSet* output)
 {
   const MeshCounts counts = countMesh(exchange, mesh);
   setFieldValue(output, "GlobalVertices", counts.vertices);
   setFieldValue(output, "GlobalCells", counts.cells);
-  setFieldValue(output, "InvalidCells", qualities.invalidCells);
-  setFieldValue(output, "MinimumQuality", qualities.minimum);
+  setFieldValue(output, "InvalidCells", quality.invalidCells);
+  setFieldValue(output, "MinimumQuality", quality.minimum);
 }
 
 void summariseConflicts(RankExchange& exchange, const DistributedMesh& mesh,

@@ -3,6 +3,7 @@
 
 #include "CADArrays.h"
 #include "DistributedMesh.h"
+#include "QualitySummary.h"
 
 #include <cstdint>
 #include <string>
@@ -18,8 +19,7 @@ struct CellQualities
 {
   std::vector<double> meanRatios;   ///< Negative where inverted.
   std::vector<unsigned char> valid; ///< 0: inverted or degenerate.
-  std::int64_t invalidCells = 0;    ///< Over all ranks.
-  double minimum = 1;               ///< Over all ranks.
+  QualitySummary summary;           ///< Over all ranks.
 };
 
 /// Tetrahedra are valid if their volume is positive in VTK's order of vertices. Triangles are valid
@@ -27,6 +27,9 @@ struct CellQualities
 /// Both are decided exactly (see orientation); the mean ratio is a measure in floating point.
 /// Collective; two reductions.
 CellQualities measureQuality(RankExchange& exchange, const DistributedMesh& mesh);
+
+/// The same without the entries of the cells: for tetrahedra several times as fast.
+QualitySummary summariseQuality(RankExchange& exchange, const DistributedMesh& mesh);
 
 /// What to tell the user of invalid cells in the input; empty where there are none. The same on
 /// every rank; collective.
@@ -38,7 +41,7 @@ void setFieldValue(vtkPointSet* output, const char* name, std::int64_t value);
 
 /// Adds GlobalVertices, GlobalCells, InvalidCells and MinimumQuality. Collective.
 void summariseMesh(RankExchange& exchange, const DistributedMesh& mesh,
-  const CellQualities& qualities, vtkPointSet* output);
+  const QualitySummary& quality, vtkPointSet* output);
 
 /// Adds ClassificationConflicts, the number of vertices with a conflict. Collective.
 void summariseConflicts(RankExchange& exchange, const DistributedMesh& mesh,

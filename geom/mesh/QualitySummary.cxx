@@ -1,0 +1,79 @@
+#include "QualitySummary.h"
+
+#include "Orientation.h"
+#include "Quality.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cadrefine
+{
+namespace
+{
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+/// Beyond these, a cube of squared lengths or a volume may have lost digits to underflow, or be
+/// infinite.
+constexpr double smallestCube = std::numeric_limits<double>::min() / (epsilon * epsilon * epsilon);
+constexpr double largestCube = std::numeric_limits<double>::max();
+
+/// With L the sum of the squared edge lengths of a tetrahedron, sixfoldVolume errs by less than
+/// 4 epsilon L^(3/2): each difference of coordinates by epsilon / 2 of itself, products and sums
+/// further, and all terms together are at most the product of three edges' 1-norms. This is the
+/// square of eight times as much for half the value, over L^3.
+constexpr double certainlyPositive = (16 * epsilon) * (16 * epsilon);
+
+/// Of the cells so far; the smallest mean ratio as the cube of a twelfth of it, which needs no
+/// root.
+class Summary
+{
+public:
+  void add(const Point3& a, const Point3& b, const Point3& c, const Point3& d)
+  {
+    const double lengths = squaredNorm(b - a) + squaredNorm(c - a) + squaredNorm(d - a) +
+                           squaredNorm(c - b) + squaredNorm(d - b) + squaredNorm(d - c);
+    const double cube = lengths * lengths * lengths;
+    const double half = sixfoldVolume(a, b, c, d) / 2;
+    const double part = half * half;
+    if (half > 0 && part > certainlyPositive * cube && cube > smallestCube && cube < largestCube)
+    {
+      smallestCube_ = std::min(smallestCube_, part / cube);
+    }
+    else
+    {
+      addByOne(a, b, c, d);
+    }
+  }
+
+  QualitySummary result() const
+  {
+    return { invalidCells_, std::min(12 * std::cbrt(smallestCube_), smallestRatio_) };
+  }
+
+private:
+  void addByOne(const Point3& a, const Point3& b, const Point3& c, const Point3& d)
+  {
+    invalidCells_ += orientation(a, b, c, d) <= 0;
+    smallestRatio_ = std::min(smallestRatio_, meanRatio(a, b, c, d));
+  }
+
+  std::int64_t invalidCells_ = 0;
+  double smallestCube_ = std::numeric_limits<double>::infinity();
+  double smallestRatio_ = std::numeric_limits<double>::infinity();
+};
+
+} // namespace
+
+QualitySummary summariseTetrahedra(const SimplexMesh& mesh)
+{
+  Summary summary;
+  const auto& p = mesh.points;
+  for (const auto& [a, b, c, d] : mesh.tetrahedra)
+  {
+    summary.add(p[a], p[b], p[c], p[d]);
+  }
+  return summary.result();
+}
+
+} // namespace cadrefine
