@@ -95,7 +95,10 @@ public:
       idle = left < before ? 0 : idle + 1;
       attempt(exchange_, [&] { aimAnew(); });
     }
-    smooth(guard);
+    if (left > 0 || settings_.smoothCells)
+    {
+      smooth(guard);
+    }
     record();
   }
 
@@ -192,7 +195,7 @@ private:
 
   bool isInterior(std::size_t vertex) const
   {
-    return !settings_.onBoundary[vertex] && !classification_.entities[vertex];
+    return !settings_.fixed[vertex] && !classification_.entities[vertex];
   }
 
   bool canSlide(std::size_t vertex) const { return classification_.entities[vertex].dimension > 0; }

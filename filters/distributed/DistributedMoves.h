@@ -15,10 +15,12 @@ namespace cadrefine
 struct MoveSettings
 {
   const BoundaryProjector& projector;
-  /// 1 for vertices that are not interior, over all ranks.
-  const std::vector<unsigned char>& onBoundary;
+  /// 1 for vertices that do not make way: those of the boundary, over all ranks, unless they slide.
+  const std::vector<unsigned char>& fixed;
   /// Cells that are inverted or flat at the start are to be mended too.
   bool mendCells = false;
+  /// Cells that lost much of their shape are smoothed even if all vertices are at their targets.
+  bool smoothCells = false;
 };
 
 /// Moves the vertices of `moves` as far to their targets as all cells stay valid, on all ranks;
@@ -31,7 +33,9 @@ struct MoveSettings
 ///   3. Again, with more rings of cells round what is left, and from the third round on with the
 ///      vertices of the CAD sliding on their own faces and edges: until all are there, or nothing
 ///      has come of a few rounds.
-///   4. What is left stays where it stopped, and the cells round it are smoothed once more.
+///   4. Interior vertices round cells that have lost more than a tenth of their mean ratio move to
+///      where these are better, if vertices are left on the way, or `smoothCells` asks for it. What
+///      is left stays where it stopped.
 ///
 /// The result does not depend on the partition: decisions are minima over the cells at a vertex,
 /// and vertices are moved in an order that their ids give. It ends: a vertex's way is halved a few

@@ -286,7 +286,7 @@ RefinementTrace refineOntoCAD(RankExchange& exchange, DistributedMesh& mesh,
   }
   const Moves moves = movesOntoCAD(mesh.mesh(), hits, projector, classification);
   moveOntoCAD(exchange, mesh, moves, classification,
-    { projector, onBoundary, newVertices == NewVertices::MoveAndMend });
+    { projector, onBoundary, newVertices == NewVertices::MoveAndMend, true });
   return trace;
 }
 

@@ -74,6 +74,17 @@ std::vector<unsigned char> findVerticesOnCAD(
   return onCAD;
 }
 
+/// 1 for vertices that do not make way for others: those of the boundary, and outside the region.
+std::vector<unsigned char> findFixed(const ProjectionTask& task)
+{
+  std::vector<unsigned char> fixed = task.boundary.onBoundary;
+  for (std::size_t v = 0; v < fixed.size(); ++v)
+  {
+    fixed[v] = fixed[v] || !task.options.inRegion(task.points()[v]);
+  }
+  return fixed;
+}
+
 } // namespace
 
 ProjectionResult projectBoundary(RankExchange& exchange, DistributedMesh& mesh,
@@ -101,7 +112,7 @@ ProjectionResult projectBoundary(RankExchange& exchange, DistributedMesh& mesh,
     }
   }
   moveOntoCAD(exchange, mesh, moves, result.classification,
-    { projector, boundary.onBoundary, options.mendCells });
+    { projector, findFixed(task), options.mendCells });
   result.projectedPoints = nearest.asked;
   result.balance = nearest.balance;
   return result;
