@@ -130,40 +130,45 @@ private:
   void give()
   {
     const auto& ids = task_.mesh.mesh().ids;
-    std::vector<Wish> wishes(hits_.size());
     for (std::size_t v = 0; v < hits_.size(); ++v)
     {
-      wishes[v] = takesPart_[v] ? wishOf(v) : Wish{};
+      wishes_.push_back(takesPart_[v] ? wishOf(v) : Wish{});
     }
-    const auto best = [&](auto value, auto initial, auto& considered)
-    {
-      std::vector<decltype(initial)> result(nurbs_.vertices.size(), initial);
-      for (std::size_t v = 0; v < wishes.size(); ++v)
-      {
-        if (wishes[v].vertex >= 0 && considered(v))
-        {
-          result[wishes[v].vertex] = std::min(result[wishes[v].vertex], value(v));
-        }
-      }
-      return task_.exchange.min(result);
-    };
-    const auto all = [](std::size_t) { return true; };
-    const auto ranks = best([&](std::size_t v) { return wishes[v].rank; }, infinity, all);
-    const auto ofRank = [&](std::size_t v) { return wishes[v].rank == ranks[wishes[v].vertex]; };
-    const auto distances =
-      best([&](std::size_t v) { return wishes[v].distance; }, infinity, ofRank);
+    const auto ranks = least(
+      infinity, [&](std::size_t v) { return wishes_[v].rank; }, [](std::size_t) { return true; });
+    const auto ofRank = [&](std::size_t v) { return wishes_[v].rank == ranks[wishes_[v].vertex]; };
+    const auto distances = least(
+      infinity, [&](std::size_t v) { return wishes_[v].distance; }, ofRank);
     const auto nearest = [&](std::size_t v)
-    { return ofRank(v) && wishes[v].distance == distances[wishes[v].vertex]; };
-    const auto takers = best([&](std::size_t v) { return std::int64_t{ ids[v] }; },
-      std::numeric_limits<std::int64_t>::max(), nearest);
-    for (std::size_t v = 0; v < wishes.size(); ++v)
+    { return ofRank(v) && wishes_[v].distance == distances[wishes_[v].vertex]; };
+    const auto takers = least(
+      std::numeric_limits<std::int64_t>::max(),
+      [&](std::size_t v) { return std::int64_t{ ids[v] }; }, nearest);
+    for (std::size_t v = 0; v < hits_.size(); ++v)
     {
-      if (wishes[v].vertex >= 0 && takers[wishes[v].vertex] == ids[v])
+      if (wishes_[v].vertex >= 0 && takers[wishes_[v].vertex] == ids[v])
       {
-        hits_[v] = task_.projector.nearestOn({ 0, wishes[v].vertex }, task_.points()[v]);
+        hits_[v] = task_.projector.nearestOn({ 0, wishes_[v].vertex }, task_.points()[v]);
         taken_[v] = 1;
       }
     }
+  }
+
+  /// For each CAD vertex the least value of the vertices of all ranks that ask for it and are
+  /// `considered`.
+  template<class Value, class Of, class Considered>
+  std::vector<Value> least(Value initial, const Of& valueOf, const Considered& considered) const
+  {
+    std::vector<Value> result(nurbs_.vertices.size(), initial);
+    for (std::size_t v = 0; v < wishes_.size(); ++v)
+    {
+      const std::int32_t vertex = wishes_[v].vertex;
+      if (vertex >= 0 && considered(v))
+      {
+        result[vertex] = std::min(result[vertex], valueOf(v));
+      }
+    }
+    return task_.exchange.min(result);
   }
 
   /// Whether a CAD edge of a vertex that has taken a CAD vertex does not lead there.
@@ -206,6 +211,7 @@ private:
   std::vector<ClosestPoint>& hits_;
   std::vector<unsigned char> takesPart_;
   std::vector<unsigned char> taken_;
+  std::vector<Wish> wishes_;
   std::vector<std::vector<std::int32_t>> apexes_; ///< Of each face.
 };
 

@@ -2,6 +2,7 @@
 
 #include "CADAdjacency.h"
 #include "EvenWork.h"
+#include "MeshEdgeMatches.h"
 
 #include <algorithm>
 
@@ -9,99 +10,6 @@ namespace cadrefine
 {
 namespace
 {
-
-/// One number for each question, and the questions.
-template<class Question>
-struct Asked
-{
-  std::vector<std::size_t> of;
-  std::vector<Question> questions;
-
-  void add(std::size_t number, const Question& question)
-  {
-    of.push_back(number);
-    questions.push_back(question);
-  }
-};
-
-/// Faces with a seam: mesh edges inside of them may run along it.
-std::vector<unsigned char> findSeamedFaces(const NurbsModel& nurbs)
-{
-  std::vector<unsigned char> seamed(nurbs.faces.size(), 0);
-  for (const NurbsEdge& edge : nurbs.edges)
-  {
-    if (isSeam(edge))
-    {
-      seamed[edge.faces[0]] = 1;
-    }
-  }
-  return seamed;
-}
-
-std::vector<std::int32_t> edgesOfMeshEdges(const ProjectionTask& task,
-  const std::vector<ClosestPoint>& hits, const std::vector<FacetRecord>& records,
-  const std::vector<unsigned char>& settled)
-{
-  const auto ofEdges = gatherFacetRecords(task.exchange, task.boundary, records);
-  const auto seamed = findSeamedFaces(task.model().nurbs());
-  const auto& edges = task.boundary.edges.edges();
-  Asked<MeshEdge> asked;
-  for (std::size_t e = 0; e < edges.size(); ++e)
-  {
-    const auto [a, b] = edges[e];
-    if (!hits[a].entity || !hits[b].entity)
-    {
-      continue;
-    }
-    for (MeshEdge edge : meshEdges({ task.points()[a], task.points()[b] }, facetsOnCAD(ofEdges[e])))
-    {
-      const std::int32_t face = edge.facets[0].face;
-      const bool inside = edge.facetCount == 2 && face == edge.facets[1].face;
-      if (hasAngle(edge) || !inside || (face >= 0 && seamed[face]))
-      {
-        edge.settled = { settled[a], settled[b] };
-        asked.add(e, edge);
-      }
-    }
-  }
-  const EdgeFinder finder(task.model());
-  const auto answers = answerEvenly<EdgeMatch>(task.exchange, std::move(asked.questions),
-    [&](const MeshEdge& edge) { return finder.find(edge); });
-  std::vector<EdgeMatch> best(edges.size());
-  for (std::size_t i = 0; i < asked.of.size(); ++i)
-  {
-    best[asked.of[i]] = std::min(best[asked.of[i]], answers.values[i]);
-  }
-  std::vector<std::int32_t> result(edges.size());
-  std::transform(
-    best.begin(), best.end(), result.begin(), [](const EdgeMatch& match) { return match.edge; });
-  return result;
-}
-
-std::vector<std::int32_t> edgesOfSegments(
-  const ProjectionTask& task, const std::vector<FacetRecord>& records)
-{
-  std::vector<std::int32_t> result(task.boundary.edges.edges().size(), -1);
-  Asked<Point3> asked;
-  for (std::size_t f = 0; f < records.size(); ++f)
-  {
-    if (records[f].onCAD && !records[f].free)
-    {
-      const auto& ends = task.boundary.facets[f].vertices;
-      asked.add(
-        task.boundary.facetEdges[f][0], 0.5 * (task.points()[ends[0]] + task.points()[ends[1]]));
-    }
-  }
-  const auto answers = answerEvenly<ClosestPoint>(task.exchange, std::move(asked.questions),
-    [&](const Point3& middle)
-    { return task.projector.nearest(middle, std::numeric_limits<double>::infinity()); });
-  for (std::size_t i = 0; i < asked.of.size(); ++i)
-  {
-    const EntityId entity = answers.values[i].entity;
-    result[asked.of[i]] = entity.dimension == 1 ? entity.index : -1;
-  }
-  return result;
-}
 
 struct VertexQuestion
 {
@@ -272,8 +180,7 @@ VertexEntities findVertexEntities(
   meeting.settled.resize(hits.size());
   std::transform(hits.begin(), hits.end(), meeting.settled.begin(),
     [&](const ClosestPoint& hit) { return hit.distance <= exact; });
-  const auto ofEdges = task.triangles() ? edgesOfMeshEdges(task, hits, records, meeting.settled)
-                                        : edgesOfSegments(task, records);
+  const auto ofEdges = findCADEdges(task, hits, records, meeting.settled);
   addEdges(task, ofEdges, meeting);
   meeting.dangling.assign(hits.size(), 0);
   if (task.triangles())
@@ -290,21 +197,23 @@ void placeVertices(
   {
     return;
   }
-  Asked<VertexQuestion> asked;
+  std::vector<std::size_t> vertices;
+  std::vector<VertexQuestion> questions;
   for (std::size_t v = 0; v < hits.size(); ++v)
   {
     if (hits[v].entity &&
         (!meeting.edges[v].empty() || (meeting.wrongSide[v] && !meeting.faces[v].empty())))
     {
-      asked.add(
-        v, { task.points()[v], task.limit(v), hits[v], meeting.faces[v], meeting.edges[v] });
+      vertices.push_back(v);
+      questions.push_back(
+        { task.points()[v], task.limit(v), hits[v], meeting.faces[v], meeting.edges[v] });
     }
   }
-  const auto answers = answerEvenly<ClosestPoint>(task.exchange, std::move(asked.questions),
+  const auto answers = answerEvenly<ClosestPoint>(task.exchange, std::move(questions),
     [&](const VertexQuestion& question) { return placeOf(task.projector, question); });
-  for (std::size_t i = 0; i < asked.of.size(); ++i)
+  for (std::size_t i = 0; i < vertices.size(); ++i)
   {
-    hits[asked.of[i]] = answers.values[i];
+    hits[vertices[i]] = answers.values[i];
   }
 }
 

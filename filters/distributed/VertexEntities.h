@@ -25,8 +25,7 @@ struct VertexEntities
   std::vector<unsigned char> wrongSide;
 };
 
-/// For triangles: CAD edges by EdgeFinder::find, with each pair of facets at the mesh edge. For
-/// segments: the CAD edge nearest to the middle of the segment. Collective.
+/// Collective.
 VertexEntities findVertexEntities(
   const ProjectionTask& task, const std::vector<ClosestPoint>& hits, const FacetClasses& facets);
 

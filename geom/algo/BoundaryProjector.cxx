@@ -61,18 +61,6 @@ bool BoundaryProjector::fitsNormal(
     [&](std::int32_t face) { return fitsEitherWay(model_.normalNear(face, where.point), normal); });
 }
 
-bool BoundaryProjector::fitsTangent(const ClosestPoint& where, const Vector3& direction) const
-{
-  if (where.entity.dimension == 1)
-  {
-    return fitsEitherWay(model_.tangent(where.entity.index, where.parameters[0]), direction);
-  }
-  const auto edges = entitiesAround(model_.nurbs(), where.entity, 1);
-  return std::any_of(edges.begin(), edges.end(),
-    [&](std::int32_t edge)
-    { return fitsEitherWay(tangentAwayFrom(model_, edge, where.entity.index), direction); });
-}
-
 bool BoundaryProjector::isOnCAD(const ClassifiedFacet& facet) const
 {
   const auto& p = facet.points;
@@ -80,7 +68,7 @@ bool BoundaryProjector::isOnCAD(const ClassifiedFacet& facet) const
   if (kind_ == BoundaryKind::Segments)
   {
     const ClosestPoint where = nearest(0.5 * (p[0] + p[1]), unlimited);
-    return fitsTangent(where, normalized(p[1] - p[0]));
+    return fitsTangent(model_, where, normalized(p[1] - p[0]));
   }
   const Vector3 normal = normalized(twofoldAreaVector(p[0], p[1], p[2]));
   for (int k = 0; k < 3; ++k)

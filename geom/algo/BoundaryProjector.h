@@ -88,7 +88,6 @@ public:
 
 private:
   bool fitsNormal(EntityId entity, const ClosestPoint& where, const Vector3& normal) const;
-  bool fitsTangent(const ClosestPoint& where, const Vector3& direction) const;
   std::int32_t commonCrease(
     const std::array<Point3, 2>& points, const std::array<EntityId, 2>& entities) const;
   std::int32_t commonSmoothEdge(const std::array<Point3, 2>& points,

@@ -128,6 +128,18 @@ std::vector<std::int32_t> commonEntities(
   return common;
 }
 
+bool fitsTangent(const CADModel& model, const ClosestPoint& where, const Vector3& direction)
+{
+  if (where.entity.dimension == 1)
+  {
+    return fitsEitherWay(model.tangent(where.entity.index, where.parameters[0]), direction);
+  }
+  const auto edges = entitiesAround(model.nurbs(), where.entity, 1);
+  return std::any_of(edges.begin(), edges.end(),
+    [&](std::int32_t edge)
+    { return fitsEitherWay(tangentAwayFrom(model, edge, where.entity.index), direction); });
+}
+
 std::vector<std::int32_t> edgesBetween(const NurbsModel& model, std::int32_t a, std::int32_t b)
 {
   std::vector<std::int32_t> edges;
@@ -144,6 +156,22 @@ std::vector<std::int32_t> edgesBetween(const NurbsModel& model, std::int32_t a, 
 bool isSeam(const NurbsEdge& edge)
 {
   return edge.faces.size() == 1 && !edge.sharp;
+}
+
+double lengthOf(const NurbsEdge& edge)
+{
+  constexpr int chords = 16;
+  double length = 0;
+  for (const BezierCurve& segment : edge.segments)
+  {
+    const double step = (segment.t1 - segment.t0) / chords;
+    for (int i = 0; i < chords; ++i)
+    {
+      const double t = segment.t0 + i * step;
+      length += distance(evaluate(segment, t), evaluate(segment, t + step));
+    }
+  }
+  return length;
 }
 
 Vector3 tangentAwayFrom(const CADModel& model, std::int32_t edge, std::int32_t vertex)

@@ -20,12 +20,18 @@ std::vector<std::int32_t> entitiesAround(const NurbsModel& model, EntityId entit
 std::vector<std::int32_t> commonEntities(
   const NurbsModel& model, EntityId a, EntityId b, int dimension);
 
+/// Whether the CAD edge at this point, or one that ends there, fits the direction.
+bool fitsTangent(const CADModel& model, const ClosestPoint& where, const Vector3& direction);
+
 /// CAD edges that bound both faces, ascending; of one face the edges that bound no other one: its
 /// seams and its free border.
 std::vector<std::int32_t> edgesBetween(const NurbsModel& model, std::int32_t a, std::int32_t b);
 
 /// Whether a face lies on both sides of the edge without a crease.
 bool isSeam(const NurbsEdge& edge);
+
+/// Length of the edge, by chords between 16 points a segment.
+double lengthOf(const NurbsEdge& edge);
 
 /// Unit tangent of `edge` at its end `vertex`, pointing away from it.
 Vector3 tangentAwayFrom(const CADModel& model, std::int32_t edge, std::int32_t vertex);

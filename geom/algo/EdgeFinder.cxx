@@ -90,18 +90,6 @@ ClosestPoint EdgeFinder::nearestCrease(const Point3& point, double limit) const
   return model_.nearest(point, scope);
 }
 
-bool EdgeFinder::fitsTangent(const ClosestPoint& where, const Vector3& direction) const
-{
-  if (where.entity.dimension == 1)
-  {
-    return fitsEitherWay(model_.tangent(where.entity.index, where.parameters[0]), direction);
-  }
-  const auto edges = entitiesAround(model_.nurbs(), where.entity, 1);
-  return std::any_of(edges.begin(), edges.end(),
-    [&](std::int32_t edge)
-    { return fitsEitherWay(tangentAwayFrom(model_, edge, where.entity.index), direction); });
-}
-
 /// Whether two faces that make an angle at the point have the normals of the two facets, up to one
 /// sign; of one facet, whether a face has its normal.
 bool EdgeFinder::fitsNormals(const ClosestPoint& where, const MeshEdge& edge) const
@@ -136,7 +124,15 @@ bool EdgeFinder::fitsNormals(const ClosestPoint& where, const MeshEdge& edge) co
 
 bool EdgeFinder::passesAsCrease(const ClosestPoint& where, const MeshEdge& edge) const
 {
-  return where.entity && fitsTangent(where, directionOf(edge.points)) && fitsNormals(where, edge);
+  return where.entity && fitsTangent(model_, where, directionOf(edge.points)) &&
+         fitsNormals(where, edge) && endsAreNearCreases(edge);
+}
+
+/// Otherwise an edge that leaves a crease would be taken for it, and its far end be moved there.
+bool EdgeFinder::endsAreNearCreases(const MeshEdge& edge) const
+{
+  const double limit = 0.5 * distance(edge.points[0], edge.points[1]);
+  return nearestCrease(edge.points[0], limit).entity && nearestCrease(edge.points[1], limit).entity;
 }
 
 EdgeMatch EdgeFinder::matchCrease(std::int32_t candidate, const MeshEdge& edge, double reach) const
@@ -167,7 +163,7 @@ EdgeMatch EdgeFinder::matchFollowed(
   for (int k = 0; k < 2; ++k)
   {
     const double away = model_.nearestOn({ 1, candidate }, edge.points[k]).distance;
-    if (away > (edge.settled[k] ? exact : 0.25 * reach))
+    if (away > (edge.settled[k] ? exact : 0.15 * reach))
     {
       return {};
     }

@@ -67,9 +67,10 @@ public:
   /// The nearest of these CAD edges:
   ///   - creases between the faces of the two facets (of one facet: of its face), if they pass the
   ///     middle of the mesh edge within half of its length and of the facets' heights over it, at
-  ///     an angle of up to 60 degrees, and the normals of their faces fit those of the facets;
+  ///     an angle of up to 60 degrees, the normals of their faces fit those of the facets, and both
+  ///     ends are within half of its length of some crease;
   ///   - smooth edges between the two faces, and edges that one face has on both sides, that the
-  ///     mesh follows: if both ends are within a quarter of these lengths, at an angle of up to 30
+  ///     mesh follows: if both ends are within 0.15 of these lengths, at an angle of up to 30
   ///     degrees;
   ///   - where there is none of these, and the facets make an angle: the nearest crease of the
   ///     whole model, with the limits above.
@@ -86,8 +87,8 @@ public:
   bool follows(std::int32_t edge, const std::array<Point3, 2>& points) const;
 
 private:
-  bool fitsTangent(const ClosestPoint& where, const Vector3& direction) const;
   bool fitsNormals(const ClosestPoint& where, const MeshEdge& edge) const;
+  bool endsAreNearCreases(const MeshEdge& edge) const;
   bool passesAsCrease(const ClosestPoint& where, const MeshEdge& edge) const;
   EdgeMatch matchCrease(std::int32_t candidate, const MeshEdge& edge, double reach) const;
   EdgeMatch matchFollowed(std::int32_t candidate, const MeshEdge& edge, double reach) const;

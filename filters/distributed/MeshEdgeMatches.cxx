@@ -1,0 +1,166 @@
+#include "MeshEdgeMatches.h"
+
+#include "CADAdjacency.h"
+#include "EvenWork.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cadrefine
+{
+namespace
+{
+
+/// One number for each question, and the questions.
+template<class Question>
+struct Asked
+{
+  std::vector<std::size_t> of;
+  std::vector<Question> questions;
+
+  void add(std::size_t number, const Question& question)
+  {
+    of.push_back(number);
+    questions.push_back(question);
+  }
+};
+
+/// Faces with a seam: mesh edges inside of them may run along it.
+std::vector<unsigned char> findSeamedFaces(const NurbsModel& nurbs)
+{
+  std::vector<unsigned char> seamed(nurbs.faces.size(), 0);
+  for (const NurbsEdge& edge : nurbs.edges)
+  {
+    if (isSeam(edge))
+    {
+      seamed[edge.faces[0]] = 1;
+    }
+  }
+  return seamed;
+}
+
+std::vector<EdgeMatch> matchMeshEdges(const ProjectionTask& task,
+  const std::vector<ClosestPoint>& hits, const std::vector<FacetRecord>& records,
+  const std::vector<unsigned char>& settled)
+{
+  const auto ofEdges = gatherFacetRecords(task.exchange, task.boundary, records);
+  const auto seamed = findSeamedFaces(task.model().nurbs());
+  const auto& edges = task.boundary.edges.edges();
+  Asked<MeshEdge> asked;
+  for (std::size_t e = 0; e < edges.size(); ++e)
+  {
+    const auto [a, b] = edges[e];
+    if (!hits[a].entity || !hits[b].entity)
+    {
+      continue;
+    }
+    for (MeshEdge edge : meshEdges({ task.points()[a], task.points()[b] }, facetsOnCAD(ofEdges[e])))
+    {
+      const std::int32_t face = edge.facets[0].face;
+      const bool inside = edge.facetCount == 2 && face == edge.facets[1].face;
+      if (hasAngle(edge) || !inside || (face >= 0 && seamed[face]))
+      {
+        edge.settled = { settled[a], settled[b] };
+        asked.add(e, edge);
+      }
+    }
+  }
+  const EdgeFinder finder(task.model());
+  const auto answers = answerEvenly<EdgeMatch>(task.exchange, std::move(asked.questions),
+    [&](const MeshEdge& edge) { return finder.find(edge); });
+  std::vector<EdgeMatch> best(edges.size());
+  for (std::size_t i = 0; i < asked.of.size(); ++i)
+  {
+    best[asked.of[i]] = std::min(best[asked.of[i]], answers.values[i]);
+  }
+  return best;
+}
+
+/// For each CAD edge the length of the mesh edges that run along it, in whole numbers of 2^-40 of
+/// the model's size, so that the sum does not depend on the order.
+std::vector<std::int64_t> sumLengths(
+  const ProjectionTask& task, const std::vector<std::int32_t>& ofMeshEdges)
+{
+  const auto& edges = task.boundary.edges.edges();
+  const auto owned = task.boundary.sharedEdges.ownedHere(static_cast<Index>(edges.size()));
+  std::vector<std::int64_t> lengths(task.model().nurbs().edges.size(), 0);
+  for (std::size_t e = 0; e < edges.size(); ++e)
+  {
+    if (owned[e] && ofMeshEdges[e] >= 0)
+    {
+      const auto [a, b] = edges[e];
+      const double length = distance(task.points()[a], task.points()[b]) / task.model().size();
+      lengths[ofMeshEdges[e]] += std::llround(std::ldexp(length, 40));
+    }
+  }
+  return task.exchange.sum(lengths);
+}
+
+/// Forgets smooth CAD edges along less than half of which the mesh runs: it does not know of them.
+void forgetAccidents(const ProjectionTask& task, std::vector<std::int32_t>& ofMeshEdges)
+{
+  const auto& edges = task.model().nurbs().edges;
+  const auto lengths = sumLengths(task, ofMeshEdges);
+  std::vector<unsigned char> followed(edges.size(), 1);
+  for (std::size_t edge = 0; edge < edges.size(); ++edge)
+  {
+    if (lengths[edge] > 0 && !edges[edge].sharp)
+    {
+      const double length = std::ldexp(static_cast<double>(lengths[edge]), -40);
+      followed[edge] = length * task.model().size() >= 0.5 * lengthOf(edges[edge]);
+    }
+  }
+  for (std::int32_t& edge : ofMeshEdges)
+  {
+    edge = edge >= 0 && followed[edge] ? edge : -1;
+  }
+}
+
+std::vector<std::int32_t> edgesOfMeshEdges(const ProjectionTask& task,
+  const std::vector<ClosestPoint>& hits, const std::vector<FacetRecord>& records,
+  const std::vector<unsigned char>& settled)
+{
+  const auto matches = matchMeshEdges(task, hits, records, settled);
+  std::vector<std::int32_t> result(matches.size());
+  std::transform(matches.begin(), matches.end(), result.begin(),
+    [](const EdgeMatch& match) { return match.edge; });
+  forgetAccidents(task, result);
+  return result;
+}
+
+std::vector<std::int32_t> edgesOfSegments(
+  const ProjectionTask& task, const std::vector<FacetRecord>& records)
+{
+  std::vector<std::int32_t> result(task.boundary.edges.edges().size(), -1);
+  Asked<Point3> asked;
+  for (std::size_t f = 0; f < records.size(); ++f)
+  {
+    if (records[f].onCAD && !records[f].free)
+    {
+      const auto& ends = task.boundary.facets[f].vertices;
+      asked.add(
+        task.boundary.facetEdges[f][0], 0.5 * (task.points()[ends[0]] + task.points()[ends[1]]));
+    }
+  }
+  const auto answers = answerEvenly<ClosestPoint>(task.exchange, std::move(asked.questions),
+    [&](const Point3& middle)
+    { return task.projector.nearest(middle, std::numeric_limits<double>::infinity()); });
+  for (std::size_t i = 0; i < asked.of.size(); ++i)
+  {
+    const EntityId entity = answers.values[i].entity;
+    result[asked.of[i]] = entity.dimension == 1 ? entity.index : -1;
+  }
+  return result;
+}
+
+} // namespace
+
+std::vector<std::int32_t> findCADEdges(const ProjectionTask& task,
+  const std::vector<ClosestPoint>& hits, const std::vector<FacetRecord>& records,
+  const std::vector<unsigned char>& settled)
+{
+  return task.triangles() ? edgesOfMeshEdges(task, hits, records, settled)
+                          : edgesOfSegments(task, records);
+}
+
+} // namespace cadrefine
