@@ -2,12 +2,13 @@
 
 #include "OccGuard.h"
 
+#include <BRep_Builder.hxx>
 #include <Interface_Check.hxx>
 #include <Interface_EntityIterator.hxx>
 #include <Interface_Graph.hxx>
 #include <Interface_InterfaceModel.hxx>
 #include <TopExp_Explorer.hxx>
-#include <TopoDS_Shape.hxx>
+#include <TopoDS_Compound.hxx>
 #include <TransferBRep.hxx>
 #include <Transfer_TransientProcess.hxx>
 #include <XSControl_TransferReader.hxx>
@@ -80,6 +81,18 @@ bool refersToAny(const Handle(XSControl_WorkSession) & session,
     }
   }
   return false;
+}
+
+TopoDS_Shape joinShapes(const XSControl_Reader& reader)
+{
+  BRep_Builder builder;
+  TopoDS_Compound compound;
+  builder.MakeCompound(compound);
+  for (int i = 1; i <= reader.NbShapes(); ++i)
+  {
+    builder.Add(compound, reader.Shape(i));
+  }
+  return compound;
 }
 
 } // namespace cadrefine

@@ -1,9 +1,12 @@
-// What Open CASCADE's readers noted while they loaded and transferred a file. Private to geom/cad.
+// What Open CASCADE's readers noted, and made, while they loaded and transferred a file. Private to
+// geom/cad.
 #pragma once
 
 #include <Interface_CheckIterator.hxx>
 #include <Standard_Handle.hxx>
 #include <Standard_Transient.hxx>
+#include <TopoDS_Shape.hxx>
+#include <XSControl_Reader.hxx>
 #include <XSControl_WorkSession.hxx>
 
 #include <map>
@@ -26,5 +29,8 @@ bool hasShape(
 /// True where `entity` or anything that it refers to, directly or not, is among `numbers`.
 bool refersToAny(const Handle(XSControl_WorkSession) & session,
   const Handle(Standard_Transient) & entity, const std::set<int>& numbers);
+
+/// All shapes that the reader has made, as one.
+TopoDS_Shape joinShapes(const XSControl_Reader& reader);
 
 } // namespace cadrefine

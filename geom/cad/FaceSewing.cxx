@@ -2,7 +2,6 @@
 
 #include <BRepBndLib.hxx>
 #include <BRepBuilderAPI_Sewing.hxx>
-#include <BRep_Builder.hxx>
 #include <Bnd_Box.hxx>
 #include <TopExp.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
@@ -21,18 +20,6 @@ TopTools_IndexedMapOfShape mapOf(const TopoDS_Shape& shape, TopAbs_ShapeEnum typ
   TopTools_IndexedMapOfShape map;
   TopExp::MapShapes(shape, type, map);
   return map;
-}
-
-TopoDS_Compound compoundOf(const std::vector<TopoDS_Shape>& faces)
-{
-  BRep_Builder builder;
-  TopoDS_Compound compound;
-  builder.MakeCompound(compound);
-  for (const TopoDS_Shape& face : faces)
-  {
-    builder.Add(compound, face);
-  }
-  return compound;
 }
 
 double diagonal(const TopoDS_Shape& shape)

@@ -18,7 +18,6 @@
 #include "OccGuard.h"
 #include "ShapeReaders.h"
 
-#include <BRep_Builder.hxx>
 #include <IGESControl_Reader.hxx>
 #include <IGESData_GlobalSection.hxx>
 #include <IGESData_IGESEntity.hxx>
@@ -26,7 +25,6 @@
 #include <IGESData_IGESType.hxx>
 #include <TColStd_HSequenceOfTransient.hxx>
 #include <TCollection_HAsciiString.hxx>
-#include <TopoDS_Compound.hxx>
 #include <XSControl_WorkSession.hxx>
 
 #include <algorithm>
@@ -88,18 +86,6 @@ std::set<int> findUsed(const RepairedIges& file, const std::vector<int>& roots)
     }
   }
   return used;
-}
-
-TopoDS_Shape joinShapes(IGESControl_Reader& reader)
-{
-  BRep_Builder builder;
-  TopoDS_Compound compound;
-  builder.MakeCompound(compound);
-  for (int i = 1; i <= reader.NbShapes(); ++i)
-  {
-    builder.Add(compound, reader.Shape(i));
-  }
-  return compound;
 }
 
 UnreadEntity makeUnread(

@@ -35,18 +35,6 @@ int countOf(const TopoDS_Shape& shape, TopAbs_ShapeEnum type)
   return map.Extent();
 }
 
-TopoDS_Compound compoundOf(const std::vector<TopoDS_Shape>& shapes)
-{
-  BRep_Builder builder;
-  TopoDS_Compound compound;
-  builder.MakeCompound(compound);
-  for (const TopoDS_Shape& shape : shapes)
-  {
-    builder.Add(compound, shape);
-  }
-  return compound;
-}
-
 /// Shapes of `type` that are in none of type `avoid`, each once.
 std::vector<TopoDS_Shape> freeShapes(
   const TopoDS_Shape& shape, TopAbs_ShapeEnum type, TopAbs_ShapeEnum avoid)
@@ -154,6 +142,18 @@ Surfaces collectSurfaces(const TopoDS_Shape& shape)
 }
 
 } // namespace
+
+TopoDS_Compound compoundOf(const std::vector<TopoDS_Shape>& shapes)
+{
+  BRep_Builder builder;
+  TopoDS_Compound compound;
+  builder.MakeCompound(compound);
+  for (const TopoDS_Shape& shape : shapes)
+  {
+    builder.Add(compound, shape);
+  }
+  return compound;
+}
 
 PreparedShape prepareShape(const TopoDS_Shape& shape, LookMap& looks)
 {

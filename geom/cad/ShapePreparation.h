@@ -3,6 +3,7 @@
 
 #include "EntityLooks.h"
 
+#include <TopoDS_Compound.hxx>
 #include <TopoDS_Shape.hxx>
 
 #include <vector>
@@ -20,6 +21,8 @@ struct PreparedShape
 /// The model made of `shape`: free faces and open shells sewn, broken ones healed, closed shells
 /// turned outward, free curves joined at their ends. `looks` follow.
 PreparedShape prepareShape(const TopoDS_Shape& shape, LookMap& looks);
+
+TopoDS_Compound compoundOf(const std::vector<TopoDS_Shape>& shapes);
 
 struct BoundedFaces
 {

@@ -11,7 +11,6 @@
 #include "ShapeReaders.h"
 #include "StepLooks.h"
 
-#include <BRep_Builder.hxx>
 #include <STEPConstruct_UnitContext.hxx>
 #include <STEPControl_Reader.hxx>
 #include <StepData_Protocol.hxx>
@@ -23,7 +22,6 @@
 #include <StepShape_FaceSurface.hxx>
 #include <TColStd_SequenceOfAsciiString.hxx>
 #include <TCollection_HAsciiString.hxx>
-#include <TopoDS_Compound.hxx>
 #include <XSControl_WorkSession.hxx>
 
 #include <cstdlib>
@@ -73,18 +71,6 @@ std::string unitName(STEPControl_Reader& reader, double millimetres)
   reader.FileUnits(lengths, angles, solidAngles);
   const std::string name = shortUnitName(millimetres);
   return lengths.IsEmpty() || !name.empty() ? name : shortUnitName(lengths(1).ToCString());
-}
-
-TopoDS_Shape joinRoots(const STEPControl_Reader& reader)
-{
-  BRep_Builder builder;
-  TopoDS_Compound compound;
-  builder.MakeCompound(compound);
-  for (int i = 1; i <= reader.NbShapes(); ++i)
-  {
-    builder.Add(compound, reader.Shape(i));
-  }
-  return compound;
 }
 
 UnreadEntity makeUnread(
@@ -150,7 +136,7 @@ ReadShape readStep(const std::string& path)
   result.report.unit = unitName(reader, millimetres);
   reader.SetSystemLengthUnit(millimetres);
   reader.TransferRoots();
-  result.shape = joinRoots(reader);
+  result.shape = joinShapes(reader);
   result.looks = collectStepLooks(reader.WS());
   result.report.unread = listUnread(reader);
   return result;
