@@ -1,5 +1,7 @@
 #include "ArrayTransfer.h"
 
+#include "LargeMemory.h"
+
 #include <vtkAbstractArray.h>
 #include <vtkArrayDispatch.h>
 #include <vtkCellData.h>
@@ -32,6 +34,7 @@ vtkNew<vtkIdTypeArray> makeIds(const std::string& name, const Lists&... lists)
   vtkNew<vtkIdTypeArray> array;
   array->SetName(name.c_str());
   array->SetNumberOfValues(static_cast<vtkIdType>((lists.size() + ...)));
+  preferHugePages(array->GetPointer(0), array->GetNumberOfValues() * sizeof(vtkIdType));
   vtkIdType* next = array->GetPointer(0);
   ((next = std::copy(lists.begin(), lists.end(), next)), ...);
   return array;
@@ -52,6 +55,11 @@ vtkSmartPointer<vtkAbstractArray> emptyLike(vtkAbstractArray* array, vtkIdType c
   result->SetNumberOfComponents(array->GetNumberOfComponents());
   result->CopyComponentNames(array);
   result->SetNumberOfTuples(count);
+  if (vtkDataArray::SafeDownCast(result))
+  {
+    preferHugePages(result->GetVoidPointer(0),
+      static_cast<std::size_t>(result->GetNumberOfValues()) * result->GetDataTypeSize());
+  }
   return result;
 }
 
@@ -183,7 +191,8 @@ std::vector<Index> parentCells(const ChildRanges& firstChildren)
   {
     children += firsts.back();
   }
-  std::vector<Index> parents(children);
+  std::vector<Index> parents;
+  resizeLong(parents, children);
   auto next = parents.begin();
   Index cell = 0;
   for (const auto& firsts : firstChildren)

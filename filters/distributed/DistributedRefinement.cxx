@@ -4,6 +4,7 @@
 #include "DistributedBoundary.h"
 #include "DistributedMoves.h"
 #include "GlobalNumbering.h"
+#include "LargeMemory.h"
 
 #include <algorithm>
 #include <numeric>
@@ -27,7 +28,8 @@ std::vector<GlobalId> numberNewVertices(RankExchange& exchange, DistributedMesh&
   const std::vector<std::array<Index, 2>>& parentEdges)
 {
   const auto& ids = mesh.mesh().ids;
-  std::vector<Key<2>> keys(parentEdges.size());
+  std::vector<Key<2>> keys;
+  resizeLong(keys, parentEdges.size());
   std::transform(parentEdges.begin(), parentEdges.end(), keys.begin(),
     [&](const std::array<Index, 2>& ends) {
       return Key<2>{ ids[ends[0]], ids[ends[1]] };
@@ -45,8 +47,12 @@ std::vector<GlobalId> numberNewVertices(RankExchange& exchange, DistributedMesh&
 std::array<std::vector<GlobalId>, 4> numberChildren(RankExchange& exchange,
   const std::array<std::vector<GlobalId>, 4>& parentIds, const ChildRanges& firstChildren)
 {
+  const std::size_t cells = std::accumulate(parentIds.begin(), parentIds.end(), std::size_t{ 0 },
+    [](std::size_t sum, const std::vector<GlobalId>& list) { return sum + list.size(); });
   std::vector<Key<1>> keys;
   std::vector<std::int64_t> weights;
+  reserveLong(keys, cells);
+  reserveLong(weights, cells);
   for (int d = 0; d < 4; ++d)
   {
     const auto& firsts = firstChildren[d];
@@ -62,7 +68,7 @@ std::array<std::vector<GlobalId>, 4> numberChildren(RankExchange& exchange,
   for (int d = 0; d < 4; ++d)
   {
     const auto& firsts = firstChildren[d];
-    ids[d].resize(firsts.back());
+    resizeLong(ids[d], firsts.back());
     for (std::size_t c = 0; c + 1 < firsts.size(); ++c)
     {
       std::iota(ids[d].begin() + firsts[c], ids[d].begin() + firsts[c + 1], *parent);

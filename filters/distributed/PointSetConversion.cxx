@@ -4,6 +4,7 @@
 #include "ArrayAccess.h"
 #include "Error.h"
 #include "GlobalNumbering.h"
+#include "LargeMemory.h"
 #include "RadixOrder.h"
 
 #include <vtkCellArray.h>
@@ -72,26 +73,38 @@ void checkCell(int type, int dimension, vtkIdType cell)
 }
 
 template<class Point, std::size_t Corners>
-void appendCell(const Point* points, Simplices<Corners>& cells)
+void appendCell(const Point* points, std::size_t expected, Simplices<Corners>& cells)
 {
+  if (cells.empty())
+  {
+    reserveLong(cells, expected);
+  }
   auto& cell = cells.emplace_back();
   std::transform(
     points, points + Corners, cell.begin(), [](Point point) { return static_cast<Index>(point); });
 }
 
+/// Appends cell `number` of the data set; `expected` is how many may follow.
 template<class Point>
-void appendCell(int dimension, const Point* points, SimplexMesh& mesh)
+void appendCell(
+  int dimension, const Point* points, vtkIdType number, std::size_t expected, ConvertedMesh& result)
 {
+  auto& numbers = result.cellOf[dimension];
+  if (numbers.empty())
+  {
+    reserveLong(numbers, expected);
+  }
+  numbers.push_back(number);
   switch (dimension)
   {
     case 0:
-      return appendCell(points, mesh.vertices);
+      return appendCell(points, expected, result.mesh.vertices);
     case 1:
-      return appendCell(points, mesh.segments);
+      return appendCell(points, expected, result.mesh.segments);
     case 2:
-      return appendCell(points, mesh.triangles);
+      return appendCell(points, expected, result.mesh.triangles);
     default:
-      return appendCell(points, mesh.tetrahedra);
+      return appendCell(points, expected, result.mesh.tetrahedra);
   }
 }
 
@@ -126,6 +139,7 @@ void forEachCell(vtkPointSet* input, const Use& use)
 void readCells(vtkPointSet* input, ConvertedMesh& result)
 {
   vtkUnsignedCharArray* ghosts = input->GetCellGhostArray();
+  const vtkIdType total = input->GetNumberOfCells();
   forEachCell(input,
     [&](vtkIdType cell, int type, const auto* points, vtkIdType count)
     {
@@ -139,8 +153,7 @@ void readCells(vtkPointSet* input, ConvertedMesh& result)
       checkCell(type, dimension, cell);
       for (vtkIdType part = 0; part < (isPolyVertex ? count : 1); ++part)
       {
-        appendCell(dimension, points + part, result.mesh);
-        result.cellOf[dimension].push_back(cell);
+        appendCell(dimension, points + part, cell, total - cell, result);
       }
     });
 }
@@ -326,7 +339,7 @@ void appendKeys(const SimplexMesh& mesh, const std::vector<std::array<Index, Cor
 std::vector<GlobalId> numberCells(RankExchange& exchange, const SimplexMesh& mesh)
 {
   std::vector<Key<4>> keys;
-  keys.reserve(mesh.cellCount());
+  reserveLong(keys, mesh.cellCount());
   appendKeys(mesh, mesh.vertices, keys);
   appendKeys(mesh, mesh.segments, keys);
   appendKeys(mesh, mesh.triangles, keys);
@@ -343,7 +356,7 @@ void setCellIds(RankExchange& exchange, vtkPointSet* input, ConvertedMesh& resul
   std::size_t next = 0;
   for (int d = 0; d < 4; ++d)
   {
-    result.cellIds[d].reserve(result.cellOf[d].size());
+    reserveLong(result.cellIds[d], result.cellOf[d].size());
     for (const vtkIdType cell : result.cellOf[d])
     {
       result.cellIds[d].push_back(idOf.empty() ? numbers[next] : idOf[cell]);

@@ -1,5 +1,7 @@
 #include "PointSetConversion.h"
 
+#include "LargeMemory.h"
+
 #include <vtkCellArray.h>
 #include <vtkCellType.h>
 #include <vtkDoubleArray.h>
@@ -16,6 +18,13 @@ namespace cadrefine
 {
 namespace
 {
+
+template<class Array>
+void setLength(Array* array, std::size_t values)
+{
+  array->SetNumberOfValues(static_cast<vtkIdType>(values));
+  preferHugePages(array->GetVoidPointer(0), values * array->GetDataTypeSize());
+}
 
 /// Appends the cells at these places of an array's offsets and connectivity.
 template<std::size_t Corners>
@@ -34,8 +43,8 @@ vtkSmartPointer<vtkCellArray> makeCellArray(const Simplices<Corners>&... cells)
 {
   vtkNew<vtkTypeInt64Array> offsets;
   vtkNew<vtkTypeInt64Array> connectivity;
-  offsets->SetNumberOfValues(static_cast<vtkIdType>((cells.size() + ... + 1)));
-  connectivity->SetNumberOfValues(static_cast<vtkIdType>(((Corners * cells.size()) + ...)));
+  setLength(offsets.Get(), (cells.size() + ... + 1));
+  setLength(connectivity.Get(), ((Corners * cells.size()) + ...));
   vtkTypeInt64* offset = offsets->GetPointer(0);
   vtkTypeInt64* corner = connectivity->GetPointer(0);
   *offset = 0;
@@ -58,7 +67,7 @@ vtkSmartPointer<vtkPointSet> makeUnstructuredGrid(const SimplexMesh& mesh)
 {
   vtkNew<vtkUnsignedCharArray> types;
   const auto count = static_cast<vtkIdType>(mesh.cellCount());
-  types->SetNumberOfValues(count);
+  setLength(types.Get(), mesh.cellCount());
   constexpr unsigned char typeOf[4] = { VTK_VERTEX, VTK_LINE, VTK_TRIANGLE, VTK_TETRA };
   for (int d = 0; d < 4; ++d)
   {
@@ -88,14 +97,15 @@ vtkIdType firstCellOfDimension(const SimplexMesh& mesh, int dimension)
 vtkSmartPointer<vtkPointSet> makePointSet(vtkPointSet* input, const SimplexMesh& mesh)
 {
   auto output = vtkPolyData::SafeDownCast(input) ? makePolyData(mesh) : makeUnstructuredGrid(mesh);
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  points->SetNumberOfPoints(static_cast<vtkIdType>(mesh.points.size()));
+  vtkNew<vtkDoubleArray> coordinates;
+  coordinates->SetNumberOfComponents(3);
+  setLength(coordinates.Get(), 3 * mesh.points.size());
   if (!mesh.points.empty())
   {
-    std::copy_n(mesh.points.front().data(), 3 * mesh.points.size(),
-      vtkDoubleArray::SafeDownCast(points->GetData())->GetPointer(0));
+    std::copy_n(mesh.points.front().data(), 3 * mesh.points.size(), coordinates->GetPointer(0));
   }
+  vtkNew<vtkPoints> points;
+  points->SetData(coordinates);
   output->SetPoints(points);
   return output;
 }

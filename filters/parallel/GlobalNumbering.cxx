@@ -14,6 +14,7 @@
 
 #include "GlobalNumbering.h"
 
+#include "LargeMemory.h"
 #include "RadixOrder.h"
 
 #include <algorithm>
@@ -80,7 +81,7 @@ PackedKeys<K> pack(const std::vector<Key<K>>& keys)
     shifts[packed.words] = bits;
     ++packed.words;
   }
-  packed.keys.resize(keys.size());
+  resizeLong(packed.keys, keys.size());
   for (std::size_t i = 0; i < keys.size(); ++i)
   {
     std::uint64_t number = 0;
@@ -155,7 +156,7 @@ LocalKeys<K> takeDistinct(const std::vector<Key<K>>& keys, const SortedPlaces& s
 {
   LocalKeys<K> local;
   local.placeOf.resize(keys.size());
-  local.distinct.reserve(keys.size());
+  reserveLong(local.distinct, keys.size());
   for (std::size_t i = 0; i < keys.size(); ++i)
   {
     if (!sorted.repeats[i])
@@ -271,7 +272,7 @@ std::vector<std::size_t> boundsOf(const std::vector<std::vector<T>>& lists)
 Share numberShare(const SortedPlaces& sorted, const std::vector<std::int64_t>* weights)
 {
   Share share;
-  share.numbers.resize(sorted.places.size());
+  resizeLong(share.numbers, sorted.places.size());
   std::int64_t number = 0;
   for (std::size_t i = 0; i < sorted.places.size(); ++i)
   {

@@ -1,5 +1,7 @@
 #include "Split.h"
 
+#include "LargeMemory.h"
+
 #include <algorithm>
 
 namespace cadrefine
@@ -13,9 +15,11 @@ SplitMesh withNewPoints(
 {
   SplitMesh result;
   result.mesh.dimension = mesh.dimension;
-  result.mesh.points = mesh.points;
-  result.mesh.ids = mesh.ids;
-  result.mesh.points.reserve(mesh.points.size() + midpoints.edges.size());
+  const std::size_t count = mesh.points.size() + midpoints.edges.size();
+  reserveLong(result.mesh.points, count);
+  reserveLong(result.mesh.ids, count);
+  result.mesh.points.assign(mesh.points.begin(), mesh.points.end());
+  result.mesh.ids.assign(mesh.ids.begin(), mesh.ids.end());
   for (const auto& ends : midpoints.parentEdges)
   {
     result.mesh.points.push_back(0.5 * (mesh.points[ends[0]] + mesh.points[ends[1]]));
@@ -136,7 +140,7 @@ void bisectAll(const Simplices<Corners>& cells, const std::vector<std::array<Ind
   const EdgeOrder& order, const Midpoints& midpoints, const std::vector<Index>& firstChildren,
   Simplices<Corners>& children)
 {
-  children.reserve(firstChildren.back());
+  reserveLong(children, firstChildren.back());
   const auto vertexOf = [&](Index edge) { return midpoints.ofEdge[edge]; };
   for (std::size_t c = 0; c < cells.size(); ++c)
   {
@@ -158,7 +162,7 @@ std::vector<Index> countParts(const std::vector<std::array<Index, Edges>>& cellE
 {
   const auto vertexOf = [&](Index edge) { return marks[edge] ? 0 : -1; };
   std::vector<Index> firsts{ 0 };
-  firsts.reserve(cellEdges.size() + 1);
+  reserveLong(firsts, cellEdges.size() + 1);
   for (const auto& edges : cellEdges)
   {
     Index children = 1;
@@ -240,6 +244,10 @@ std::array<Index, Edges> midpointsOf(
 Midpoints makeMidpoints(const SimplexMesh& mesh, const EdgeTable& table, const EdgeMarks& marks)
 {
   Midpoints result;
+  const std::size_t count = marks.size() - std::count(marks.begin(), marks.end(), 0);
+  reserveLong(result.edges, count);
+  reserveLong(result.parentEdges, count);
+  reserveLong(result.ofEdge, table.edges.size());
   result.ofEdge.assign(table.edges.size(), -1);
   for (std::size_t e = 0; e < table.edges.size(); ++e)
   {
@@ -297,13 +305,13 @@ SplitMesh splitUniformly(const SimplexMesh& mesh, const EdgeTable& table,
   result.firstChildren = countUniformChildren(mesh);
   result.mesh.vertices = mesh.vertices;
   splitSegments(mesh, table, midpoints, result);
-  result.mesh.triangles.reserve(result.firstChildren[2].back());
+  reserveLong(result.mesh.triangles, result.firstChildren[2].back());
   for (std::size_t c = 0; c < mesh.triangles.size(); ++c)
   {
     splitTriangleUniformly(
       mesh.triangles[c], midpointsOf(table.ofTriangles[c], midpoints), result.mesh.triangles);
   }
-  result.mesh.tetrahedra.reserve(result.firstChildren[3].back());
+  reserveLong(result.mesh.tetrahedra, result.firstChildren[3].back());
   for (std::size_t c = 0; c < mesh.tetrahedra.size(); ++c)
   {
     splitTetrahedronUniformly(result.mesh, mesh.tetrahedra[c],

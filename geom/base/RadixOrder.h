@@ -1,6 +1,8 @@
 // Sorting by whole numbers in linear time.
 #pragma once
 
+#include "LargeMemory.h"
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -45,7 +47,8 @@ inline void radixSort(std::vector<PlacedKey>& keys)
   {
     return;
   }
-  std::vector<PlacedKey> other(keys.size());
+  std::vector<PlacedKey> other;
+  resizeLong(other, keys.size());
   for (int digit = 0; digit < digits; ++digit)
   {
     auto& next = counts[digit];

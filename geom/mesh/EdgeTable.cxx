@@ -1,8 +1,11 @@
 #include "EdgeTable.h"
 
+#include "LargeMemory.h"
 #include "RadixOrder.h"
 #include "VertexBuckets.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <utility>
 
 namespace cadrefine
@@ -50,12 +53,12 @@ void forEachSide(const SimplexMesh& mesh, const Use& use)
   forEachSide(mesh.segments, segmentEdges, place, use);
 }
 
-/// A side in the bucket of its end of lower rank: the other end's rank and the side's place in one
-/// number.
-using Side = std::uint64_t;
-
-constexpr int placeBits = 32;
-constexpr Side placeMask = (Side{ 1 } << placeBits) - 1;
+/// A side in the bucket of its end of lower rank.
+struct Side
+{
+  Index other; ///< Rank of its other end.
+  std::uint32_t place;
+};
 
 /// Where the number of the edge of a side stands.
 class SidePlaces
@@ -65,8 +68,12 @@ public:
     : table_(table), triangles_(6 * mesh.tetrahedra.size()),
       segments_(triangles_ + 3 * mesh.triangles.size())
   {
-    table.ofTetrahedra.resize(mesh.tetrahedra.size());
-    table.ofTriangles.resize(mesh.triangles.size());
+    resizeLong(table.ofTetrahedra, mesh.tetrahedra.size());
+    resizeLong(table.ofTriangles, mesh.triangles.size());
+    // Nearly as many edges as there are, by Euler: a ball has one for each vertex and tetrahedron,
+    // and one for two boundary triangles; a disc one for each vertex and triangle.
+    reserveLong(table.edges,
+      mesh.points.size() + mesh.tetrahedra.size() + mesh.triangles.size() + mesh.segments.size());
     table.ofSegments.resize(mesh.segments.size());
   }
 
@@ -84,9 +91,53 @@ private:
   std::size_t segments_;
 };
 
+/// Numbers the edges of each bucket of sides in turn, in the order of their other ends.
+class EdgeNumberer
+{
+public:
+  EdgeNumberer(const SimplexMesh& mesh, const std::vector<Index>& order, EdgeTable& table)
+    : order_(order), table_(table), places_(mesh, table), edgeTo_(order.size(), -1)
+  {
+    table_.firstOfRank.reserve(order.size() + 1);
+    table_.firstOfRank.push_back(0);
+  }
+
+  void operator()(Index rank, const Side* first, const Side* last)
+  {
+    const Index firstEdge = table_.firstOfRank.back();
+    others_.clear();
+    for (const Side* side = first; side != last; ++side)
+    {
+      if (edgeTo_[side->other] < firstEdge)
+      {
+        edgeTo_[side->other] = firstEdge; // seen; which edge it is follows below
+        others_.push_back(side->other);
+      }
+    }
+    std::sort(others_.begin(), others_.end());
+    for (const Index other : others_)
+    {
+      edgeTo_[other] = static_cast<Index>(table_.edges.size());
+      table_.edges.push_back({ order_[rank], order_[other] });
+    }
+    for (const Side* side = first; side != last; ++side)
+    {
+      places_[side->place] = edgeTo_[side->other];
+    }
+    table_.firstOfRank.push_back(static_cast<Index>(table_.edges.size()));
+  }
+
+private:
+  const std::vector<Index>& order_;
+  EdgeTable& table_;
+  SidePlaces places_;
+  std::vector<Index> edgeTo_; ///< The last edge that was found to end at a rank.
+  std::vector<Index> others_;
+};
+
 void measureLengths(const SimplexMesh& mesh, EdgeTable& table)
 {
-  table.squaredLengths.resize(table.edges.size());
+  resizeLong(table.squaredLengths, table.edges.size());
   std::transform(table.edges.begin(), table.edges.end(), table.squaredLengths.begin(),
     [&](const std::array<Index, 2>& ends)
     { return squaredNorm(mesh.points[ends[1]] - mesh.points[ends[0]]); });
@@ -155,25 +206,12 @@ EdgeTable buildEdgeTable(const SimplexMesh& mesh)
     [&](std::size_t place, Index a, Index b)
     {
       const auto [low, high] = std::minmax(ranks[a], ranks[b]);
-      sides.add(low, static_cast<Side>(high) << placeBits | place);
+      sides.add(low, { high, static_cast<std::uint32_t>(place) });
     });
 
-  SidePlaces places(mesh, table);
-  table.firstOfRank.reserve(order.size() + 1);
-  sides.forEachSorted(
-    [&](Index rank, const Side* first, const Side* last)
-    {
-      table.firstOfRank.push_back(static_cast<Index>(table.edges.size()));
-      for (const Side* side = first; side != last; ++side)
-      {
-        if (side == first || *side >> placeBits != *(side - 1) >> placeBits)
-        {
-          table.edges.push_back({ order[rank], order[*side >> placeBits] });
-        }
-        places[*side & placeMask] = static_cast<Index>(table.edges.size()) - 1;
-      }
-    });
-  table.firstOfRank.push_back(static_cast<Index>(table.edges.size()));
+  EdgeNumberer numberer(mesh, order, table);
+  sides.forEach(
+    [&](Index rank, const Side* first, const Side* last) { numberer(rank, first, last); });
   measureLengths(mesh, table);
   return table;
 }

@@ -51,8 +51,8 @@ struct EdgeTable
   Index find(Index a, Index b) const;
 };
 
-/// Sorts the sides of all cells by their ends: work and memory linear in the number of cells but
-/// for a logarithm of the sides at a vertex.
+/// Sorts the sides of all cells by one end, and the edges there by the other: work and memory
+/// linear in the number of cells but for a logarithm of the edges at a vertex.
 EdgeTable buildEdgeTable(const SimplexMesh& mesh);
 
 /// The total order by which the longest edge is chosen: by (squared length, smaller id, larger id).

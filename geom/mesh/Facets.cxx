@@ -3,14 +3,16 @@
 #include "VertexBuckets.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <utility>
 
 namespace cadrefine
 {
 namespace
 {
 
-/// A side in the bucket of its smallest vertex: the other vertices, ascending (a segment has
-/// one), and its place in the order of the cells and their local sides.
+/// A side in the bucket of its smallest vertex: the other vertices, ascending, as one number, and
+/// its place in the order of the cells and their local sides.
 struct Side
 {
   std::uint64_t others;
@@ -19,6 +21,21 @@ struct Side
   friend bool operator<(const Side& a, const Side& b) { return a.others < b.others; }
 };
 
+std::pair<Index, std::uint64_t> sideKey(Index a, Index b, Index c)
+{
+  const auto [low, high] = std::minmax(a, b);
+  const Index first = std::min(low, c);
+  const Index last = std::max(high, c);
+  const auto middle = static_cast<std::uint64_t>(std::max(low, std::min(high, c)));
+  return { first, middle << 32 | static_cast<std::uint64_t>(last) };
+}
+
+std::pair<Index, std::uint64_t> sideKey(Index a, Index b)
+{
+  return { std::min(a, b), static_cast<std::uint64_t>(std::max(a, b)) };
+}
+
+/// Calls use(smallest vertex, side) for each side.
 template<class Use, std::size_t Corners, std::size_t Sides, std::size_t SideCorners>
 void forEachSide(
   const Simplices<Corners>& cells, const int (&sides)[Sides][SideCorners], const Use& use)
@@ -28,19 +45,77 @@ void forEachSide(
   {
     for (const auto& side : sides)
     {
-      std::array<Index, SideCorners> vertices;
-      for (std::size_t k = 0; k < SideCorners; ++k)
+      if constexpr (SideCorners == 3)
       {
-        vertices[k] = cell[side[k]];
+        const auto [vertex, others] = sideKey(cell[side[0]], cell[side[1]], cell[side[2]]);
+        use(vertex, Side{ others, place++ });
       }
-      std::sort(vertices.begin(), vertices.end());
-      const auto second = SideCorners == 3 ? static_cast<std::uint64_t>(vertices[1]) : 0;
-      const auto last = static_cast<std::uint64_t>(vertices.back());
-      use(vertices[0], Side{ second << 32 | last, place });
-      ++place;
+      else
+      {
+        const auto [vertex, others] = sideKey(cell[side[0]], cell[side[1]]);
+        use(vertex, Side{ others, place++ });
+      }
     }
   }
 }
+
+/// Finds the sides of a bucket that are met once.
+class SingleSides
+{
+public:
+  /// Appends the places of those.
+  void find(Side* first, Side* last, std::vector<std::size_t>& places)
+  {
+    constexpr std::ptrdiff_t fewSides = 64;
+    if (last - first > fewSides)
+    {
+      findBySorting(first, last, places);
+      return;
+    }
+    distinct_.clear();
+    again_.clear();
+    for (const Side* side = first; side != last; ++side)
+    {
+      const auto found = std::find_if(distinct_.begin(), distinct_.end(),
+        [&](const Side& other) { return other.others == side->others; });
+      if (found == distinct_.end())
+      {
+        distinct_.push_back(*side);
+        again_.push_back(0);
+      }
+      else
+      {
+        again_[found - distinct_.begin()] = 1;
+      }
+    }
+    for (std::size_t s = 0; s < distinct_.size(); ++s)
+    {
+      if (!again_[s])
+      {
+        places.push_back(distinct_[s].place);
+      }
+    }
+  }
+
+private:
+  static void findBySorting(Side* first, Side* last, std::vector<std::size_t>& places)
+  {
+    std::sort(first, last);
+    while (first != last)
+    {
+      Side* next =
+        std::find_if(first, last, [&](const Side& side) { return side.others != first->others; });
+      if (next - first == 1)
+      {
+        places.push_back(first->place);
+      }
+      first = next;
+    }
+  }
+
+  std::vector<Side> distinct_;
+  std::vector<unsigned char> again_;
+};
 
 /// Places of the sides that are met once, ascending.
 template<std::size_t Corners, std::size_t Sides, std::size_t SideCorners>
@@ -52,20 +127,8 @@ std::vector<std::size_t> metOnce(
   buckets.start();
   forEachSide(cells, sides, [&](Index vertex, const Side& side) { buckets.add(vertex, side); });
   std::vector<std::size_t> places;
-  buckets.forEachSorted(
-    [&](Index, const Side* first, const Side* last)
-    {
-      while (first != last)
-      {
-        const Side* next =
-          std::find_if(first, last, [&](const Side& side) { return side.others != first->others; });
-        if (next - first == 1)
-        {
-          places.push_back(first->place);
-        }
-        first = next;
-      }
-    });
+  SingleSides singles;
+  buckets.forEach([&](Index, Side* first, Side* last) { singles.find(first, last, places); });
   std::sort(places.begin(), places.end());
   return places;
 }

@@ -1,21 +1,19 @@
-// Sides of cells, sorted by their vertices.
+// Sides of cells, by one of their vertices.
 #pragma once
 
+#include "LargeMemory.h"
 #include "MeshTypes.h"
 
-#include <algorithm>
 #include <cstddef>
-#include <cstdint>
 #include <numeric>
 #include <vector>
 
 namespace cadrefine
 {
 
-/// Sorts things that are known by a first vertex and a number (what else they are known by): by a
-/// counting sort into the buckets of the vertices, and each bucket by the number. Fill in two
-/// rounds, which must name the same things in the same order: count all, start, add all. Work:
-/// linear but for the logarithm of the largest bucket.
+/// Puts things into buckets, one for each vertex, in the order in which they come: a counting sort.
+/// Fill in two rounds, which must name the same vertices in the same order: count all, start, add
+/// all.
 template<class Entry>
 class VertexBuckets
 {
@@ -26,23 +24,20 @@ public:
   void start()
   {
     std::partial_sum(begins_.begin(), begins_.end(), begins_.begin());
-    entries_.resize(begins_.back());
+    resizeLong(entries_, begins_.back());
   }
   void add(Index vertex, const Entry& entry)
   {
     entries_[begins_[static_cast<std::size_t>(vertex) + 1]++] = entry;
   }
 
-  /// Calls use(vertex, first, last) for the sorted entries of each vertex in turn.
+  /// Calls use(vertex, first, last) for the entries of each vertex in turn; they may be changed.
   template<class Use>
-  void forEachSorted(const Use& use)
+  void forEach(const Use& use)
   {
     for (std::size_t v = 0; v + 2 < begins_.size(); ++v)
     {
-      Entry* first = entries_.data() + begins_[v];
-      Entry* last = entries_.data() + begins_[v + 1];
-      std::sort(first, last);
-      use(static_cast<Index>(v), first, last);
+      use(static_cast<Index>(v), entries_.data() + begins_[v], entries_.data() + begins_[v + 1]);
     }
   }
 
