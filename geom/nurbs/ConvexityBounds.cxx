@@ -214,9 +214,13 @@ ConvexityBounds::Answer ConvexityBounds::ask(const Point3& q) const
 {
   const Vector3 k = middle_ - q;
   const Vector3 inFrame = toFrame(k);
-  const Interval hessianSS = ownSS_ + ss_.dotRange(inFrame);
+  const Interval ownSS = ownSS_;
+  const Interval ownTT = ownTT_;
+  const Interval rangeSS = ss_.dotRange(inFrame);
+  const Interval rangeTT = tt_.dotRange(inFrame);
+  const Interval hessianSS = ownSS + rangeSS;
   const Interval hessianST = ownST_ + st_.dotRange(inFrame);
-  const Interval hessianTT = ownTT_ + tt_.dotRange(inFrame);
+  const Interval hessianTT = ownTT + rangeTT;
   const double a = hessianSS.low;
   const double d = hessianTT.low;
   const double b = hessianST.magnitude();
@@ -228,6 +232,13 @@ ConvexityBounds::Answer ConvexityBounds::ask(const Point3& q) const
   const double r = answer.convex ? std::sqrt(a / d) : 1.0;
   answer.squaredDistanceBound = squaredNorm(k) + 2.0 * (leastOverHalves(a - b * r, gradientS) +
                                                          leastOverHalves(d - b / r, gradientT));
+  // What the terms may have lost by rounding: close to the patch they cancel, and a bound that is
+  // wrong by 1e-16 of the patch's squared size would hide points 1e-8 of its size away.
+  constexpr double rounding = 32 * std::numeric_limits<double>::epsilon();
+  const double terms = squaredNorm(k) + std::abs(gradientS) + std::abs(gradientT) +
+                       ownSS.magnitude() + ownTT.magnitude() + rangeSS.magnitude() +
+                       rangeTT.magnitude() + b * (r + 1 / r);
+  answer.squaredDistanceBound -= rounding * terms;
   if (!answer.convex)
   {
     return answer;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace cadrefine
 {
@@ -88,6 +89,17 @@ Interval LeafSubdivision::ratioRange(int entry) const
   return ratio;
 }
 
+/// Coefficients of the first entry carry rounding errors relative to the largest of them, and so do
+/// those of its parts, which are averages of them.
+void LeafSubdivision::boundRounding()
+{
+  constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
+  const double* bottom = denominator(0);
+  const double largestWeight = *std::max_element(bottom, bottom + degrees_.count());
+  ratioRounding_ = rounding * ratioRange(0).high;
+  formRounding_ = ratioRounding_ * largestWeight;
+}
+
 void LeafSubdivision::fillForms()
 {
   const PatchView& view = query_.structure_.patches[leaf_.patch].view;
@@ -96,6 +108,7 @@ void LeafSubdivision::fillForms()
   forms_.resize(std::max<std::size_t>(forms_.size(), 2 * degrees_.count()));
   squaredDistanceForm(
     { points.data(), view.degreeU, view.degreeV }, query_.q_, numerator(0), denominator(0));
+  boundRounding();
 }
 
 void LeafSubdivision::run()
@@ -109,7 +122,7 @@ void LeafSubdivision::run()
       return;
     }
     fillForms();
-    if (!query_.isWithinLimit(ratioRange(0).low))
+    if (!query_.isWithinLimit(ratioRange(0).low - ratioRounding_))
     {
       return;
     }
@@ -204,14 +217,15 @@ bool LeafSubdivision::isDropped(int entry)
   const Interval ratio = ratioRange(entry);
   const double known = query_.candidates_.nearest();
   const double wanted = known - query_.tolerance_;
-  if (wanted <= 0 || ratio.low >= wanted * wanted)
+  if (wanted <= 0 || ratio.low - ratioRounding_ >= wanted * wanted)
   {
     return true;
   }
   const double level = std::min(wanted * wanted, ratio.high);
   const Curvature c = curvature(entry, level);
   const MiddleValue middle = middleValue(degrees_, level_.data());
-  if (level < ratio.high && secondOrderBound(middle, c.ss.low, c.st.magnitude(), c.tt.low) >= 0)
+  if (level < ratio.high &&
+      secondOrderBound(middle, c.ss.low, c.st.magnitude(), c.tt.low) >= formRounding_)
   {
     return true;
   }

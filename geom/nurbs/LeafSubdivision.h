@@ -42,6 +42,7 @@ private:
   bool spend(double work);
   void fillForms();
   Interval ratioRange(int entry) const;
+  void boundRounding();
   bool isDropped(int entry);
   void fillLevel(int entry, double level) const;
   Curvature curvature(int entry, double level) const;
@@ -58,6 +59,8 @@ private:
   std::vector<double>& forms_; ///< Numerator and denominator of every entry of the stack.
   std::vector<double>& level_; ///< Scratch: one form.
   std::vector<Part> stack_;
+  double formRounding_ = 0;  ///< What a coefficient of numerator - level * denominator is wrong by.
+  double ratioRounding_ = 0; ///< What the ratio of two coefficients is wrong by.
 };
 
 } // namespace cadrefine

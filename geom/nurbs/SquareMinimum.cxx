@@ -70,13 +70,15 @@ bool makePositiveDefinite(DistanceModel& m)
 }
 
 /// Least value over the box of the tangent plane to half the squared distance: a lower bound of
-/// that where it is convex.
+/// that where it is convex, also after rounding.
 double tangentBound(const DistanceModel& m, const ParameterRectangle& box, double s, double t)
 {
   const double gradientS = m.quadratic.gradientS;
   const double gradientT = m.quadratic.gradientT;
-  return m.half + gradientS * ((gradientS > 0 ? box.s0 : box.s1) - s) +
-         gradientT * ((gradientT > 0 ? box.t0 : box.t1) - t);
+  const double fallS = gradientS * ((gradientS > 0 ? box.s0 : box.s1) - s);
+  const double fallT = gradientT * ((gradientT > 0 ? box.t0 : box.t1) - t);
+  constexpr double rounding = 32 * std::numeric_limits<double>::epsilon();
+  return m.half + fallS + fallT - rounding * (m.half - fallS - fallT);
 }
 
 double squaredLength(const DistanceModel& m, const Point2& step)

@@ -134,6 +134,33 @@ TEST(ClosedForms, CircleAlone)
   EXPECT_TRUE(centre.converged);
 }
 
+TEST(ClosedForms, Cusp)
+{
+  // (t^2, t^3) for t from -1 to 1: no speed at t = 0.
+  NurbsModel model;
+  NurbsEdge cusp;
+  cusp.segments = { { -1, 1,
+    { { 1, -1, 0, 1 }, { -1.0 / 3, 1, 0, 1 }, { -1.0 / 3, -1, 0, 1 }, { 1, 1, 0, 1 } } } };
+  model.edges.push_back(cusp);
+  const ClosestPointSearch search(model);
+  const ClosestPoint tip = search.nearest({ -0.25, 0, 0 });
+  EXPECT_NEAR(tip.distance, 0.25, tolerance * search.modelSize());
+  shapes::Random random(5);
+  for (int i = 0; i < 500; ++i)
+  {
+    const Point3 q = (i % 2 == 0 ? 1.0 : 1e-4) * random.point(1.5);
+    const ClosestPoint answer = search.nearest(q);
+    expectConsistent(model, search.modelSize(), q, answer);
+    EXPECT_TRUE(answer.converged);
+    for (int k = -1000; k <= 1000; ++k)
+    {
+      const double t = std::copysign(std::pow(std::abs(k) * 1e-3, 2), k);
+      const double sampled = distance(q, { t * t, t * t * t, 0 });
+      EXPECT_LE(answer.distance, sampled + tolerance * search.modelSize());
+    }
+  }
+}
+
 /// Distance to the square [-2, 2]^2 at z = 0 with a hole of radius 1, and the dimension of the
 /// nearest entity.
 std::pair<double, int> plateDistance(const Point3& q)

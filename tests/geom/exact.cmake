@@ -1,0 +1,18 @@
+if (OpenCASCADE_VERSION VERSION_GREATER_EQUAL 7.8)
+  set(data_exchange TKDEIGES TKDESTEP)
+else ()
+  set(data_exchange TKIGES TKSTEP)
+endif ()
+
+cadrefine_geom_test(exact_tests
+  SOURCES
+    exact/BoundingBlocks.cxx
+    exact/ModelList.cxx
+    exact/OccOracle.cxx
+    exact/SamplePoints.cxx
+    exact/WholeModelTest.cxx
+    cad/TestFiles.cxx
+    ../support/TestShapes.cxx
+  LINKS CADRefineCad ${data_exchange} TKXSBase TKPrim TKBO TKTopAlgo TKBRep TKGeomBase TKShHealing)
+target_include_directories(exact_tests PRIVATE cad nurbs ../support)
+target_include_directories(exact_tests SYSTEM PRIVATE ${OpenCASCADE_INCLUDE_DIR})
