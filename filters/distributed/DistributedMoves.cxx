@@ -5,6 +5,8 @@
 #include "MovingPatch.h"
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
 namespace cadrefine
 {
@@ -27,39 +29,14 @@ unsigned char larger(unsigned char a, unsigned char b)
   return std::max(a, b);
 }
 
-template<std::size_t Corners>
-void growOverCells(const std::vector<std::array<Index, Corners>>& cells,
-  const std::vector<unsigned char>& flags, std::vector<unsigned char>& grown)
-{
-  for (const auto& cell : cells)
-  {
-    if (std::any_of(cell.begin(), cell.end(), [&](Index vertex) { return flags[vertex] != 0; }))
-    {
-      for (const Index vertex : cell)
-      {
-        grown[vertex] = 1;
-      }
-    }
-  }
-}
-
 /// The flags and those of all vertices that share a cell with a flagged one, `rings` times.
 std::vector<unsigned char> grow(
   RankExchange& exchange, const DistributedMesh& mesh, std::vector<unsigned char> flags, int rings)
 {
   for (int ring = 0; ring < rings; ++ring)
   {
-    auto grown = flags;
-    if (mesh.mesh().dimension == 3)
-    {
-      growOverCells(mesh.mesh().tetrahedra, flags, grown);
-    }
-    else
-    {
-      growOverCells(mesh.mesh().triangles, flags, grown);
-    }
-    combineShared(exchange, mesh.shared, grown, larger);
-    flags = std::move(grown);
+    flagVertices(mesh.mesh(), cellsAt(mesh.mesh(), flags), flags);
+    combineShared(exchange, mesh.shared, flags, larger);
   }
   return flags;
 }
@@ -68,23 +45,30 @@ std::vector<unsigned char> grow(
 class VertexMover
 {
 public:
-  VertexMover(RankExchange& exchange, DistributedMesh& mesh, const Moves& moves,
+  VertexMover(RankExchange& exchange, DistributedMesh& mesh, Moves moves,
     Classification& classification, const MoveSettings& settings)
     : exchange_(exchange), mesh_(mesh), classification_(classification), settings_(settings),
-      start_(mesh.mesh().points), targets_(moves.targets),
+      start_(mesh.mesh().points), moves_(std::move(moves)),
       plane_(mesh.mesh().dimension == 2 ? planeNormal(exchange, mesh.mesh()) : Vector3{}),
       slid_(start_.size(), 0)
   {
+    for (std::size_t v = 0; v < start_.size(); ++v)
+    {
+      if (moves_.fractions[v] > 0)
+      {
+        aimed_.push_back(static_cast<Index>(v));
+      }
+    }
     if (settings.mendCells)
     {
       findInvalidCells();
     }
   }
 
-  void run(Moves moves)
+  void run()
   {
-    const MoveGuard guard(mesh(), moves, start_, plane_);
-    settle(moves, guard);
+    const MoveGuard guard(mesh(), moves_, start_, plane_);
+    settle(guard, aimed_);
     std::int64_t left = findLeft();
     int idle = 0;
     for (int round = 0; left > 0 && idle < patience && round < maximumRounds; ++round)
@@ -128,69 +112,41 @@ private:
     }
   }
 
-  void settle(Moves& moves) { settle(moves, MoveGuard(mesh(), moves, start_, plane_)); }
-
-  /// Halves the moves until every cell of every rank accepts them, then makes them.
-  void settle(Moves& moves, const MoveGuard& guard)
+  /// Halves the moves of these vertices until every cell of every rank accepts them, then makes
+  /// them.
+  void settle(const MoveGuard& guard, const std::vector<Index>& moving)
   {
-    while (exchange_.any(guard.halveUnaccepted(moves)))
+    while (exchange_.any(guard.halveUnaccepted(moves_)))
     {
-      combineShared(exchange_, mesh_.shared, moves.fractions,
+      combineShared(exchange_, mesh_.shared, moves_.fractions,
         [](double a, double b) { return std::min(a, b); });
     }
-    std::vector<Point3> positions(start_.size());
-    for (std::size_t v = 0; v < positions.size(); ++v)
+    for (const Index vertex : moving)
     {
-      positions[v] = moves.position(mesh(), static_cast<Index>(v));
+      mesh().points[vertex] = moves_.position(mesh(), vertex);
     }
-    mesh().points = std::move(positions);
+    for (const Index vertex : moving)
+    {
+      moves_.fractions[vertex] = 0;
+      moves_.whole[vertex] = 0;
+    }
   }
 
-  bool isStuck(std::size_t vertex) const { return mesh_.mesh().points[vertex] != targets_[vertex]; }
+  bool isStuck(Index vertex) const { return mesh_.mesh().points[vertex] != moves_.targets[vertex]; }
 
-  /// Flags the vertices that are not at their targets and those of invalid cells; the number of
-  /// both over all ranks.
+  /// The vertices that are not at their targets, and the invalid cells; the number of both over all
+  /// ranks.
   std::int64_t findLeft()
   {
-    const auto owned = mesh_.shared.ownedHere(static_cast<Index>(start_.size()));
-    left_.assign(start_.size(), 0);
-    std::int64_t count = 0;
-    for (std::size_t v = 0; v < left_.size(); ++v)
-    {
-      left_[v] = isStuck(v);
-      count += owned[v] && left_[v];
-    }
+    stuck_.clear();
+    std::copy_if(aimed_.begin(), aimed_.end(), std::back_inserter(stuck_),
+      [&](Index vertex) { return isStuck(vertex); });
+    const auto owned = std::count_if(stuck_.begin(), stuck_.end(),
+      [&](Index vertex) { return mesh_.shared.owner(vertex) == exchange_.rank(); });
     invalid_.erase(std::remove_if(invalid_.begin(), invalid_.end(),
                      [&](Index cell) { return !isInvalid(cell); }),
       invalid_.end());
-    for (const Index cell : invalid_)
-    {
-      flagCorners(cell);
-    }
-    if (settings_.mendCells)
-    {
-      combineShared(exchange_, mesh_.shared, left_, larger);
-    }
-    return exchange_.sum(count + static_cast<std::int64_t>(invalid_.size()));
-  }
-
-  void flagCorners(Index cell)
-  {
-    const auto flag = [&](const auto& corners)
-    {
-      for (const Index vertex : corners)
-      {
-        left_[vertex] = 1;
-      }
-    };
-    if (mesh().dimension == 3)
-    {
-      flag(mesh().tetrahedra[cell]);
-    }
-    else
-    {
-      flag(mesh().triangles[cell]);
-    }
+    return exchange_.sum(owned + static_cast<std::ptrdiff_t>(invalid_.size()));
   }
 
   bool isInterior(std::size_t vertex) const
@@ -200,84 +156,90 @@ private:
 
   bool canSlide(std::size_t vertex) const { return classification_.entities[vertex].dimension > 0; }
 
-  /// Where the vertices of the region, so many rings round what is left, are to go for its sake.
-  std::vector<Point3> optimise(std::vector<Point3> wanted, int rings, bool sliding)
+  /// Where the vertices of the region, so many rings round the flagged ones, are to go for the sake
+  /// of the cells there, with all vertices where they are wanted. Keeps the cells of the region.
+  std::vector<VertexPlace> optimise(
+    std::vector<unsigned char> region, const std::vector<Point3>& wanted, int rings, bool sliding)
   {
-    MovingVertices vertices{ grow(exchange_, mesh_, left_, rings), classification_.entities,
-      std::move(wanted), start_ };
-    for (std::size_t v = 0; v < vertices.free.size(); ++v)
+    combineShared(exchange_, mesh_.shared, region, larger);
+    region = grow(exchange_, mesh_, std::move(region), rings);
+    region_ = cellsAt(mesh(), region);
+    for (std::size_t v = 0; v < region.size(); ++v)
     {
-      const bool stays = vertices.wanted[v] != targets_[v]; // stopped, and not to try again
-      vertices.free[v] = vertices.free[v] && !stays && (isInterior(v) || (sliding && canSlide(v)));
+      const auto mayMove = [&]
+      {
+        const bool stays = wanted[v] != moves_.targets[v]; // stopped, and not to try again
+        return !stays && (isInterior(v) || (sliding && canSlide(v)));
+      };
+      region[v] = region[v] && mayMove();
     }
+    const MovingVertices vertices{ region, classification_.entities, wanted, start_, region_ };
     return MovingPatch(exchange_, mesh_, vertices, plane_)
       .optimise(settings_.projector, sweepsARound);
   }
 
   void tryAgain(int round)
   {
-    moveTo(optimise(targets_, 1 + round / roundsARing, round >= roundsBeforeSliding));
+    std::vector<unsigned char> left(start_.size(), 0);
+    flagVertices(mesh(), invalid_, left);
+    for (const Index vertex : stuck_)
+    {
+      left[vertex] = 1;
+    }
+    moveTo(optimise(std::move(left), moves_.targets, 1 + round / roundsARing,
+             round >= roundsBeforeSliding),
+      stuck_);
   }
 
   /// Vertices that slid and then stopped: to the nearest point of their entity.
   void aimAnew()
   {
-    for (std::size_t v = 0; v < slid_.size(); ++v)
+    for (const Index vertex : stuck_)
     {
-      if (slid_[v] && isStuck(v))
+      if (slid_[vertex])
       {
-        const EntityId entity = classification_.entities[v];
-        const ClosestPoint where = settings_.projector.nearestOn(entity, mesh().points[v]);
-        targets_[v] = where.entity == entity ? where.point : targets_[v];
+        const EntityId entity = classification_.entities[vertex];
+        const ClosestPoint where = settings_.projector.nearestOn(entity, mesh().points[vertex]);
+        Point3& target = moves_.targets[vertex];
+        target = where.entity == entity ? where.point : target;
       }
     }
   }
 
-  void moveTo(const std::vector<Point3>& places)
+  /// Moves vertices of the region to these places, and `others` to their targets.
+  void moveTo(const std::vector<VertexPlace>& places, const std::vector<Index>& others)
   {
-    Moves moves(mesh());
-    for (std::size_t v = 0; v < places.size(); ++v)
+    std::vector<Index> moving;
+    std::vector<Index> settled; // they stay where they come to
+    for (const auto& [vertex, point] : places)
     {
-      const auto vertex = static_cast<Index>(v);
-      if (places[v] == mesh().points[v])
+      if (point == mesh().points[vertex])
       {
         continue;
       }
-      if (isInterior(v) || isStuck(v))
+      moving.push_back(vertex);
+      slid_[vertex] = slid_[vertex] || (!isInterior(vertex) && point != moves_.targets[vertex]);
+      const bool onCAD = !isInterior(vertex) && !isStuck(vertex);
+      if (onCAD || isInterior(vertex))
       {
-        slid_[v] = slid_[v] || places[v] != targets_[v];
-        moves.add(vertex, places[v]);
+        settled.push_back(vertex);
       }
-      else
-      {
-        slid_[v] = 1;
-        moves.addWhole(vertex, places[v]);
-      }
+      moves_.add(vertex, point);
+      moves_.whole[vertex] = onCAD;
     }
-    const auto wasStuck = stuckFlags();
-    const auto start = mesh().points;
-    settle(moves);
-    for (std::size_t v = 0; v < places.size(); ++v)
+    for (const Index vertex : others)
     {
-      if (!wasStuck[v])
+      if (moves_.fractions[vertex] == 0)
       {
-        targets_[v] = mesh().points[v];
-      }
-      else if (moves.targets[v] != start[v])
-      {
-        targets_[v] = places[v];
+        moving.push_back(vertex);
+        moves_.add(vertex, moves_.targets[vertex]);
       }
     }
-  }
-
-  std::vector<unsigned char> stuckFlags() const
-  {
-    std::vector<unsigned char> flags(start_.size());
-    for (std::size_t v = 0; v < flags.size(); ++v)
+    settle(MoveGuard(mesh(), moves_, start_, plane_, region_), moving);
+    for (const Index vertex : settled)
     {
-      flags[v] = isStuck(v);
+      moves_.targets[vertex] = mesh().points[vertex];
     }
-    return flags;
   }
 
   /// Interior vertices round cells that lost much move to where these are better. A mesh of
@@ -289,26 +251,28 @@ private:
     {
       return;
     }
-    left_.assign(start_.size(), 0);
+    std::vector<unsigned char> flags(start_.size(), 0);
     for (const Index vertex : spoilt)
     {
-      left_[vertex] = 1;
+      flags[vertex] = 1;
     }
-    combineShared(exchange_, mesh_.shared, left_, larger);
     const bool isSurface = mesh().dimension == 2 && plane_ == Vector3{};
-    moveTo(optimise(mesh().points, 1, isSurface));
+    moveTo(optimise(std::move(flags), mesh().points, 1, isSurface), {});
   }
 
   void record()
   {
-    for (std::size_t v = 0; v < targets_.size(); ++v)
+    for (std::size_t v = 0; v < slid_.size(); ++v)
     {
-      if (slid_[v] && !isInterior(v))
+      if (slid_[v])
       {
         classification_.set(static_cast<Index>(v),
-          settings_.projector.nearestOn(classification_.entities[v], targets_[v]));
+          settings_.projector.nearestOn(classification_.entities[v], moves_.targets[v]));
       }
-      classification_.distances[v] = distance(mesh().points[v], targets_[v]);
+    }
+    for (const Index vertex : aimed_)
+    {
+      classification_.distances[vertex] = distance(mesh().points[vertex], moves_.targets[vertex]);
     }
   }
 
@@ -317,19 +281,21 @@ private:
   Classification& classification_;
   const MoveSettings& settings_;
   const std::vector<Point3> start_;
-  std::vector<Point3> targets_; ///< Of each vertex; where it is, if it has none.
+  Moves moves_; ///< Targets: of all vertices; of those that have none, where they are.
   const Vector3 plane_;
+  std::vector<Index> aimed_;        ///< Vertices that are to reach a target.
+  std::vector<Index> stuck_;        ///< Those of them that have not.
   std::vector<Index> invalid_;      ///< Cells of this rank that are to be mended.
-  std::vector<unsigned char> left_; ///< Vertices off their targets, and of invalid cells.
+  std::vector<Index> region_;       ///< Cells of this rank where something moves.
   std::vector<unsigned char> slid_; ///< Vertices on the CAD whose target has changed.
 };
 
 } // namespace
 
-void moveOntoCAD(RankExchange& exchange, DistributedMesh& mesh, const Moves& moves,
+void moveOntoCAD(RankExchange& exchange, DistributedMesh& mesh, Moves moves,
   Classification& classification, const MoveSettings& settings)
 {
-  VertexMover(exchange, mesh, moves, classification, settings).run(moves);
+  VertexMover(exchange, mesh, std::move(moves), classification, settings).run();
 }
 
 } // namespace cadrefine

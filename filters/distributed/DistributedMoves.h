@@ -43,9 +43,9 @@ struct MoveSettings
 ///
 /// Collective. Where nothing stops: one look at each cell, one reduction, and one exchange of 8
 /// bytes a shared vertex. A halving costs as much, but for cells whose vertices move only. A round:
-/// some more looks at all cells, and a few sweeps over those round the stopped vertices (see
+/// a look at all cells for each ring and one more, and a few sweeps over those of the region (see
 /// MovingPatch).
-void moveOntoCAD(RankExchange& exchange, DistributedMesh& mesh, const Moves& moves,
+void moveOntoCAD(RankExchange& exchange, DistributedMesh& mesh, Moves moves,
   Classification& classification, const MoveSettings& settings);
 
 } // namespace cadrefine

@@ -290,8 +290,8 @@ RefinementTrace refineOntoCAD(RankExchange& exchange, DistributedMesh& mesh,
     classifyNewVertices(hits, classification);
     return trace;
   }
-  const Moves moves = movesOntoCAD(mesh.mesh(), hits, projector, classification);
-  moveOntoCAD(exchange, mesh, moves, classification,
+  Moves moves = movesOntoCAD(mesh.mesh(), hits, projector, classification);
+  moveOntoCAD(exchange, mesh, std::move(moves), classification,
     { projector, onBoundary, newVertices == NewVertices::MoveAndMend, true });
   return trace;
 }

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace cadrefine
 {
@@ -111,7 +112,7 @@ ProjectionResult projectBoundary(RankExchange& exchange, DistributedMesh& mesh,
       moves.add(static_cast<Index>(v), hits[v].point);
     }
   }
-  moveOntoCAD(exchange, mesh, moves, result.classification,
+  moveOntoCAD(exchange, mesh, std::move(moves), result.classification,
     { projector, findFixed(task), options.mendCells });
   result.projectedPoints = nearest.asked;
   result.balance = nearest.balance;

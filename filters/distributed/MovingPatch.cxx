@@ -24,6 +24,11 @@ struct Placed
   std::int64_t done = 0;
 };
 
+Placed whoeverIsDone(const Placed& a, const Placed& b)
+{
+  return a.done ? a : b;
+}
+
 template<std::size_t Corners>
 CellRecord recordOf(const std::array<Index, Corners>& cell, const Patch& patch)
 {
@@ -77,7 +82,7 @@ void appendCell(const CellRecord& record, const VertexOf& vertexOf, Simplices<Co
 
 MovingPatch::MovingPatch(RankExchange& exchange, const DistributedMesh& mesh,
   const MovingVertices& vertices, const Vector3& plane)
-  : exchange_(exchange), sharedOfMesh_(mesh.shared), wanted_(vertices.wanted),
+  : exchange_(exchange), sharedOfMesh_(mesh.shared), free_(vertices.free),
     patchVertex_(mesh.mesh().points.size(), -1)
 {
   patch_.mesh.dimension = mesh.mesh().dimension;
@@ -112,8 +117,9 @@ void MovingPatch::addOwnCells(const SimplexMesh& mesh, const MovingVertices& ver
 {
   const auto add = [&](const auto& cells, auto& ofPatch)
   {
-    for (auto cell : cells)
+    for (const Index c : vertices.cells)
     {
+      auto cell = cells[c];
       if (std::any_of(cell.begin(), cell.end(), [&](Index v) { return vertices.free[v] != 0; }))
       {
         for (Index& vertex : cell)
@@ -203,10 +209,9 @@ void MovingPatch::findHolders()
   shared_ = findSharedVertices(exchange_, patch_.mesh.ids, candidates);
 }
 
-std::vector<Point3> MovingPatch::optimise(const BoundaryProjector& projector, int sweeps)
+std::vector<VertexPlace> MovingPatch::optimise(const BoundaryProjector& projector, int sweeps)
 {
   PatchOptimiser optimiser(patch_, &projector);
-  const auto whoeverIsDone = [](const Placed& a, const Placed& b) { return a.done ? a : b; };
   for (int sweep = 0; sweep < sweeps; ++sweep)
   {
     optimiser.beginSweep(exchange_.min(optimiser.smallestMeasure()));
@@ -227,17 +232,38 @@ std::vector<Point3> MovingPatch::optimise(const BoundaryProjector& projector, in
       }
     }
   }
-  // Also ranks that hold a vertex, but none of the cells round it, are to know where it is.
-  std::vector<Placed> places(patchVertex_.size());
-  for (std::size_t v = 0; v < places.size(); ++v)
+  return placesOfFree();
+}
+
+/// Also ranks that hold a vertex, but none of the cells round it, are to know where it is.
+std::vector<VertexPlace> MovingPatch::placesOfFree()
+{
+  std::vector<VertexPlace> result;
+  for (std::size_t v = 0; v < meshVertex_.size(); ++v)
   {
-    const Index vertex = patchVertex_[v];
-    places[v] = { vertex < 0 ? wanted_[v] : patch_.mesh.points[vertex], vertex >= 0 };
+    if (meshVertex_[v] >= 0 && patch_.free[v])
+    {
+      result.push_back({ meshVertex_[v], patch_.mesh.points[v] });
+    }
+  }
+  if (exchange_.size() == 1)
+  {
+    return result;
+  }
+  std::vector<Placed> places(patchVertex_.size());
+  for (const VertexPlace& place : result)
+  {
+    places[place.vertex] = { place.point, 1 };
   }
   combineShared(exchange_, sharedOfMesh_, places, whoeverIsDone);
-  std::transform(
-    places.begin(), places.end(), wanted_.begin(), [](const Placed& place) { return place.point; });
-  return wanted_;
+  for (const Index vertex : sharedOfMesh_.all)
+  {
+    if (free_[vertex] && patchVertex_[vertex] < 0)
+    {
+      result.push_back({ vertex, places[vertex].point });
+    }
+  }
+  return result;
 }
 
 } // namespace cadrefine

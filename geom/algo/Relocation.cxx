@@ -45,6 +45,14 @@ Vector3 sideOf(
                             : twofoldAreaVector(points[cell[0]], points[cell[1]], points[cell[2]]);
 }
 
+std::vector<unsigned char> movingVertices(const Moves& moves)
+{
+  std::vector<unsigned char> flags(moves.fractions.size());
+  std::transform(moves.fractions.begin(), moves.fractions.end(), flags.begin(),
+    [](double fraction) { return fraction > 0; });
+  return flags;
+}
+
 } // namespace
 
 Moves::Moves(const SimplexMesh& mesh)
@@ -87,25 +95,83 @@ CellState stateOf(
   return stateAt(pointsOf(cell, points), side);
 }
 
+std::vector<Index> cellsAt(const SimplexMesh& mesh, const std::vector<unsigned char>& flags)
+{
+  std::vector<Index> result;
+  const auto look = [&](const auto& cells)
+  {
+    for (std::size_t c = 0; c < cells.size(); ++c)
+    {
+      unsigned char any = 0;
+      for (const Index vertex : cells[c])
+      {
+        any |= flags[vertex];
+      }
+      if (any)
+      {
+        result.push_back(static_cast<Index>(c));
+      }
+    }
+  };
+  if (mesh.dimension == 3)
+  {
+    look(mesh.tetrahedra);
+  }
+  else
+  {
+    look(mesh.triangles);
+  }
+  return result;
+}
+
+void flagVertices(
+  const SimplexMesh& mesh, const std::vector<Index>& cells, std::vector<unsigned char>& flags)
+{
+  const auto flag = [&](const auto& all)
+  {
+    for (const Index cell : cells)
+    {
+      for (const Index vertex : all[cell])
+      {
+        flags[vertex] = 1;
+      }
+    }
+  };
+  if (mesh.dimension == 3)
+  {
+    flag(mesh.tetrahedra);
+  }
+  else
+  {
+    flag(mesh.triangles);
+  }
+}
+
 MoveGuard::MoveGuard(const SimplexMesh& mesh, const Moves& moves,
   const std::vector<Point3>& reference, const Vector3& plane)
+  : MoveGuard(mesh, moves, reference, plane, cellsAt(mesh, movingVertices(moves)))
+{
+}
+
+MoveGuard::MoveGuard(const SimplexMesh& mesh, const Moves& moves,
+  const std::vector<Point3>& reference, const Vector3& plane, const std::vector<Index>& cells)
   : mesh_(mesh)
 {
   if (mesh.dimension == 3)
   {
-    collect(mesh.tetrahedra, moves, reference, plane);
+    guard(mesh.tetrahedra, cells, moves, reference, plane);
   }
   else
   {
-    collect(mesh.triangles, moves, reference, plane);
+    guard(mesh.triangles, cells, moves, reference, plane);
   }
 }
 
 template<std::size_t Corners>
-void MoveGuard::collect(const Simplices<Corners>& cells, const Moves& moves,
-  const std::vector<Point3>& reference, const Vector3& plane)
+void MoveGuard::guard(const Simplices<Corners>& cells, const std::vector<Index>& chosen,
+  const Moves& moves, const std::vector<Point3>& reference, const Vector3& plane)
 {
-  for (std::size_t c = 0; c < cells.size(); ++c)
+  for (const Index c : chosen)
   {
     const auto& cell = cells[c];
     if (std::none_of(
@@ -121,7 +187,7 @@ void MoveGuard::collect(const Simplices<Corners>& cells, const Moves& moves,
     }
     const double least =
       before.valid ? std::min(qualityFloor, 0.5 * before.quality) : before.quality;
-    guarded_.push_back({ static_cast<Index>(c), before, least, side });
+    guarded_.push_back({ c, before, least, side });
   }
 }
 

@@ -24,6 +24,12 @@ struct Moves
   Point3 position(const SimplexMesh& mesh, Index vertex) const;
 };
 
+/// Cells of the mesh's own dimension with a flagged vertex, ascending. Work: one look at each cell.
+std::vector<Index> cellsAt(const SimplexMesh& mesh, const std::vector<unsigned char>& flags);
+/// Flags the vertices of these cells.
+void flagVertices(
+  const SimplexMesh& mesh, const std::vector<Index>& cells, std::vector<unsigned char>& flags);
+
 /// Whether a cell is valid, and its mean ratio, negative where it is inverted.
 struct CellState
 {
@@ -59,10 +65,13 @@ public:
   }
   /// `reference` has a point for each vertex; all cells accept the starting state. `plane` is the
   /// unit normal of a planar mesh, from whose end its triangles should turn; where it is zero,
-  /// triangles keep the side that they have in the reference state. Work: one look at every cell;
-  /// memory for those with a vertex that moves. Keeps a reference to the mesh.
+  /// triangles keep the side that they have in the reference state. `cells` are those with a vertex
+  /// that moves (others among them are left out); without them all are looked at. Memory for those
+  /// with a vertex that moves. Keeps a reference to the mesh.
   MoveGuard(const SimplexMesh& mesh, const Moves& moves, const std::vector<Point3>& reference,
     const Vector3& plane);
+  MoveGuard(const SimplexMesh& mesh, const Moves& moves, const std::vector<Point3>& reference,
+    const Vector3& plane, const std::vector<Index>& cells);
 
   /// One sweep: halves the fractions of the moving vertices of every cell that does not accept (to
   /// 0 after `maximumHalvings`, and at once where they move wholly). Returns true where it halved
@@ -84,7 +93,7 @@ private:
   };
 
   template<std::size_t Corners>
-  void collect(const Simplices<Corners>& cells, const Moves& moves,
+  void guard(const Simplices<Corners>& cells, const std::vector<Index>& chosen, const Moves& moves,
     const std::vector<Point3>& reference, const Vector3& plane);
   template<std::size_t Corners>
   void findUnaccepted(
