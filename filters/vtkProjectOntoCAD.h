@@ -8,10 +8,10 @@
  * Output: the mesh with its boundary vertices in the region on the nearest point of the trimmed CAD
  * model, and the point arrays CADDimension, CADEntity, CADParameters and CADDistance. Facets whose
  * normal does not fit the CAD (walls that meet it) stay. Vertices go to CAD edges that mesh edges
- * run along, and CAD vertices to one vertex each (see projectBoundary). A vertex that would invert a
- * cell stops on the way; CADDistance tells how far it still is, and field data UnprojectedVertices
- * how many there are. The point array CADConflict is 1 where the entity could not be decided;
- * ClassificationConflicts counts these.
+ * run along, and CAD vertices to one vertex each (see projectBoundary). A vertex that would invert
+ * a cell stops on the way; CADDistance tells how far it still is, and field data
+ * UnprojectedVertices how many there are. The point array CADConflict is 1 where the entity could
+ * not be decided; ClassificationConflicts counts these.
  *
  * A mesh of triangles is compared with CAD edges if it lies in a coordinate plane or the model has
  * no faces, otherwise with CAD faces.

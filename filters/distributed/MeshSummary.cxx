@@ -67,8 +67,8 @@ QualitySummary overRanks(RankExchange& exchange, const QualitySummary& mine)
 CellQualities measureQuality(RankExchange& exchange, const DistributedMesh& mesh)
 {
   CellQualities result = measureCells(exchange, mesh.mesh());
-  result.summary = overRanks(exchange,
-    mesh.mesh().dimension == 3 ? summariseTetrahedra(mesh.mesh()) : summaryOf(result));
+  result.summary = overRanks(
+    exchange, mesh.mesh().dimension == 3 ? summariseTetrahedra(mesh.mesh()) : summaryOf(result));
   return result;
 }
 
