@@ -23,8 +23,9 @@ struct DistributedMesh
 /// Reads a data set (see convert) and finds the shared vertices. Collective.
 DistributedMesh makeDistributedMesh(RankExchange& exchange, vtkPointSet* input);
 
-/// The shared vertices of a mesh. Collective. Where there are only cells of the mesh's own
-/// dimension, only ids of vertices on the surface of each piece are sent, otherwise all.
+/// The shared vertices of a mesh. Collective. Ids are sent of the vertices in the boxes round other
+/// ranks' pieces; where these are many and there are only cells of the mesh's own dimension, of
+/// those on the surface of the piece alone. Six numbers are gathered from every rank.
 SharedVertices findShared(RankExchange& exchange, const SimplexMesh& mesh);
 
 /// Box round the whole mesh: low above high where it has no points.

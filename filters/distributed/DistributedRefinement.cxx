@@ -5,6 +5,7 @@
 #include "DistributedMoves.h"
 #include "GlobalNumbering.h"
 #include "LargeMemory.h"
+#include "VertexNumbering.h"
 
 #include <algorithm>
 #include <numeric>
@@ -28,13 +29,13 @@ std::vector<GlobalId> numberNewVertices(RankExchange& exchange, DistributedMesh&
   const std::vector<std::array<Index, 2>>& parentEdges)
 {
   const auto& ids = mesh.mesh().ids;
-  std::vector<Key<2>> keys;
+  std::vector<VertexKey<1>> keys;
   resizeLong(keys, parentEdges.size());
   std::transform(parentEdges.begin(), parentEdges.end(), keys.begin(),
     [&](const std::array<Index, 2>& ends) {
-      return Key<2>{ ids[ends[0]], ids[ends[1]] };
+      return VertexKey<1>{ ends[0], { ids[ends[1]] } };
     });
-  Numbering numbering = numberDistinct(exchange, keys);
+  Numbering numbering = numberAtVertices(exchange, mesh.shared, ids, keys);
   for (GlobalId& number : numbering.numbers)
   {
     number += mesh.vertexIdBound;
@@ -49,20 +50,20 @@ std::array<std::vector<GlobalId>, 4> numberChildren(RankExchange& exchange,
 {
   const std::size_t cells = std::accumulate(parentIds.begin(), parentIds.end(), std::size_t{ 0 },
     [](std::size_t sum, const std::vector<GlobalId>& list) { return sum + list.size(); });
-  std::vector<Key<1>> keys;
+  std::vector<GlobalId> parents;
   std::vector<std::int64_t> weights;
-  reserveLong(keys, cells);
+  reserveLong(parents, cells);
   reserveLong(weights, cells);
   for (int d = 0; d < 4; ++d)
   {
     const auto& firsts = firstChildren[d];
+    parents.insert(parents.end(), parentIds[d].begin(), parentIds[d].end());
     for (std::size_t c = 0; c < parentIds[d].size(); ++c)
     {
-      keys.push_back({ parentIds[d][c] });
       weights.push_back(firsts[c + 1] - firsts[c]);
     }
   }
-  const auto firstIds = offsets(exchange, keys, weights).numbers;
+  const auto firstIds = denseOffsets(exchange, parents, weights).numbers;
   std::array<std::vector<GlobalId>, 4> ids;
   auto parent = firstIds.begin();
   for (int d = 0; d < 4; ++d)

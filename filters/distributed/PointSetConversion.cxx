@@ -21,6 +21,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string>
 #include <utility>
 
@@ -321,47 +322,20 @@ void makeVertices(
   checkCells(result.mesh.tetrahedra, result.cellOf[3]);
 }
 
-/// Appends the sorted vertex ids of each cell, filled up with -1.
-template<std::size_t Corners>
-void appendKeys(const SimplexMesh& mesh, const std::vector<std::array<Index, Corners>>& cells,
-  std::vector<Key<4>>& keys)
-{
-  for (const auto& cell : cells)
-  {
-    Key<4> key{ -1, -1, -1, -1 };
-    std::transform(
-      cell.begin(), cell.end(), key.begin(), [&](Index vertex) { return mesh.ids[vertex]; });
-    std::sort(key.begin(), key.begin() + Corners);
-    keys.push_back(key);
-  }
-}
-
-std::vector<GlobalId> numberCells(RankExchange& exchange, const SimplexMesh& mesh)
-{
-  std::vector<Key<4>> keys;
-  reserveLong(keys, mesh.cellCount());
-  appendKeys(mesh, mesh.vertices, keys);
-  appendKeys(mesh, mesh.segments, keys);
-  appendKeys(mesh, mesh.triangles, keys);
-  appendKeys(mesh, mesh.tetrahedra, keys);
-  return numberDistinct(exchange, keys).numbers;
-}
-
-void setCellIds(RankExchange& exchange, vtkPointSet* input, ConvertedMesh& result)
+/// The data set's cell ids where every rank with cells has them, otherwise none.
+void readCellIds(RankExchange& exchange, vtkPointSet* input, ConvertedMesh& result)
 {
   vtkDataArray* given = input->GetCellData()->GetGlobalIds();
-  const bool usable = !exchange.any(!given && result.mesh.cellCount() > 0);
-  const auto numbers = usable ? std::vector<GlobalId>{} : numberCells(exchange, result.mesh);
-  const auto idOf = readIds(usable ? given : nullptr);
-  std::size_t next = 0;
+  if (exchange.any(!given && result.mesh.cellCount() > 0))
+  {
+    return;
+  }
+  const std::vector<GlobalId> idOf = readIds(given);
   for (int d = 0; d < 4; ++d)
   {
     reserveLong(result.cellIds[d], result.cellOf[d].size());
-    for (const vtkIdType cell : result.cellOf[d])
-    {
-      result.cellIds[d].push_back(idOf.empty() ? numbers[next] : idOf[cell]);
-      ++next;
-    }
+    std::transform(result.cellOf[d].begin(), result.cellOf[d].end(),
+      std::back_inserter(result.cellIds[d]), [&](vtkIdType cell) { return idOf[cell]; });
   }
 }
 
@@ -387,7 +361,7 @@ ConvertedMesh convert(RankExchange& exchange, vtkPointSet* input)
   const std::vector<Point3> points = readPoints(input);
   const auto ids = pointIds(exchange, input, points);
   attempt(exchange, [&] { makeVertices(points, ids, result); });
-  setCellIds(exchange, input, result);
+  readCellIds(exchange, input, result);
   return result;
 }
 

@@ -23,7 +23,7 @@ struct ConvertedMesh
   std::vector<vtkIdType> pointOf;
   /// By the dimension of the cells; cells of each dimension in the order of the data set.
   std::array<std::vector<vtkIdType>, 4> cellOf;
-  /// Global ids of the cells, likewise.
+  /// Global ids of the cells, likewise; none, on all ranks, if the data set has none on one.
   std::array<std::vector<GlobalId>, 4> cellIds;
 };
 

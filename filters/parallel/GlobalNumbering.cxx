@@ -4,8 +4,8 @@
 // 2. Samples of all ranks, one in each stretch of equal length, go to rank 0, which picks the
 //    splitters: the keys at which one rank's share ends and the next one's begins.
 // 3. Every rank sends its keys to the ranks whose share they are in.
-// 4. The rank that got them sorts them again, drops duplicates and counts; a prefix sum over the
-//    ranks gives the number of its first key.
+// 4. The rank that got them merges them, drops duplicates and counts; a prefix sum over the ranks
+//    gives the number of its first key.
 // 5. Numbers go back the way the keys came.
 //
 // Gathering P samples from each rank (regular sampling) would cost P * P of memory; here it is 64 a
@@ -140,6 +140,32 @@ SortedPlaces sortKeys(const std::vector<Key<K>>& keys)
       sortByRest(keys, packed.words, sorted, first, last);
     first = last;
   }
+  return sorted;
+}
+
+// The same for keys that are sorted in pieces: from bounds[r] up to bounds[r + 1]. Merges pairs of
+// pieces until one is left.
+template<std::size_t K>
+SortedPlaces mergeKeys(const std::vector<Key<K>>& keys, std::vector<std::size_t> bounds)
+{
+  SortedPlaces sorted{ std::vector<std::uint32_t>(keys.size()), std::vector<char>(keys.size(), 0) };
+  std::iota(sorted.places.begin(), sorted.places.end(), 0U);
+  const auto at = [&](std::size_t bound)
+  { return sorted.places.begin() + static_cast<std::ptrdiff_t>(bounds[bound]); };
+  while (bounds.size() > 2)
+  {
+    std::vector<std::size_t> merged{ 0 };
+    for (std::size_t r = 0; r + 1 < bounds.size(); r += 2)
+    {
+      const std::size_t end = std::min(r + 2, bounds.size() - 1);
+      std::inplace_merge(at(r), at(r + 1), at(end),
+        [&](std::uint32_t a, std::uint32_t b) { return keys[a] < keys[b]; });
+      merged.push_back(bounds[end]);
+    }
+    bounds = std::move(merged);
+  }
+  for (std::size_t i = 1; i < keys.size(); ++i)
+    sorted.repeats[i] = keys[sorted.places[i]] == keys[sorted.places[i - 1]];
   return sorted;
 }
 
@@ -301,7 +327,7 @@ Numbering numberSorted(RankExchange& exchange, const std::vector<Key<K>>& sorted
     shareBounds(sorted, findSplitters(exchange, sorted), static_cast<std::size_t>(exchange.size()));
   auto keysHere = exchange.allToAll(cut(sorted, bounds));
   const std::vector<std::size_t> boundsHere = boundsOf(keysHere);
-  const SortedPlaces sortedHere = sortKeys(joined(std::move(keysHere)));
+  const SortedPlaces sortedHere = mergeKeys(joined(std::move(keysHere)), boundsHere);
   std::vector<std::int64_t> weightsHere;
   if (weights)
     weightsHere = joined(exchange.allToAll(cut(*weights, bounds)));

@@ -7,6 +7,7 @@
 #include <vtkMultiProcessController.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -73,6 +74,23 @@ std::vector<double> withNan(std::vector<double> reduced)
 
 } // namespace
 
+/// Adds the time from its construction to its end.
+class RankExchange::Clock
+{
+public:
+  explicit Clock(double& seconds) : seconds_(seconds), start_(std::chrono::steady_clock::now()) {}
+  ~Clock()
+  {
+    seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+  Clock(const Clock&) = delete;
+  Clock& operator=(const Clock&) = delete;
+
+private:
+  double& seconds_;
+  std::chrono::steady_clock::time_point start_;
+};
+
 RankExchange::RankExchange(vtkMultiProcessController* controller, std::size_t messageLimit)
   : messageLimit_(messageLimit)
 {
@@ -94,6 +112,7 @@ std::vector<T> RankExchange::reduce(const std::vector<T>& mine, const Operation&
 {
   if (!link_)
     return mine;
+  const Clock clock(seconds_);
   ++collectivesCalled_;
   std::vector<T> result;
   diy::mpi::all_reduce(link_->ranks, mine, result, operation);
@@ -145,16 +164,32 @@ std::vector<std::int64_t> RankExchange::gather(std::int64_t mine)
 {
   if (!link_)
     return { mine };
+  const Clock clock(seconds_);
   ++collectivesCalled_;
   std::vector<std::int64_t> all;
   diy::mpi::all_gather(link_->ranks, mine, all);
   return all;
 }
 
+std::vector<double> RankExchange::gather(const std::vector<double>& mine)
+{
+  if (!link_)
+    return mine;
+  const Clock clock(seconds_);
+  ++collectivesCalled_;
+  std::vector<std::vector<double>> all;
+  diy::mpi::all_gather(link_->ranks, mine, all);
+  std::vector<double> row;
+  for (const std::vector<double>& numbers : all)
+    row.insert(row.end(), numbers.begin(), numbers.end());
+  return row;
+}
+
 std::int64_t RankExchange::sumBefore(std::int64_t mine)
 {
   if (!link_)
     return 0;
+  const Clock clock(seconds_);
   ++collectivesCalled_;
   std::int64_t withMine = 0;
   diy::mpi::scan(link_->ranks, mine, withMine, std::plus<std::int64_t>());
@@ -180,6 +215,7 @@ std::vector<char> RankExchange::broadcast(const std::vector<char>& bytes, int ro
 {
   if (!link_)
     return bytes;
+  const Clock clock(seconds_);
   std::int64_t total = static_cast<std::int64_t>(bytes.size());
   diy::mpi::broadcast(link_->ranks, total, root);
   ++collectivesCalled_;
@@ -215,7 +251,10 @@ std::vector<RankExchange::Message> RankExchange::allToAllMessages(std::vector<Me
   std::vector<std::int64_t> bytesTo(rankCount);
   std::transform(toRank.begin(), toRank.end(), bytesTo.begin(), announcedBytes);
   std::vector<std::int64_t> bytesFrom(rankCount);
-  diy::mpi::all_to_all(link_->ranks, bytesTo, bytesFrom);
+  {
+    const Clock clock(seconds_);
+    diy::mpi::all_to_all(link_->ranks, bytesTo, bytesFrom);
+  }
   ++collectivesCalled_;
 
   std::vector<int> destinations;
@@ -256,6 +295,7 @@ std::vector<RankExchange::Message> RankExchange::exchangeMessages(
 std::vector<RankExchange::Message> RankExchange::transfer(const std::vector<int>& destinations,
   std::vector<Message> outgoing, const std::vector<int>& sources)
 {
+  const Clock clock(seconds_);
   std::vector<diy::mpi::request> requests;
   std::vector<std::vector<Message>> parts(outgoing.size());
   Message toMyself;

@@ -85,6 +85,9 @@ public:
   /// What each rank gives, in the order of the ranks: 8 bytes x P.
   std::vector<std::int64_t> gather(std::int64_t mine);
 
+  /// The same for a few numbers each (all ranks give the same count of them): in a row.
+  std::vector<double> gather(const std::vector<double>& mine);
+
   /// The sum of `mine` over the ranks below this one.
   std::int64_t sumBefore(std::int64_t mine);
 
@@ -120,6 +123,10 @@ public:
   std::int64_t messagesSent() const { return messagesSent_; }
   std::int64_t collectivesCalled() const { return collectivesCalled_; }
 
+  /// Since construction, the seconds that this rank spent sending, receiving and waiting for
+  /// others.
+  double seconds() const { return seconds_; }
+
   struct Link;
   /// The communicator (see RankExchangeLink.h); null with one rank.
   const Link* link() const { return link_.get(); }
@@ -139,6 +146,7 @@ private:
   std::vector<Message> transfer(const std::vector<int>& destinations, std::vector<Message> outgoing,
     const std::vector<int>& sources);
   Message receive(int source);
+  class Clock;
   template<class T, class Operation>
   std::vector<T> reduce(const std::vector<T>& mine, const Operation& operation);
 
@@ -149,6 +157,7 @@ private:
   std::int64_t bytesSent_ = 0;
   std::int64_t messagesSent_ = 0;
   std::int64_t collectivesCalled_ = 0;
+  double seconds_ = 0;
 };
 
 template<class T>

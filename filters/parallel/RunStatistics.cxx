@@ -23,6 +23,7 @@ void RunStatistics::gather(RankExchange& exchange)
 {
   const auto bytes = exchange.bytesSent();
   const std::vector<std::int64_t> sent = exchange.sum({ bytes, exchange.messagesSent() });
+  set("seconds exchange", exchange.seconds());
   std::vector<double> values{ static_cast<double>(bytes) };
   for (const auto& figure : figures_)
     values.push_back(figure.second);

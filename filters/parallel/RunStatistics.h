@@ -36,7 +36,8 @@ public:
   const std::map<std::string, double>& figures() const { return figures_; }
 
   /// Makes each figure the largest of all ranks, which must have the same names, and adds what the
-  /// ranks sent since `exchange` was made: "bytes sent" and "messages sent" by all ranks, and
+  /// ranks sent since `exchange` was made: "seconds exchange" (of sending, receiving and waiting,
+  /// which are part of the other times), "bytes sent" and "messages sent" by all ranks, and
   /// "largest bytes sent" by one. Collective; two reductions.
   void gather(RankExchange& exchange);
 

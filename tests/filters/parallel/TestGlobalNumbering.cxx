@@ -147,6 +147,47 @@ TEST_F(GlobalNumberingTest, sumWeights)
   }
 }
 
+TEST_F(GlobalNumberingTest, sumWeightsOfDenseAndSparseNumbers)
+{
+  const GlobalId largest = std::numeric_limits<GlobalId>::max();
+  for (const GlobalId step : { GlobalId{ 1 }, GlobalId{ 3 }, GlobalId{ 1000 }, largest / 1000 })
+  {
+    for (const GlobalId first : { GlobalId{ 0 }, GlobalId{ -700 }, 1 - step * 500 })
+    {
+      std::vector<GlobalId> numbers;
+      std::vector<Key<1>> keys;
+      std::vector<std::int64_t> weights;
+      for (GlobalId i = 999; i >= 0; --i)
+      {
+        const GlobalId weight = static_cast<GlobalId>(commonRandom() % 9);
+        if (static_cast<int>(commonRandom() % static_cast<std::size_t>(exchange.size())) ==
+            exchange.rank())
+        {
+          numbers.push_back(first + step * i);
+          keys.push_back({ numbers.back() });
+          weights.push_back(weight);
+        }
+      }
+      const Numbering expected = offsets<1>(exchange, keys, weights);
+      const Numbering result = denseOffsets(exchange, numbers, weights);
+      EXPECT_EQ(result.numbers, expected.numbers);
+      EXPECT_EQ(result.count, expected.count);
+    }
+  }
+  EXPECT_EQ(denseOffsets(exchange, {}, {}).count, 0);
+}
+
+TEST_F(GlobalNumberingTest, refuseRepeatedDenseNumbersOnAllRanks)
+{
+  const bool last = exchange.rank() == exchange.size() - 1;
+  const auto twiceHere = last ? std::vector<GlobalId>{ 7, 8, 7 } : std::vector<GlobalId>{};
+  EXPECT_THROW(
+    denseOffsets(exchange, twiceHere, std::vector<std::int64_t>(twiceHere.size(), 1)), Error);
+  EXPECT_THROW(denseOffsets(exchange, { exchange.rank() },
+                 last ? std::vector<std::int64_t>() : std::vector<std::int64_t>{ 1 }),
+    Error);
+}
+
 TEST_F(GlobalNumberingTest, refuseRepeatedKeysOnAllRanks)
 {
   const bool last = exchange.rank() == exchange.size() - 1;

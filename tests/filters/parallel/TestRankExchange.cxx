@@ -40,6 +40,21 @@ protected:
   }
 };
 
+TEST_F(RankExchangeTest, gatherNumbersInTheOrderOfTheRanks)
+{
+  const double mine = exchange.rank() + 0.5;
+  std::vector<double> expected;
+  std::vector<std::int64_t> ranks;
+  for (int r = 0; r < exchange.size(); ++r)
+  {
+    expected.insert(expected.end(), { r + 0.5, -1.0 });
+    ranks.push_back(r);
+  }
+  EXPECT_EQ(exchange.gather({ mine, -1.0 }), expected);
+  EXPECT_EQ(exchange.gather(std::int64_t{ exchange.rank() }), ranks);
+  EXPECT_GE(exchange.seconds(), 0);
+}
+
 TEST_F(RankExchangeTest, workAloneWithoutAController)
 {
   vtkNew<vtkDummyController> dummy;
