@@ -3,6 +3,7 @@
 #include "Agreement.h"
 #include "DistributedBoundary.h"
 #include "DistributedMoves.h"
+#include "EvenWork.h"
 #include "GlobalNumbering.h"
 #include "LargeMemory.h"
 #include "VertexNumbering.h"
@@ -133,41 +134,87 @@ std::vector<std::int64_t> edgeCodes(RankExchange& exchange, const DistributedMes
   return codes;
 }
 
-/// Where the midpoints of marked edges belong, in the order of the new vertices.
-std::vector<ClosestPoint> projectMidpoints(const SimplexMesh& mesh, const RefinementPlan& plan,
-  const std::vector<std::int64_t>& codes, const BoundaryProjector& projector,
-  const Classification& classification)
+/// A new vertex that belongs onto the CAD.
+struct NewOnCAD
 {
-  std::vector<ClosestPoint> hits;
+  std::size_t place; ///< Among the new vertices.
+  ClosestPoint where;
+};
+
+/// The middle of an edge, which looks for its place on the CAD.
+struct MidpointQuestion
+{
+  EdgeClass edgeClass;
+  std::array<Point3, 2> points;
+  std::array<EntityId, 2> entities;
+};
+
+std::vector<NewOnCAD> projectMidpoints(RankExchange& exchange, const SimplexMesh& mesh,
+  const RefinementPlan& plan, const std::vector<std::int64_t>& codes,
+  const BoundaryProjector& projector, const Classification& classification,
+  RunStatistics& statistics)
+{
+  std::vector<std::size_t> places;
+  std::vector<MidpointQuestion> questions;
+  std::size_t place = 0;
   for (std::size_t e = 0; e < codes.size(); ++e)
   {
-    if (plan.marks[e])
+    const EdgeClass edgeClass = decode(codes[e]);
+    if (plan.marks[e] && edgeClass.kind != EdgeClass::Straight)
     {
       const auto [a, b] = plan.table.edges[e];
-      hits.push_back(projector.projectMidpoint(decode(codes[e]), { mesh.points[a], mesh.points[b] },
-        { classification.entities[a], classification.entities[b] }));
+      places.push_back(place);
+      questions.push_back({ edgeClass, { mesh.points[a], mesh.points[b] },
+        { classification.entities[a], classification.entities[b] } });
+    }
+    place += plan.marks[e];
+  }
+  const auto answers = answerEvenly<ClosestPoint>(exchange, std::move(questions),
+    [&](const MidpointQuestion& question)
+    { return projector.projectMidpoint(question.edgeClass, question.points, question.entities); });
+  recordBalance(statistics, "new points", answers.balance);
+  std::vector<NewOnCAD> hits;
+  for (std::size_t i = 0; i < places.size(); ++i)
+  {
+    if (answers.values[i].entity)
+    {
+      hits.push_back({ places[i], answers.values[i] });
     }
   }
   return hits;
 }
 
-/// Appends the new vertices, at their distance from the CAD.
-void classifyNewVertices(const std::vector<ClosestPoint>& hits, Classification& classification)
+/// `onBoundary` of the vertices that were, and of the new ones.
+std::vector<unsigned char> onRefinedBoundary(const RefinementPlan& plan,
+  const std::vector<std::int64_t>& codes, const std::vector<unsigned char>& onBoundary)
+{
+  auto result = onBoundary;
+  result.reserve(onBoundary.size() + codes.size());
+  for (std::size_t e = 0; e < codes.size(); ++e)
+  {
+    if (plan.marks[e])
+    {
+      result.push_back(codes[e] != 0);
+    }
+  }
+  return result;
+}
+
+/// Appends the new vertices, at their distance from the CAD; the mesh has `count` vertices now.
+void classifyNewVertices(
+  const std::vector<NewOnCAD>& hits, std::size_t count, Classification& classification)
 {
   const std::size_t oldCount = classification.entities.size();
-  classification.resize(oldCount + hits.size());
-  for (std::size_t n = 0; n < hits.size(); ++n)
+  classification.resize(count);
+  for (const NewOnCAD& hit : hits)
   {
-    if (hits[n].entity)
-    {
-      classification.set(static_cast<Index>(oldCount + n), hits[n]);
-      classification.distances[oldCount + n] = hits[n].distance;
-    }
+    classification.set(static_cast<Index>(oldCount + hit.place), hit.where);
+    classification.distances[oldCount + hit.place] = hit.where.distance;
   }
 }
 
 /// Moves of all vertices that are not at their places to these.
-Moves movesOntoCAD(const SimplexMesh& mesh, const std::vector<ClosestPoint>& hits,
+Moves movesOntoCAD(const SimplexMesh& mesh, const std::vector<NewOnCAD>& hits,
   const BoundaryProjector& projector, Classification& classification)
 {
   Moves moves(mesh);
@@ -182,28 +229,21 @@ Moves movesOntoCAD(const SimplexMesh& mesh, const std::vector<ClosestPoint>& hit
       moves.add(vertex, where.point);
     }
   }
-  classifyNewVertices(hits, classification);
-  for (std::size_t n = 0; n < hits.size(); ++n)
+  classifyNewVertices(hits, mesh.points.size(), classification);
+  for (const NewOnCAD& hit : hits)
   {
-    if (hits[n].entity)
-    {
-      moves.add(static_cast<Index>(oldCount + n), hits[n].point);
-    }
+    moves.add(static_cast<Index>(oldCount + hit.place), hit.where.point);
   }
   return moves;
 }
 
-std::int64_t countOwnedHits(
-  RankExchange& exchange, const DistributedMesh& mesh, const std::vector<ClosestPoint>& hits)
+/// `oldCount`: vertices before the mesh was refined.
+std::int64_t countOwnedHits(RankExchange& exchange, const DistributedMesh& mesh,
+  std::size_t oldCount, const std::vector<NewOnCAD>& hits)
 {
-  const auto owned = mesh.shared.ownedHere(static_cast<Index>(mesh.mesh().points.size()));
-  const std::size_t first = owned.size() - hits.size();
-  std::int64_t count = 0;
-  for (std::size_t n = 0; n < hits.size(); ++n)
-  {
-    count += hits[n].entity && owned[first + n];
-  }
-  return exchange.sum(count);
+  return exchange.sum(std::count_if(hits.begin(), hits.end(),
+    [&](const NewOnCAD& hit)
+    { return mesh.shared.owner(static_cast<Index>(oldCount + hit.place)) == exchange.rank(); }));
 }
 
 } // namespace
@@ -271,24 +311,17 @@ RefinementTrace refineOntoCAD(RankExchange& exchange, DistributedMesh& mesh,
   const DistributedBoundary boundary = findBoundary(exchange, mesh, model);
   const BoundaryProjector projector(model, boundary.kind);
   const auto codes = edgeCodes(exchange, mesh, plan, boundary, projector, classification);
-  std::vector<ClosestPoint> hits;
-  attempt(exchange,
-    [&] { hits = projectMidpoints(mesh.mesh(), plan, codes, projector, classification); });
-  auto onBoundary = boundary.onBoundary;
-  for (std::size_t e = 0; e < codes.size(); ++e)
-  {
-    if (plan.marks[e])
-    {
-      onBoundary.push_back(codes[e] != 0);
-    }
-  }
+  const auto hits =
+    projectMidpoints(exchange, mesh.mesh(), plan, codes, projector, classification, statistics);
+  const auto onBoundary = onRefinedBoundary(plan, codes, boundary.onBoundary);
+  const std::size_t oldCount = mesh.mesh().points.size();
   watch.reset();
   RefinementTrace trace = refine(exchange, mesh, plan, statistics);
   watch.emplace(statistics, "seconds moves");
-  trace.projectedPoints = countOwnedHits(exchange, mesh, hits);
+  trace.projectedPoints = countOwnedHits(exchange, mesh, oldCount, hits);
   if (newVertices == NewVertices::StayStraight)
   {
-    classifyNewVertices(hits, classification);
+    classifyNewVertices(hits, mesh.mesh().points.size(), classification);
     return trace;
   }
   Moves moves = movesOntoCAD(mesh.mesh(), hits, projector, classification);
