@@ -7,7 +7,6 @@
 
 #include <array>
 #include <cstdint>
-#include <string>
 #include <vector>
 
 namespace cadrefine
@@ -28,8 +27,6 @@ struct NurbsFace
   bool reversed = false;
   std::vector<std::int32_t> edges; ///< Bounding edges, each once, ascending.
   double tolerance = 0;            ///< How far its trim curves may lie off its edges.
-  std::string name;
-  std::array<float, 3> color{ -1, -1, -1 }; ///< RGB in [0, 1]; negative: none in the file.
 };
 
 struct NurbsEdge

@@ -45,8 +45,7 @@ bool same(const std::vector<T>& a, const std::vector<T>& b)
 bool same(const NurbsFace& a, const NurbsFace& b)
 {
   return same(a.patches, b.patches) && a.patchesU == b.patchesU && same(a.loops, b.loops) &&
-         a.reversed == b.reversed && a.edges == b.edges && a.tolerance == b.tolerance &&
-         a.name == b.name && a.color == b.color;
+         a.reversed == b.reversed && a.edges == b.edges && a.tolerance == b.tolerance;
 }
 
 bool same(const NurbsEdge& a, const NurbsEdge& b)
