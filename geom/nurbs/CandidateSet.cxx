@@ -11,9 +11,9 @@ void CandidateSet::offer(const Candidate& candidate)
   {
     return;
   }
-  for (int i = 0; i < size_; ++i)
+  for (const Candidate& other : kept_)
   {
-    if (!precedes(candidate, kept_[i]) && kept_[i].distance <= candidate.distance)
+    if (!precedes(candidate, other) && other.distance <= candidate.distance)
     {
       return;
     }
@@ -24,19 +24,14 @@ void CandidateSet::offer(const Candidate& candidate)
     return other.distance > limit() ||
            (!precedes(other, candidate) && candidate.distance <= other.distance);
   };
-  size_ = static_cast<int>(
-    std::remove_if(kept_.begin(), kept_.begin() + size_, hopeless) - kept_.begin());
-  if (size_ < capacity) // more than this many different distances within the tie tolerance: never
-  {
-    kept_[size_++] = candidate;
-  }
+  kept_.erase(std::remove_if(kept_.begin(), kept_.end(), hopeless), kept_.end());
+  kept_.push_back(candidate);
 }
 
 const Candidate* CandidateSet::winner() const
 {
-  const auto* end = kept_.begin() + size_;
-  const auto* first = std::min_element(kept_.begin(), end, precedes);
-  return first == end ? nullptr : first;
+  const auto first = std::min_element(kept_.begin(), kept_.end(), precedes);
+  return first == kept_.end() ? nullptr : &*first;
 }
 
 } // namespace cadrefine

@@ -3,7 +3,8 @@
 
 #include "EntityId.h"
 
-#include <array>
+#include <boost/container/small_vector.hpp>
+
 #include <limits>
 
 namespace cadrefine
@@ -45,9 +46,8 @@ private:
     return a.id == b.id ? a.border < b.border : a.id < b.id;
   }
 
-  static constexpr int capacity = 32;
-  std::array<Candidate, capacity> kept_;
-  int size_ = 0;
+  static constexpr int usual = 8;
+  boost::container::small_vector<Candidate, usual> kept_;
   double nearest_;
   double tieTolerance_;
 };

@@ -81,14 +81,14 @@ void LeafQuery::visit(const SearchLeaf& leaf, EntityId id, bool border, double s
   {
     return;
   }
-  if (waitingCount_ == mostWaiting)
+  if (waiting_.size() == mostWaiting)
   {
     finish();
   }
   const ParameterRectangle part = leaf.part();
   const Waiting waiting = { &leaf, id, border, answer.convex, bound,
     part.s0 + answer.s * part.width(), part.t0 + answer.t * part.height() };
-  waiting_[waitingCount_++] = waiting;
+  waiting_.push_back(waiting);
   id_ = id;
   border_ = border;
   const Point3 start = answer.convex
@@ -101,10 +101,9 @@ void LeafQuery::finish()
 {
   const auto earlier = [](const Waiting& a, const Waiting& b)
   { return a.convex != b.convex ? a.convex : a.squaredBound < b.squaredBound; };
-  std::stable_sort(waiting_.begin(), waiting_.begin() + waitingCount_, earlier);
-  for (int i = 0; i < waitingCount_; ++i)
+  std::sort(waiting_.begin(), waiting_.end(), earlier);
+  for (const Waiting& waiting : waiting_)
   {
-    const Waiting& waiting = waiting_[i];
     if (!isWithinLimit(waiting.squaredBound))
     {
       continue;
@@ -123,7 +122,7 @@ void LeafQuery::finish()
       LeafSubdivision(*this, *waiting.leaf).run();
     }
   }
-  waitingCount_ = 0;
+  waiting_.clear();
 }
 
 } // namespace cadrefine

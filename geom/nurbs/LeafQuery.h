@@ -4,6 +4,8 @@
 #include "CandidateSet.h"
 #include "SearchStructure.h"
 
+#include <boost/container/static_vector.hpp>
+
 namespace cadrefine
 {
 
@@ -60,8 +62,7 @@ private:
   bool converged_ = true;
   double work_ = 0;
   static constexpr int mostWaiting = 64;
-  std::array<Waiting, mostWaiting> waiting_;
-  int waitingCount_ = 0;
+  boost::container::static_vector<Waiting, mostWaiting> waiting_;
   EntityId id_; // of the leaf at work
   bool border_ = false;
 };
