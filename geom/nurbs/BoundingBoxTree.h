@@ -120,6 +120,7 @@ void BoundingBoxTree::visitNear(
   };
   constexpr int stackSize = 256; // three times the depth of a tree over 2^31 items, and more
   constexpr double up = 1.0 + 1.2e-7;
+  constexpr float nowhere = std::numeric_limits<float>::infinity();
   std::array<Waiting, stackSize> stack;
   const RoundedPoint at = rounded(q);
   const double unit = 1.0 / (scale_ * scale_);
@@ -130,13 +131,11 @@ void BoundingBoxTree::visitNear(
   };
   float reach = reachOf(limit());
   int size = 0;
-  if (root != none)
+  Waiting next = { root, root == none ? nowhere : 0.0F };
+  while (next.bound <= reach || size > 0)
   {
-    stack[size++] = { root, 0.0F };
-  }
-  while (size > 0)
-  {
-    const Waiting here = stack[--size];
+    const Waiting here = next.bound <= reach ? next : stack[--size];
+    next.bound = nowhere;
     if (here.bound > reach)
     {
       continue;
@@ -147,22 +146,17 @@ void BoundingBoxTree::visitNear(
       reach = reachOf(limit());
       continue;
     }
+    // Without branches: the nearest child is next, others within reach go onto the stack.
     const Node& node = nodes_[here.root];
     const Lanes bounds = squaredDistances(node, at);
-    // Without branches: those within reach go onto the stack, and the nearest of them on top.
-    const int first = size;
     for (int i = 0; i < width; ++i)
     {
-      stack[size] = { node.child[i], bounds[i] };
-      size += bounds[i] <= reach ? 1 : 0;
-    }
-    for (int i = first + 1; i < size; ++i)
-    {
-      const Waiting a = stack[i - 1];
-      const Waiting b = stack[i];
-      const bool nearer = a.bound < b.bound;
-      stack[i - 1] = nearer ? b : a;
-      stack[i] = nearer ? a : b;
+      const Waiting child = { node.child[i], bounds[i] };
+      const bool nearer = child.bound <= next.bound;
+      const Waiting farther = nearer ? next : child;
+      next = nearer ? child : next;
+      stack[size] = farther;
+      size += farther.bound <= reach ? 1 : 0;
     }
   }
 }
