@@ -3,6 +3,7 @@
 #include "Agreement.h"
 #include "Quality.h"
 #include "SharedEdges.h"
+#include "Threads.h"
 
 #include <algorithm>
 #include <limits>
@@ -195,37 +196,36 @@ BoundaryClasses classifyBoundary(RankExchange& exchange, const SimplexMesh& mesh
   const BoundaryProjector& projector)
 {
   BoundaryClasses classes;
-  std::vector<FacetRecord> records;
-  attempt(exchange,
-    [&]
+  const ParallelFor parallelFor = forOnThreads(exchange);
+  std::vector<FacetRecord> records(boundary.facets.size());
+  classes.facetOnCAD.resize(records.size());
+  const auto classifyFacet = [&](std::size_t f)
+  {
+    const ClassifiedFacet facet =
+      classifiedFacet(mesh, entities, boundary.facets[f], boundary.kind);
+    FacetRecord& record = records[f];
+    record = makeRecord(projector, facet);
+    if (boundary.ofSurface)
     {
-      for (const Facet& facet : boundary.facets)
-      {
-        const ClassifiedFacet classified = classifiedFacet(mesh, entities, facet, boundary.kind);
-        records.push_back(makeRecord(projector, classified));
-        if (boundary.ofSurface)
-        {
-          records.back().onCAD = isClassified(classified, boundary.kind);
-        }
-        if (records.back().onCAD && boundary.kind == BoundaryKind::Triangles)
-        {
-          records.back().face = projector.faceOf(classified);
-        }
-        classes.facetOnCAD.push_back(records.back().onCAD);
-      }
-    });
+      record.onCAD = isClassified(facet, boundary.kind);
+    }
+    if (record.onCAD && boundary.kind == BoundaryKind::Triangles)
+    {
+      record.face = projector.faceOf(facet);
+    }
+    classes.facetOnCAD[f] = record.onCAD;
+  };
+  attempt(exchange, [&] { forEachIndex(parallelFor, records.size(), coarseGrain, classifyFacet); });
   const auto ofEdges = gatherFacetRecords(exchange, boundary, records);
-  attempt(exchange,
-    [&]
-    {
-      const auto& edges = boundary.edges.edges();
-      for (std::size_t e = 0; e < edges.size(); ++e)
-      {
-        const auto [a, b] = edges[e];
-        classes.ofEdges.push_back(projector.classify(
-          { mesh.points[a], mesh.points[b] }, { entities[a], entities[b] }, ofEdges[e]));
-      }
-    });
+  const auto& edges = boundary.edges.edges();
+  classes.ofEdges.resize(edges.size());
+  const auto classifyEdge = [&](std::size_t e)
+  {
+    const auto [a, b] = edges[e];
+    classes.ofEdges[e] = projector.classify(
+      { mesh.points[a], mesh.points[b] }, { entities[a], entities[b] }, ofEdges[e]);
+  };
+  attempt(exchange, [&] { forEachIndex(parallelFor, edges.size(), coarseGrain, classifyEdge); });
   return classes;
 }
 

@@ -3,6 +3,7 @@
 #include "Agreement.h"
 #include "MeshPlane.h"
 #include "MovingPatch.h"
+#include "Threads.h"
 
 #include <algorithm>
 #include <iterator>
@@ -48,7 +49,7 @@ public:
   VertexMover(RankExchange& exchange, DistributedMesh& mesh, Moves moves,
     Classification& classification, const MoveSettings& settings)
     : exchange_(exchange), mesh_(mesh), classification_(classification), settings_(settings),
-      start_(mesh.mesh().points), moves_(std::move(moves)),
+      parallelFor_(forOnThreads(exchange)), start_(mesh.mesh().points), moves_(std::move(moves)),
       plane_(mesh.mesh().dimension == 2 ? planeNormal(exchange, mesh.mesh()) : Vector3{}),
       slid_(start_.size(), 0)
   {
@@ -67,7 +68,7 @@ public:
 
   void run()
   {
-    const MoveGuard guard(mesh(), moves_, start_, plane_);
+    const MoveGuard guard(mesh(), moves_, start_, plane_, parallelFor_);
     settle(guard, aimed_);
     std::int64_t left = findLeft();
     int idle = 0;
@@ -235,7 +236,7 @@ private:
         moves_.add(vertex, moves_.targets[vertex]);
       }
     }
-    settle(MoveGuard(mesh(), moves_, start_, plane_, region_), moving);
+    settle(MoveGuard(mesh(), moves_, start_, plane_, region_, parallelFor_), moving);
     for (const Index vertex : settled)
     {
       moves_.targets[vertex] = mesh().points[vertex];
@@ -280,6 +281,7 @@ private:
   DistributedMesh& mesh_;
   Classification& classification_;
   const MoveSettings& settings_;
+  const ParallelFor parallelFor_;
   const std::vector<Point3> start_;
   Moves moves_; ///< Targets: of all vertices; of those that have none, where they are.
   const Vector3 plane_;

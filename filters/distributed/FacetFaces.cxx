@@ -3,6 +3,7 @@
 #include "Agreement.h"
 #include "CADAdjacency.h"
 #include "EvenWork.h"
+#include "Threads.h"
 
 #include <algorithm>
 #include <cmath>
@@ -40,21 +41,25 @@ bool keepsItsShape(
 }
 
 std::vector<FacetRecord> makeRecords(
-  const ProjectionTask& task, const std::vector<ClosestPoint>& hits)
+  const ProjectionTask& task, const std::vector<ClosestPoint>& hits, const ParallelFor& parallelFor)
 {
   std::vector<EntityId> entities(hits.size());
   std::transform(
     hits.begin(), hits.end(), entities.begin(), [](const ClosestPoint& hit) { return hit.entity; });
-  std::vector<FacetRecord> records;
-  for (const Facet& facet : task.boundary.facets)
+  const auto recordOf = [&](const Facet& facet)
   {
-    records.push_back(makeRecord(
-      task.projector, classifiedFacet(task.mesh.mesh(), entities, facet, task.boundary.kind)));
-    records.back().onCAD = records.back().onCAD && keepsItsShape(task, hits, facet);
+    FacetRecord record = makeRecord(
+      task.projector, classifiedFacet(task.mesh.mesh(), entities, facet, task.boundary.kind));
+    record.onCAD = record.onCAD && keepsItsShape(task, hits, facet);
     const auto end = facet.vertices.begin() + task.boundary.facetCorners();
-    records.back().free = std::any_of(facet.vertices.begin(), end,
+    record.free = std::any_of(facet.vertices.begin(), end,
       [&](Index vertex) { return !task.options.inRegion(task.points()[vertex]); });
-  }
+    return record;
+  };
+  const auto& facets = task.boundary.facets;
+  std::vector<FacetRecord> records(facets.size());
+  forEachIndex(parallelFor, facets.size(), coarseGrain,
+    [&](std::size_t f) { records[f] = recordOf(facets[f]); });
   return records;
 }
 
@@ -196,7 +201,8 @@ FacetClasses classifyFacets(const ProjectionTask& task, const std::vector<Closes
 {
   FacetClasses classes;
   auto& records = classes.records;
-  attempt(task.exchange, [&] { records = makeRecords(task, hits); });
+  const ParallelFor parallelFor = forOnThreads(task.exchange);
+  attempt(task.exchange, [&] { records = makeRecords(task, hits, parallelFor); });
   if (!task.triangles())
   {
     return classes;

@@ -1,5 +1,7 @@
 #include "MovingPatch.h"
 
+#include "Threads.h"
+
 #include <algorithm>
 #include <unordered_map>
 
@@ -211,7 +213,7 @@ void MovingPatch::findHolders()
 
 std::vector<VertexPlace> MovingPatch::optimise(const BoundaryProjector& projector, int sweeps)
 {
-  PatchOptimiser optimiser(patch_, &projector);
+  PatchOptimiser optimiser(patch_, &projector, forOnThreads(exchange_));
   for (int sweep = 0; sweep < sweeps; ++sweep)
   {
     optimiser.beginSweep(exchange_.min(optimiser.smallestMeasure()));

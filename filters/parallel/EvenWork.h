@@ -62,7 +62,7 @@ template<class Answer, class Question, class Function>
 Answers<Answer> answerEvenly(
   RankExchange& exchange, std::vector<Question> questions, const Function& function)
 {
-  const int threads = findThreads(exchange);
+  const ParallelFor parallelFor = forOnThreads(exchange);
   const WorkPlan plan = planEvenWork(exchange, questions.size());
   std::vector<int> others;
   std::vector<std::vector<Question>> outgoing;
@@ -88,7 +88,7 @@ Answers<Answer> answerEvenly(
     [&]
     {
       result.values.resize(questions.size());
-      forRanges(threads, questions.size(),
+      parallelFor(questions.size(), coarseGrain,
         [&](std::size_t begin, std::size_t end)
         {
           const Question* first = questions.data();

@@ -18,9 +18,6 @@ namespace cadrefine
 namespace
 {
 
-/// Items that are worth a task of their own: closest points take microseconds each.
-constexpr std::size_t grain = 64;
-
 bool userChoseBackend()
 {
   return vtksys::SystemTools::HasEnv("VTK_SMP_BACKEND_IN_USE") ||
@@ -46,19 +43,8 @@ int mostThreads()
   return wanted > 0 ? std::min(wanted, cores) : cores;
 }
 
-} // namespace
-
-int findThreads(RankExchange& exchange)
-{
-  const std::vector<std::int64_t> cores = exchange.gather(coresNumber());
-  if (userChoseBackend())
-    return 0;
-  const auto ranksHere = std::count(cores.begin(), cores.end(), cores[exchange.rank()]);
-  return std::max(1, mostThreads() / static_cast<int>(ranksHere));
-}
-
-void forRanges(int threads, std::size_t count,
-  const std::function<void(std::size_t begin, std::size_t end)>& body)
+/// Threads are started anew for every loop.
+void forRanges(int threads, std::size_t count, std::size_t grain, const RangeBody& body)
 {
   if (threads == 1 || count <= grain)
   {
@@ -79,13 +65,36 @@ void forRanges(int threads, std::size_t count,
       failure = std::current_exception();
     }
   };
-  const auto run = [&] { vtkSMPTools::For(0, static_cast<vtkIdType>(count), grain, guarded); };
+  const auto run = [&]
+  { vtkSMPTools::For(0, static_cast<vtkIdType>(count), static_cast<vtkIdType>(grain), guarded); };
   if (threads == 0)
     run();
   else
     vtkSMPTools::LocalScope(vtkSMPTools::Config{ threads, "STDThread", false }, run);
   if (failure)
     std::rethrow_exception(failure);
+}
+
+} // namespace
+
+int findThreads(RankExchange& exchange)
+{
+  const std::vector<std::int64_t> cores = exchange.gather(coresNumber());
+  if (userChoseBackend())
+    return 0;
+  const auto ranksHere = std::count(cores.begin(), cores.end(), cores[exchange.rank()]);
+  return std::max(1, mostThreads() / static_cast<int>(ranksHere));
+}
+
+ParallelFor forOnThreads(int threads)
+{
+  return [threads](std::size_t count, std::size_t grain, const RangeBody& body)
+  { forRanges(threads, count, grain, body); };
+}
+
+ParallelFor forOnThreads(RankExchange& exchange)
+{
+  return forOnThreads(findThreads(exchange));
 }
 
 } // namespace cadrefine

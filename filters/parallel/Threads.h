@@ -1,10 +1,8 @@
 // Threads for the loops of a filter.
 #pragma once
 
+#include "ParallelFor.h"
 #include "RankExchange.h"
-
-#include <cstddef>
-#include <functional>
 
 namespace cadrefine
 {
@@ -16,10 +14,11 @@ namespace cadrefine
 /// but one idle. Collective; one number is gathered from every rank.
 int findThreads(RankExchange& exchange);
 
-/// Calls body(begin, end) for ranges that together are [0, count), on `threads` threads (see
-/// findThreads). What the calls do must not depend on each other. An exception of one call is
-/// thrown when all have ended.
-void forRanges(int threads, std::size_t count,
-  const std::function<void(std::size_t begin, std::size_t end)>& body);
+/// Loops on so many threads (see findThreads). An exception of one call is thrown when all have
+/// ended.
+ParallelFor forOnThreads(int threads);
+
+/// Loops on this rank's threads. Collective like findThreads.
+ParallelFor forOnThreads(RankExchange& exchange);
 
 } // namespace cadrefine

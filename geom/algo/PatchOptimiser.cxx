@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <utility>
 
 namespace cadrefine
 {
@@ -68,9 +68,11 @@ Directions directionsOn(const BoundaryProjector& projector, EntityId entity, con
 
 } // namespace
 
-PatchOptimiser::PatchOptimiser(Patch& patch, const BoundaryProjector* projector)
-  : patch_(patch), projector_(projector), firstOfStar_(patch.mesh.points.size() + 1, 0),
-    turns_(patch.mesh.points.size()), done_(patch.mesh.points.size(), 0)
+PatchOptimiser::PatchOptimiser(
+  Patch& patch, const BoundaryProjector* projector, ParallelFor parallelFor)
+  : patch_(patch), projector_(projector), parallelFor_(std::move(parallelFor)),
+    firstOfStar_(patch.mesh.points.size() + 1, 0), turns_(patch.mesh.points.size()),
+    done_(patch.mesh.points.size(), 0)
 {
   if (patch.mesh.dimension == 3)
   {
@@ -89,6 +91,53 @@ PatchOptimiser::PatchOptimiser(Patch& patch, const BoundaryProjector* projector)
     }
   }
   std::sort(order_.begin(), order_.end(), [&](Index a, Index b) { return turns_[a] > turns_[b]; });
+  findLevels();
+}
+
+/// Calls visit(corner) for the corners of all cells at the vertex, itself and repetitions included.
+template<class Visit>
+void PatchOptimiser::forCornersRound(Index vertex, const Visit& visit) const
+{
+  for (std::size_t s = firstOfStar_[vertex]; s < firstOfStar_[vertex + 1]; ++s)
+  {
+    const Index c = stars_[s];
+    if (patch_.mesh.dimension == 3)
+    {
+      std::for_each(patch_.mesh.tetrahedra[c].begin(), patch_.mesh.tetrahedra[c].end(), visit);
+    }
+    else
+    {
+      std::for_each(patch_.mesh.triangles[c].begin(), patch_.mesh.triangles[c].end(), visit);
+    }
+  }
+}
+
+/// A vertex is one level above the highest free neighbour that comes before it, so that vertices of
+/// one level are no neighbours. Orders by levels.
+void PatchOptimiser::findLevels()
+{
+  std::vector<std::size_t> level(turns_.size(), 0);
+  for (const Index vertex : order_)
+  {
+    forCornersRound(vertex,
+      [&](Index other)
+      {
+        if (comesBefore(other, vertex))
+        {
+          level[vertex] = std::max(level[vertex], level[other] + 1);
+        }
+      });
+  }
+  std::stable_sort(
+    order_.begin(), order_.end(), [&](Index a, Index b) { return level[a] < level[b]; });
+  levels_ = { 0 };
+  for (std::size_t i = 1; i <= order_.size(); ++i)
+  {
+    if (i == order_.size() || level[order_[i]] != level[order_[i - 1]])
+    {
+      levels_.push_back(i);
+    }
+  }
 }
 
 template<std::size_t Corners>
@@ -164,24 +213,22 @@ void PatchOptimiser::beginSweep(double smallest)
 
 bool PatchOptimiser::advance()
 {
-  bool waiting = false;
-  for (const Index vertex : order_)
+  const auto takeTurn = [&](Index vertex)
   {
-    if (done_[vertex])
-    {
-      continue;
-    }
-    if (patch_.complete[vertex] && !mustWait(vertex))
+    if (!done_[vertex] && patch_.complete[vertex] && !mustWait(vertex))
     {
       improve(vertex);
       done_[vertex] = 1;
     }
-    else
-    {
-      waiting = true;
-    }
+  };
+  for (std::size_t l = 1; l < levels_.size(); ++l)
+  {
+    const std::size_t first = levels_[l - 1];
+    forEachIndex(parallelFor_, levels_[l] - first, coarseGrain,
+      [&](std::size_t i) { takeTurn(order_[first + i]); });
   }
-  return waiting;
+  return std::any_of(
+    order_.begin(), order_.end(), [&](Index vertex) { return done_[vertex] == 0; });
 }
 
 void PatchOptimiser::place(Index vertex, const Point3& point)
@@ -190,23 +237,17 @@ void PatchOptimiser::place(Index vertex, const Point3& point)
   done_[vertex] = 1;
 }
 
+bool PatchOptimiser::comesBefore(Index other, Index vertex) const
+{
+  return patch_.free[other] && turns_[other] > turns_[vertex];
+}
+
 bool PatchOptimiser::mustWait(Index vertex) const
 {
-  const auto comesBefore = [&](Index other)
-  { return patch_.free[other] && !done_[other] && turns_[other] > turns_[vertex]; };
-  for (std::size_t s = firstOfStar_[vertex]; s < firstOfStar_[vertex + 1]; ++s)
-  {
-    const Index c = stars_[s];
-    const bool waits = patch_.mesh.dimension == 3 ? std::any_of(patch_.mesh.tetrahedra[c].begin(),
-                                                      patch_.mesh.tetrahedra[c].end(), comesBefore)
-                                                  : std::any_of(patch_.mesh.triangles[c].begin(),
-                                                      patch_.mesh.triangles[c].end(), comesBefore);
-    if (waits)
-    {
-      return true;
-    }
-  }
-  return false;
+  bool waits = false;
+  forCornersRound(
+    vertex, [&](Index other) { waits = waits || (comesBefore(other, vertex) && !done_[other]); });
+  return waits;
 }
 
 ShapeEnergy PatchOptimiser::energyAt(Index vertex) const

@@ -3,6 +3,7 @@
 
 #include "BoundaryProjector.h"
 #include "EntityId.h"
+#include "ParallelFor.h"
 #include "ShapeEnergy.h"
 #include "SimplexMesh.h"
 
@@ -29,7 +30,8 @@ struct Patch
 /// others in place, in sweeps. A vertex waits for its free neighbours that come before it, in the
 /// order of a hash of the global ids, so that a sweep has one result however the patch is split
 /// over ranks: all ranks that hold all cells of a vertex compute the same bits, others wait for
-/// them (see `place`). The order is random, so that chains of waiting vertices are short, O(log n).
+/// them (see `place`). The order is random, so that chains of waiting vertices are short, O(log n),
+/// and many vertices may take their turn at once, on several threads.
 ///
 /// A vertex on a CAD face or edge moves in its tangents there and is put back onto the entity; it
 /// stays where that is not possible (at a pole, or where it would leave the entity for its border).
@@ -40,7 +42,8 @@ class PatchOptimiser
 {
 public:
   /// `projector` is needed for vertices on the CAD only. Keeps references; moves patch.mesh.points.
-  explicit PatchOptimiser(Patch& patch, const BoundaryProjector* projector = nullptr);
+  explicit PatchOptimiser(Patch& patch, const BoundaryProjector* projector = nullptr,
+    ParallelFor parallelFor = serialFor);
 
   /// The smallest measure of a cell of the patch, 1 for the equilateral cell of its size in
   /// `start`, negative where it is inverted. 1 where there are no cells.
@@ -60,6 +63,10 @@ private:
   Vector3 normalAt(const std::array<Index, 3>& triangle) const;
   template<std::size_t Corners>
   void prepare(const Simplices<Corners>& cells);
+  template<class Visit>
+  void forCornersRound(Index vertex, const Visit& visit) const;
+  bool comesBefore(Index other, Index vertex) const;
+  void findLevels();
   bool mustWait(Index vertex) const;
   ShapeEnergy energyAt(Index vertex) const;
   Point3 onItsEntity(Index vertex, const Point3& point) const;
@@ -67,10 +74,12 @@ private:
 
   Patch& patch_;
   const BoundaryProjector* projector_;
+  ParallelFor parallelFor_;
   std::vector<double> sizes_; ///< Measure of the equilateral cell of each cell's size in `start`.
   std::vector<std::size_t> firstOfStar_; ///< Cells round vertex v: from firstOfStar_[v] on.
   std::vector<Index> stars_;
-  std::vector<Index> order_;         ///< The free vertices.
+  std::vector<Index> order_;         ///< The free vertices, level by level.
+  std::vector<std::size_t> levels_;  ///< Where each level begins, and the last ends.
   std::vector<std::uint64_t> turns_; ///< Of each vertex: the larger, the earlier.
   std::vector<unsigned char> done_;
   double delta_ = 0;

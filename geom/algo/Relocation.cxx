@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 
 namespace cadrefine
 {
@@ -147,15 +148,21 @@ void flagVertices(
   }
 }
 
-MoveGuard::MoveGuard(const SimplexMesh& mesh, const Moves& moves,
-  const std::vector<Point3>& reference, const Vector3& plane)
-  : MoveGuard(mesh, moves, reference, plane, cellsAt(mesh, movingVertices(moves)))
+MoveGuard::MoveGuard(const SimplexMesh& mesh, const Moves& moves)
+  : MoveGuard(mesh, moves, mesh.points, {})
 {
 }
 
 MoveGuard::MoveGuard(const SimplexMesh& mesh, const Moves& moves,
-  const std::vector<Point3>& reference, const Vector3& plane, const std::vector<Index>& cells)
-  : mesh_(mesh)
+  const std::vector<Point3>& reference, const Vector3& plane, const ParallelFor& parallelFor)
+  : MoveGuard(mesh, moves, reference, plane, cellsAt(mesh, movingVertices(moves)), parallelFor)
+{
+}
+
+MoveGuard::MoveGuard(const SimplexMesh& mesh, const Moves& moves,
+  const std::vector<Point3>& reference, const Vector3& plane, const std::vector<Index>& cells,
+  const ParallelFor& parallelFor)
+  : mesh_(mesh), parallelFor_(parallelFor)
 {
   if (mesh.dimension == 3)
   {
@@ -173,53 +180,77 @@ void MoveGuard::guard(const Simplices<Corners>& cells, const std::vector<Index>&
 {
   for (const Index c : chosen)
   {
-    const auto& cell = cells[c];
-    if (std::none_of(
-          cell.begin(), cell.end(), [&](Index vertex) { return moves.fractions[vertex] > 0; }))
+    if (std::any_of(cells[c].begin(), cells[c].end(),
+          [&](Index vertex) { return moves.fractions[vertex] > 0; }))
     {
-      continue;
+      guarded_.push_back({ c, {}, 0, {} });
     }
-    const Vector3 side = sideOf(cell, reference, plane);
-    CellState before = stateOf(cell, reference, side);
-    if (!before.valid)
-    {
-      before = stateOf(cell, mesh_.points, side); // once mended, it stays so
-    }
-    const double least =
-      before.valid ? std::min(qualityFloor, 0.5 * before.quality) : before.quality;
-    guarded_.push_back({ c, before, least, side });
   }
+  const auto look = [&](GuardedCell& guarded)
+  {
+    const auto& cell = cells[guarded.cell];
+    guarded.side = sideOf(cell, reference, plane);
+    guarded.before = stateOf(cell, reference, guarded.side);
+    if (!guarded.before.valid)
+    {
+      guarded.before = stateOf(cell, mesh_.points, guarded.side); // once mended, it stays so
+    }
+    const double quality = guarded.before.quality;
+    guarded.leastQuality = guarded.before.valid ? std::min(qualityFloor, 0.5 * quality) : quality;
+  };
+  forEachIndex(parallelFor_, guarded_.size(), fineGrain, [&](std::size_t i) { look(guarded_[i]); });
 }
 
 template<std::size_t Corners>
-void MoveGuard::findUnaccepted(
-  const Simplices<Corners>& cells, const Moves& moves, std::vector<Index>& vertices) const
+bool MoveGuard::accepts(
+  const std::array<Index, Corners>& cell, const GuardedCell& guarded, const Moves& moves) const
 {
-  for (const GuardedCell& guarded : guarded_)
+  std::array<Point3, Corners> points;
+  std::transform(cell.begin(), cell.end(), points.begin(),
+    [&](Index vertex) { return moves.position(mesh_, vertex); });
+  const CellState after = stateAt(points, guarded.side);
+  return after.valid >= guarded.before.valid && after.quality >= guarded.leastQuality;
+}
+
+/// The corners of the guarded cells for which holds(cell, guarded).
+template<class Predicate>
+std::vector<Index> MoveGuard::cornersWhere(const Predicate& holds) const
+{
+  std::vector<Index> corners;
+  std::mutex mutex;
+  const auto look = [&](const auto& cells, std::size_t begin, std::size_t end)
   {
-    const auto& cell = cells[guarded.cell];
-    std::array<Point3, Corners> points;
-    std::transform(cell.begin(), cell.end(), points.begin(),
-      [&](Index vertex) { return moves.position(mesh_, vertex); });
-    const CellState after = stateAt(points, guarded.side);
-    if (after.valid < guarded.before.valid || !(after.quality >= guarded.leastQuality))
+    std::vector<Index> found;
+    for (std::size_t i = begin; i < end; ++i)
     {
-      vertices.insert(vertices.end(), cell.begin(), cell.end());
+      const auto& cell = cells[guarded_[i].cell];
+      if (holds(cell, guarded_[i]))
+      {
+        found.insert(found.end(), cell.begin(), cell.end());
+      }
     }
-  }
+    const std::lock_guard<std::mutex> lock(mutex);
+    corners.insert(corners.end(), found.begin(), found.end());
+  };
+  parallelFor_(guarded_.size(), fineGrain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      if (mesh_.dimension == 3)
+      {
+        look(mesh_.tetrahedra, begin, end);
+      }
+      else
+      {
+        look(mesh_.triangles, begin, end);
+      }
+    });
+  return corners;
 }
 
 bool MoveGuard::halveUnaccepted(Moves& moves) const
 {
-  std::vector<Index> vertices;
-  if (mesh_.dimension == 3)
-  {
-    findUnaccepted(mesh_.tetrahedra, moves, vertices);
-  }
-  else
-  {
-    findUnaccepted(mesh_.triangles, moves, vertices);
-  }
+  std::vector<Index> vertices = cornersWhere(
+    [&](const auto& cell, const GuardedCell& guarded) { return !accepts(cell, guarded, moves); });
   std::sort(vertices.begin(), vertices.end());
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   bool halved = false;
@@ -235,33 +266,14 @@ bool MoveGuard::halveUnaccepted(Moves& moves) const
   return halved;
 }
 
-template<std::size_t Corners>
-void MoveGuard::findSpoilt(
-  const Simplices<Corners>& cells, double part, std::vector<Index>& vertices) const
-{
-  for (const GuardedCell& guarded : guarded_)
-  {
-    const auto& cell = cells[guarded.cell];
-    const CellState now = stateOf(cell, mesh_.points, guarded.side);
-    if (guarded.before.valid && now.quality < part * guarded.before.quality)
-    {
-      vertices.insert(vertices.end(), cell.begin(), cell.end());
-    }
-  }
-}
-
 std::vector<Index> MoveGuard::verticesOfSpoiltCells(double part) const
 {
-  std::vector<Index> vertices;
-  if (mesh_.dimension == 3)
-  {
-    findSpoilt(mesh_.tetrahedra, part, vertices);
-  }
-  else
-  {
-    findSpoilt(mesh_.triangles, part, vertices);
-  }
-  return vertices;
+  return cornersWhere(
+    [&](const auto& cell, const GuardedCell& guarded)
+    {
+      const CellState now = stateOf(cell, mesh_.points, guarded.side);
+      return guarded.before.valid && now.quality < part * guarded.before.quality;
+    });
 }
 
 } // namespace cadrefine

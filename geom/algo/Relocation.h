@@ -1,6 +1,7 @@
 // Moving vertices to their targets without ever inverting a cell.
 #pragma once
 
+#include "ParallelFor.h"
 #include "SimplexMesh.h"
 
 #include <vector>
@@ -60,18 +61,17 @@ public:
   static constexpr int maximumHalvings = 12;
 
   /// For these moves; the starting state is the reference.
-  MoveGuard(const SimplexMesh& mesh, const Moves& moves) : MoveGuard(mesh, moves, mesh.points, {})
-  {
-  }
+  MoveGuard(const SimplexMesh& mesh, const Moves& moves);
   /// `reference` has a point for each vertex; all cells accept the starting state. `plane` is the
   /// unit normal of a planar mesh, from whose end its triangles should turn; where it is zero,
   /// triangles keep the side that they have in the reference state. `cells` are those with a vertex
   /// that moves (others among them are left out); without them all are looked at. Memory for those
-  /// with a vertex that moves. Keeps a reference to the mesh.
+  /// with a vertex that moves. Keeps a reference to the mesh. All methods loop by `parallelFor`.
   MoveGuard(const SimplexMesh& mesh, const Moves& moves, const std::vector<Point3>& reference,
-    const Vector3& plane);
+    const Vector3& plane, const ParallelFor& parallelFor = serialFor);
   MoveGuard(const SimplexMesh& mesh, const Moves& moves, const std::vector<Point3>& reference,
-    const Vector3& plane, const std::vector<Index>& cells);
+    const Vector3& plane, const std::vector<Index>& cells,
+    const ParallelFor& parallelFor = serialFor);
 
   /// One sweep: halves the fractions of the moving vertices of every cell that does not accept (to
   /// 0 after `maximumHalvings`, and at once where they move wholly). Returns true where it halved
@@ -79,7 +79,8 @@ public:
   bool halveUnaccepted(Moves& moves) const;
 
   /// Vertices of the guarded cells whose mean ratio, with the mesh's points as they now are, is
-  /// below this part of what it was in the reference state. May name a vertex more than once.
+  /// below this part of what it was in the reference state. In any order; may name a vertex more
+  /// than once.
   std::vector<Index> verticesOfSpoiltCells(double part) const;
 
 private:
@@ -96,12 +97,13 @@ private:
   void guard(const Simplices<Corners>& cells, const std::vector<Index>& chosen, const Moves& moves,
     const std::vector<Point3>& reference, const Vector3& plane);
   template<std::size_t Corners>
-  void findUnaccepted(
-    const Simplices<Corners>& cells, const Moves& moves, std::vector<Index>& vertices) const;
-  template<std::size_t Corners>
-  void findSpoilt(const Simplices<Corners>& cells, double part, std::vector<Index>& vertices) const;
+  bool accepts(
+    const std::array<Index, Corners>& cell, const GuardedCell& guarded, const Moves& moves) const;
+  template<class Predicate>
+  std::vector<Index> cornersWhere(const Predicate& holds) const;
 
   const SimplexMesh& mesh_;
+  ParallelFor parallelFor_;
   std::vector<GuardedCell> guarded_;
 };
 

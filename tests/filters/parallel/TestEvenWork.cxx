@@ -134,7 +134,7 @@ TEST_F(ThreadsTest, everyItemOnceInSeveralThreads)
     std::vector<int> visits(10007, 0);
     std::mutex mutex;
     std::set<std::thread::id> used;
-    forRanges(threads, visits.size(),
+    forOnThreads(threads)(visits.size(), coarseGrain,
       [&](std::size_t begin, std::size_t end)
       {
         for (std::size_t i = begin; i < end; ++i)
@@ -155,7 +155,7 @@ TEST_F(ThreadsTest, theCallerGetsAnExceptionOfAThread)
     if (end > 5000)
       throw Error("too far");
   };
-  EXPECT_THROW(forRanges(2, 10000, failing), Error);
+  EXPECT_THROW(forOnThreads(2)(10000, coarseGrain, failing), Error);
 }
 
 } // namespace
