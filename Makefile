@@ -38,6 +38,9 @@ test: build format-check ## Run all tests
 .PHONY: benchmarks
 benchmarks: build ## Measure against other programs: tables of rates and ratios
 	@build/release/tests/benchmarks/closest_point_benchmark
+	@for ranks in 1 2 4 8; do mpirun --bind-to none -np $$ranks build/release/tests/benchmarks/nose_benchmark \
+	  data/aeroplane.igs data/aeroplane_coarse.vtu 0.05 0.2 -0.25 0.25 -0.2 0.2 || exit; done
+	@/usr/bin/python3 tests/benchmarks/projection.py
 	@.ci/install-packages python3-dolfin python3-dolfinx
 	@/usr/bin/python3 tests/benchmarks/refinement.py
 
