@@ -1,6 +1,7 @@
 #include "DistributedBoundary.h"
 
 #include "Agreement.h"
+#include "BoundaryFacets.h"
 #include "Quality.h"
 #include "SharedEdges.h"
 #include "Threads.h"
@@ -18,34 +19,6 @@ bool liesInCoordinatePlane(RankExchange& exchange, const SimplexMesh& mesh)
 {
   const auto [low, high] = findBounds(exchange, mesh);
   return low[0] == high[0] || low[1] == high[1] || low[2] == high[2];
-}
-
-template<std::size_t Corners>
-std::vector<std::array<Index, Corners>> cornersOf(const std::vector<Facet>& facets)
-{
-  std::vector<std::array<Index, Corners>> corners(facets.size());
-  for (std::size_t f = 0; f < facets.size(); ++f)
-  {
-    std::copy_n(facets[f].vertices.begin(), Corners, corners[f].begin());
-  }
-  return corners;
-}
-
-/// Removes the sides that another rank meets too.
-void removeShared(RankExchange& exchange, const DistributedMesh& mesh, std::vector<Facet>& facets)
-{
-  const auto& ids = mesh.mesh().ids;
-  const SharedItems shared =
-    mesh.mesh().dimension == 3
-      ? findSharedSimplices<3>(exchange, mesh.shared, ids, cornersOf<3>(facets))
-      : findSharedSimplices<2>(exchange, mesh.shared, ids, cornersOf<2>(facets));
-  for (const Index facet : shared.all)
-  {
-    facets[facet].cell = -1;
-  }
-  facets.erase(
-    std::remove_if(facets.begin(), facets.end(), [](const Facet& facet) { return facet.cell < 0; }),
-    facets.end());
 }
 
 void listEdges(const SimplexMesh& mesh, DistributedBoundary& boundary)
@@ -113,8 +86,7 @@ DistributedBoundary findBoundary(
   boundary.kind = planar ? BoundaryKind::Segments : BoundaryKind::Triangles;
   if (piece.dimension == 3 || planar)
   {
-    boundary.facets = findOuterFacets(piece);
-    removeShared(exchange, mesh, boundary.facets);
+    boundary.facets = findBoundaryFacets(exchange, mesh);
   }
   else
   {

@@ -35,10 +35,10 @@ struct DistributedBoundary
   int facetCorners() const { return kind == BoundaryKind::Triangles ? 3 : 2; }
 };
 
-/// Boundary of the mesh: triangles met once of a mesh of tetrahedra; segments met once of a planar
-/// mesh of triangles; of a mesh of triangles in space, all triangles. A mesh of triangles is planar
-/// if the model has no faces or if all of its vertices have one coordinate in common. Collective;
-/// messages in proportion to the interface between pieces.
+/// Boundary of the mesh: of a mesh of tetrahedra, or a planar one of triangles, the sides met once
+/// and listed interior ones (see findBoundaryFacets); of triangles in space, all triangles. A mesh
+/// of triangles is planar if the model has no faces or if all of its vertices have one coordinate
+/// in common. Collective; messages in proportion to the interface between pieces.
 DistributedBoundary findBoundary(
   RankExchange& exchange, const DistributedMesh& mesh, const CADModel& model);
 

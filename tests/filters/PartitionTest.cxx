@@ -23,14 +23,25 @@ namespace cadrefine
 namespace
 {
 
-/// A mesh, its CAD file, and where its boundary may lie.
+TopoDS_Shape sphere()
+{
+  return cadtest::sphere(2);
+}
+
+TopoDS_Shape circle()
+{
+  return cadtest::circle(2);
+}
+
+/// A mesh, its CAD, and where its boundary may lie.
 struct Problem
 {
   std::string name;
-  std::string cadFile; ///< Empty: a sphere of radius 2.
+  std::string cadFile; ///< Empty: `shape`.
   vtkSmartPointer<vtkPointSet> (*mesh)();
   double threshold; ///< Cells with a larger error are bisected.
   bool (*onBoundary)(const std::vector<Point3>& side);
+  TopoDS_Shape (*shape)() = sphere;
 };
 
 vtkSmartPointer<vtkPointSet> taggedBall()
@@ -40,6 +51,22 @@ vtkSmartPointer<vtkPointSet> taggedBall()
   mesh.segments = { { mesh.triangles[0][0], mesh.triangles[0][1] } };
   mesh.vertices = { { 3 }, { 7 } };
   return cadtest::toGrid(mesh);
+}
+
+/// Its boundary on the CAD is inside.
+vtkSmartPointer<vtkPointSet> ballInShell()
+{
+  return cadtest::toGrid(cadtest::ballInShellMesh(2, 0.03));
+}
+
+vtkSmartPointer<vtkPointSet> discInRing()
+{
+  return cadtest::toGrid(cadtest::discInRingMesh(2, 0.02, 9));
+}
+
+vtkSmartPointer<vtkPointSet> cubesAtAnEdge()
+{
+  return cadtest::toGrid(cadtest::cubesAtAnEdgeMesh());
 }
 
 vtkSmartPointer<vtkPointSet> surface()
@@ -115,6 +142,22 @@ bool roundArcs(const std::vector<Point3>& side)
   return side[0][0] == side[1][0] || side[0][1] == side[1][1];
 }
 
+bool farOutside(const std::vector<Point3>& side)
+{
+  return std::all_of(side.begin(), side.end(), [](const Point3& p) { return norm(p) > 3; });
+}
+
+bool onCubes(const std::vector<Point3>& side)
+{
+  const auto isPlane = [&](int k)
+  {
+    const double plane = std::round(side[0][k]);
+    return std::all_of(
+      side.begin(), side.end(), [&](const Point3& p) { return std::abs(p[k] - plane) < 1e-11; });
+  };
+  return isPlane(0) || isPlane(1) || isPlane(2);
+}
+
 /// Creases, corners and a seam, found by facets on several ranks.
 vtkSmartPointer<vtkPointSet> boxWithHole()
 {
@@ -135,13 +178,16 @@ bool roundBoxWithHole(const std::vector<Point3>& side)
          onPlane(1, size[1]) || onPlane(2, size[2]);
 }
 
-const std::array<Problem, 7> problems{ { { "Ball", "", taggedBall, 0.01, onSphere },
+const std::array<Problem, 10> problems{ { { "Ball", "", taggedBall, 0.01, onSphere },
   { "Surface", "", surface, 0.01, nowhere },
   { "Wing", CADREFINE_DATA "/naca0012_sharp.igs", wing, 1e-4, roundWing },
   { "Arcs", CADREFINE_DATA "/three_arcs.igs", arcs, 1e-3, roundArcs },
   { "Crowded", "", crowdedBall, 0.01, onSphere },
   { "Hole", CADREFINE_TRUTH "/box_minus_cylinder.brep", boxWithHole, 1e-3, roundBoxWithHole },
-  { "CoarseBall", "", coarseBall, 0.01, nearSphere } } };
+  { "CoarseBall", "", coarseBall, 0.01, nearSphere },
+  { "Shell", "", ballInShell, 0.01, farOutside },
+  { "Cubes", "", cubesAtAnEdge, 0.01, onCubes, cadtest::cubesAtAnEdge },
+  { "Ring", "", discInRing, 1e-3, farOutside, circle } } };
 
 struct Case
 {
@@ -188,7 +234,7 @@ protected:
   /// The CAD file; rank 0 alone reads it.
   std::string cadFile() const
   {
-    return problem.cadFile.empty() ? cadtest::writeInto(folder, cadtest::sphere(2), ".step")
+    return problem.cadFile.empty() ? cadtest::writeInto(folder, problem.shape(), ".brep")
                                    : problem.cadFile;
   }
 

@@ -290,4 +290,96 @@ SimplexMesh discMesh(double radius, double offset, int corners)
   return mesh;
 }
 
+namespace
+{
+
+/// The mesh with a copy of its boundary, three times as large, outside: new points follow the old
+/// ones in their order. Returns the number of the first.
+Index addOuterPoints(SimplexMesh& mesh, Index boundaryPoints)
+{
+  const auto first = static_cast<Index>(mesh.points.size());
+  for (Index v = 0; v < boundaryPoints; ++v)
+  {
+    mesh.points.push_back(3.0 * mesh.points[v]);
+  }
+  mesh.ids = consecutiveIds(mesh.points.size());
+  return first;
+}
+
+} // namespace
+
+SimplexMesh ballInShellMesh(double radius, double offset)
+{
+  SimplexMesh mesh = ballMesh(radius, offset);
+  mesh.triangles = sphereMesh(radius, offset).triangles;
+  const Index outside = addOuterPoints(mesh, 12);
+  for (std::array<Index, 3> side : mesh.triangles)
+  {
+    // A prism; its sides are cut from the smaller number below to the larger one above, so that
+    // neighbours fit.
+    std::sort(side.begin(), side.end());
+    mesh.tetrahedra.push_back({ side[0], side[1], side[2], outside + side[2] });
+    mesh.tetrahedra.push_back({ side[0], side[1], outside + side[1], outside + side[2] });
+    mesh.tetrahedra.push_back({ side[0], outside + side[0], outside + side[1], outside + side[2] });
+  }
+  orient(mesh);
+  return mesh;
+}
+
+SimplexMesh discInRingMesh(double radius, double offset, int corners)
+{
+  SimplexMesh mesh = discMesh(radius, offset, corners);
+  const Index outside = addOuterPoints(mesh, corners);
+  for (Index a = 0; a < corners; ++a)
+  {
+    const Index b = (a + 1) % corners;
+    mesh.segments.push_back({ a, b });
+    mesh.triangles.push_back({ a, outside + a, outside + b });
+    mesh.triangles.push_back({ a, outside + b, b });
+  }
+  return mesh;
+}
+
+SimplexMesh cubesAtAnEdgeMesh()
+{
+  SimplexMesh mesh = cubeMesh(1, 0, 1);
+  const SimplexMesh other = mesh;
+  std::vector<Index> numbers;
+  for (const Point3& point : other.points)
+  {
+    const Point3 moved = point + Point3{ 1, 1, 0 };
+    const auto found = std::find(mesh.points.begin(), mesh.points.end(), moved);
+    numbers.push_back(static_cast<Index>(found - mesh.points.begin()));
+    if (found == mesh.points.end())
+    {
+      mesh.points.push_back(moved);
+    }
+  }
+  for (auto cell : other.tetrahedra)
+  {
+    std::transform(cell.begin(), cell.end(), cell.begin(), [&](Index v) { return numbers[v]; });
+    mesh.tetrahedra.push_back(cell);
+  }
+  mesh.ids = consecutiveIds(mesh.points.size());
+  return mesh;
+}
+
+SimplexMesh threeSheetsMesh()
+{
+  SimplexMesh mesh;
+  mesh.dimension = 2;
+  mesh.points = { { 0, 0, 0 }, { 0, 0, 1 } };
+  for (int sheet = 0; sheet < 3; ++sheet)
+  {
+    const double angle = 2 * pi * sheet / 3;
+    const auto first = static_cast<Index>(mesh.points.size());
+    mesh.points.push_back({ std::cos(angle), std::sin(angle), 0 });
+    mesh.points.push_back({ std::cos(angle), std::sin(angle), 1 });
+    mesh.triangles.push_back({ 0, first, first + 1 });
+    mesh.triangles.push_back({ 0, first + 1, 1 });
+  }
+  mesh.ids = consecutiveIds(mesh.points.size());
+  return mesh;
+}
+
 } // namespace cadtest

@@ -25,6 +25,9 @@ cadrefine::SimplexMesh withShuffledCells(cadrefine::SimplexMesh mesh, std::uint6
 /// Ball round the origin: the 20 tetrahedra between an icosahedron and its centre. Vertices lie off
 /// the sphere by up to `offset` times the radius, in and out.
 cadrefine::SimplexMesh ballMesh(double radius, double offset);
+/// That ball, its first 20 tetrahedra, in a shell of three times its size; the 20 triangles between
+/// the two are listed.
+cadrefine::SimplexMesh ballInShellMesh(double radius, double offset);
 /// A valid ball whose inner vertex stands so near to one side that the side's cell inverts when the
 /// side's corners are put onto the sphere, unless the inner vertex makes way.
 cadrefine::SimplexMesh crowdedBallMesh(double radius);
@@ -34,5 +37,13 @@ cadrefine::SimplexMesh sphereMesh(double radius, double offset);
 cadrefine::SimplexMesh torusMesh(double majorRadius, double minorRadius, int around, int corners);
 /// Triangles between a polygon with `corners` corners and its centre, in the plane z = 0.
 cadrefine::SimplexMesh discMesh(double radius, double offset, int corners);
+/// That disc, its first triangles, in a ring of three times its size; the segments between the two
+/// are listed.
+cadrefine::SimplexMesh discInRingMesh(double radius, double offset, int corners);
+
+/// Two unit cubes that have an edge in common and nothing else.
+cadrefine::SimplexMesh cubesAtAnEdgeMesh();
+/// Three unit squares in space, of two triangles each, that have an edge in common.
+cadrefine::SimplexMesh threeSheetsMesh();
 
 } // namespace cadtest

@@ -3,6 +3,7 @@
 #include "CADFile.h"
 
 #include <BRepAlgoAPI_Cut.hxx>
+#include <BRepAlgoAPI_Fuse.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
@@ -71,6 +72,12 @@ TopoDS_Shape cone(double radius, double height)
 TopoDS_Shape boxWithoutCorner(double x, double y, double z, double radius)
 {
   return BRepAlgoAPI_Cut(box(x, y, z), sphere(radius)).Shape();
+}
+
+TopoDS_Shape cubesAtAnEdge()
+{
+  const TopoDS_Shape other = BRepPrimAPI_MakeBox(gp_Pnt(1, 1, 0), 1, 1, 1).Shape();
+  return BRepAlgoAPI_Fuse(box(1, 1, 1), other).Shape();
 }
 
 std::string writeInto(

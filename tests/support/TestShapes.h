@@ -32,6 +32,8 @@ TopoDS_Shape rectangle(double x, double y);
 TopoDS_Shape cone(double radius, double height);
 /// A box with a ball about the origin, its corner, cut off.
 TopoDS_Shape boxWithoutCorner(double x, double y, double z, double radius);
+/// Two unit boxes that have an edge in common and nothing else: no manifold.
+TopoDS_Shape cubesAtAnEdge();
 
 /// Writes `shape` into the folder with this extension (".step", ".igs", ".brep"); the file's path.
 std::string writeInto(
