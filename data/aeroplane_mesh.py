@@ -13,7 +13,7 @@ import math
 import gmsh
 import numpy as np
 
-from coarse_mesh import TETRAHEDRON, boundary_faces, used_points
+from coarse_mesh import boundary_faces, finished_mesh
 from vtu import mean_ratio, write_vtu
 
 BOX = ((-2.0, -3.0, -2.5), (5.0, 3.0, 2.5))
@@ -53,12 +53,7 @@ def mesh_around(path, size, nose_size):
     boxes = {tag: gmsh.model.getBoundingBox(2, tag) for _, tag in gmsh.model.getEntities(2)}
     set_sizes([tag for tag, ends in boxes.items() if ends[0] > -1 and ends[3] < 3], size, nose_size)
     gmsh.model.mesh.generate(3)
-    tags, coordinates, _ = gmsh.model.mesh.getNodes()
-    _, nodes = gmsh.model.mesh.getElementsByType(TETRAHEDRON)
-    gmsh.finalize()
-    number = {tag: i for i, tag in enumerate(tags)}
-    cells = np.array([number[node] for node in nodes]).reshape(-1, 4)
-    return used_points(coordinates.reshape(-1, 3), cells)
+    return finished_mesh()
 
 
 def boundary_triangles(points, cells):

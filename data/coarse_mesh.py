@@ -4,6 +4,7 @@ import gmsh
 import numpy as np
 
 TRIANGLE, TETRAHEDRON = 2, 4  # gmsh's numbers of cell types.
+CORNERS = {TRIANGLE: 3, TETRAHEDRON: 4}
 
 
 def mesh_around(outer, hole, inside=(), size=1e9, draw_out=None):
@@ -33,11 +34,16 @@ def mesh_around(outer, hole, inside=(), size=1e9, draw_out=None):
         geo.extrude([(2, surface)], *vector, numElements=[layers])
         geo.synchronize()
     gmsh.model.mesh.generate(3 if draw_out else 2)
+    return finished_mesh(TETRAHEDRON if draw_out else TRIANGLE)
+
+
+def finished_mesh(cell_type=TETRAHEDRON):
+    """Points and cells of the mesh that gmsh has made; ends gmsh."""
     tags, coordinates, _ = gmsh.model.mesh.getNodes()
-    _, nodes = gmsh.model.mesh.getElementsByType(TETRAHEDRON if draw_out else TRIANGLE)
+    _, nodes = gmsh.model.mesh.getElementsByType(cell_type)
     gmsh.finalize()
     number = {tag: i for i, tag in enumerate(tags)}
-    cells = np.array([number[node] for node in nodes]).reshape(-1, 4 if draw_out else 3)
+    cells = np.array([number[node] for node in nodes]).reshape(-1, CORNERS[cell_type])
     return used_points(coordinates.reshape(-1, 3), cells)
 
 

@@ -8,9 +8,8 @@ The coarsest meshes of a ball have tetrahedra with two facets on it, which becom
 import argparse
 
 import gmsh
-import numpy as np
 
-from coarse_mesh import TETRAHEDRON, used_points
+from coarse_mesh import finished_mesh
 from vtu import mean_ratio, write_vtu
 
 
@@ -34,12 +33,7 @@ def mesh_of(make, size):
     gmsh.option.setNumber("Mesh.MeshSizeMin", size)
     gmsh.option.setNumber("Mesh.MeshSizeMax", size)
     gmsh.model.mesh.generate(3)
-    tags, coordinates, _ = gmsh.model.mesh.getNodes()
-    _, nodes = gmsh.model.mesh.getElementsByType(TETRAHEDRON)
-    gmsh.finalize()
-    number = {tag: i for i, tag in enumerate(tags)}
-    cells = np.array([number[node] for node in nodes]).reshape(-1, 4)
-    return used_points(coordinates.reshape(-1, 3), cells)
+    return finished_mesh()
 
 
 def main():
