@@ -55,6 +55,7 @@ void vtkProjectOntoCAD::Execute(cadrefine::RankExchange& exchange, vtkPointSet* 
   }
 
   recordBalance(*this->Statistics, "points", result.balance);
+  this->Statistics->set("points that gave up", static_cast<double>(result.slowPoints));
 
   output->ShallowCopy(makePointSet(input, mesh.mesh()));
   copyArrays(input, mesh.converted, output);

@@ -26,6 +26,7 @@ struct NearestPoints
 {
   std::vector<ClosestPoint> hits; ///< Of each vertex; none of those that did not ask.
   std::int64_t asked = 0;         ///< Over all ranks.
+  std::int64_t slow = 0;          ///< Of those.
   WorkBalance balance;
 };
 
@@ -52,8 +53,10 @@ NearestPoints findNearest(const ProjectionTask& task)
   for (std::size_t i = 0; i < vertices.size(); ++i)
   {
     result.hits[vertices[i]] = answers.values[i];
+    result.slow += owned[vertices[i]] && !answers.values[i].converged;
   }
   result.asked = task.exchange.sum(result.asked);
+  result.slow = task.exchange.sum(result.slow);
   result.balance = answers.balance;
   return result;
 }
@@ -115,6 +118,7 @@ ProjectionResult projectBoundary(RankExchange& exchange, DistributedMesh& mesh,
   moveOntoCAD(exchange, mesh, std::move(moves), result.classification,
     { projector, findFixed(task), options.mendCells });
   result.projectedPoints = nearest.asked;
+  result.slowPoints = nearest.slow;
   result.balance = nearest.balance;
   return result;
 }
@@ -148,6 +152,7 @@ ProjectionResult projectPoints(RankExchange& exchange, DistributedMesh& mesh, co
   for (std::size_t i = 0; i < vertices.size(); ++i)
   {
     const ClosestPoint& hit = answers.values[i];
+    result.slowPoints += owned[vertices[i]] && !hit.converged;
     if (hit.entity)
     {
       result.classification.set(vertices[i], hit);
@@ -155,6 +160,7 @@ ProjectionResult projectPoints(RankExchange& exchange, DistributedMesh& mesh, co
     }
   }
   result.projectedPoints = exchange.sum(result.projectedPoints);
+  result.slowPoints = exchange.sum(result.slowPoints);
   result.balance = answers.balance;
   return result;
 }
