@@ -6,6 +6,7 @@
 #include "Balancing.h"
 #include "DistributedRefinement.h"
 #include "Error.h"
+#include "EvenWork.h"
 #include "MeshSummary.h"
 
 #include <vtkCellData.h>
@@ -16,6 +17,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <numeric>
 #include <string>
 
 namespace
@@ -52,6 +54,8 @@ public:
     this->ReadPositions(source);
     source = nullptr;
     this->RefineOnce(plan);
+    this->Statistics.set("new cells imbalance after",
+      findImbalance(this->Exchange, static_cast<std::int64_t>(this->Mesh.mesh().cellCount())));
     for (int level = 1; level < this->Settings->GetLevels(); ++level)
     {
       this->RefineOnce(this->MakePlan());
@@ -106,6 +110,9 @@ private:
       std::transform(firsts.begin() + 1, firsts.end(), firsts.begin(), std::back_inserter(weights),
         [](Index end, Index first) { return end - first; });
     }
+    this->Statistics.set("new cells imbalance before",
+      findImbalance(
+        this->Exchange, std::accumulate(weights.begin(), weights.end(), std::int64_t{ 0 })));
     return isBalanced(this->Exchange, this->Mesh, weights)
              ? vtkSmartPointer<vtkPointSet>(source)
              : redistribute(this->Exchange, this->Mesh, source, weights);

@@ -55,6 +55,12 @@ void recordBalance(RunStatistics& statistics, const std::string& work, const Wor
   statistics.set(work + " imbalance after", balance.after);
 }
 
+double findImbalance(RankExchange& exchange, std::int64_t share)
+{
+  const std::vector<std::int64_t> shares = exchange.gather(share);
+  return largestOverMean(shares, std::accumulate(shares.begin(), shares.end(), std::int64_t{ 0 }));
+}
+
 WorkPlan planEvenWork(RankExchange& exchange, std::size_t questions)
 {
   const std::vector<std::int64_t> counts = exchange.gather(static_cast<std::int64_t>(questions));

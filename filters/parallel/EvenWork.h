@@ -25,6 +25,10 @@ struct WorkBalance
 /// Adds the figures "<work> imbalance before" and "<work> imbalance after".
 void recordBalance(RunStatistics& statistics, const std::string& work, const WorkBalance& balance);
 
+/// Largest over mean of the ranks' shares of some work; 1 where there is none. Collective; one
+/// number is gathered from every rank.
+double findImbalance(RankExchange& exchange, std::int64_t share);
+
 /// A run of questions that goes from a rank that has too many to one that has too few.
 struct Parcel
 {

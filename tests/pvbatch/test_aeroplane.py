@@ -25,6 +25,13 @@ class Aeroplane(unittest.TestCase):
         for step in report["steps"]:
             self.assertEqual((step["invalid_cells"], step["unprojected_vertices"]), (0, 0))
             self.assertGreater(step["minimum_quality"], 0.1)
+        costs = first["costs"]["project"]
+        self.assertGreater(costs["points imbalance before"], 1.5)
+        self.assertLessEqual(costs["points imbalance after"], 1.1)
+        for step in report["steps"][1:]:
+            costs = step["costs"]["refine"]
+            self.assertLessEqual(costs["new points imbalance after"], 1.1)
+            self.assertLessEqual(costs["new cells imbalance after"], 1.1)
 
 
 if __name__ == "__main__":
