@@ -15,6 +15,9 @@ const double flatCosine = std::cos(10 * degree);
 /// A mesh edge follows a smooth edge up to this angle.
 const double followingCosine = std::cos(30 * degree);
 
+/// Ends of an edge that follows are no farther, in terms of its reach.
+constexpr double followingDistance = 0.15;
+
 /// Of the mesh edge's length and the heights of the facets over it the shortest.
 double reachOf(const MeshEdge& edge)
 {
@@ -135,11 +138,28 @@ bool EdgeFinder::endsAreNearCreases(const MeshEdge& edge) const
   return nearestCrease(edge.points[0], limit).entity && nearestCrease(edge.points[1], limit).entity;
 }
 
+/// Whether the ends that lie on the CAD already lie on the crease, or, like the middle of one of
+/// its chords, next to it: of a mesh edge that follows it.
+bool EdgeFinder::allowsSettledEnds(std::int32_t candidate, const MeshEdge& edge, double reach) const
+{
+  const double exact = 1e-9 * model_.size() + model_.nurbs().edges[candidate].tolerance;
+  for (int k = 0; k < 2; ++k)
+  {
+    const double away =
+      edge.settled[k] ? model_.nearestOn({ 1, candidate }, edge.points[k]).distance : 0;
+    if (away > exact && (away > followingDistance * reach || !follows(candidate, edge.points)))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
 EdgeMatch EdgeFinder::matchCrease(std::int32_t candidate, const MeshEdge& edge, double reach) const
 {
   const ClosestPoint where = model_.nearestOn({ 1, candidate }, middleOf(edge.points));
-  const bool passes =
-    where.entity.dimension == 1 && where.distance <= 0.5 * reach && passesAsCrease(where, edge);
+  const bool passes = where.entity.dimension == 1 && where.distance <= 0.5 * reach &&
+                      passesAsCrease(where, edge) && allowsSettledEnds(candidate, edge, reach);
   return passes ? EdgeMatch{ candidate, where.distance } : EdgeMatch{};
 }
 
@@ -163,7 +183,7 @@ EdgeMatch EdgeFinder::matchFollowed(
   for (int k = 0; k < 2; ++k)
   {
     const double away = model_.nearestOn({ 1, candidate }, edge.points[k]).distance;
-    if (away > (edge.settled[k] ? exact : 0.15 * reach))
+    if (away > (edge.settled[k] ? exact : followingDistance * reach))
     {
       return {};
     }
@@ -181,7 +201,9 @@ EdgeMatch EdgeFinder::matchAnyCrease(const MeshEdge& edge, double reach) const
   }
   if (where.entity.dimension == 1)
   {
-    return { where.entity.index, where.distance };
+    return allowsSettledEnds(where.entity.index, edge, reach)
+             ? EdgeMatch{ where.entity.index, where.distance }
+             : EdgeMatch{};
   }
   EdgeMatch best;
   double bestCosine = 0;
@@ -189,7 +211,7 @@ EdgeMatch EdgeFinder::matchAnyCrease(const MeshEdge& edge, double reach) const
   {
     const double cosine =
       std::abs(dot(tangentAwayFrom(model_, e, where.entity.index), directionOf(edge.points)));
-    if (model_.nurbs().edges[e].sharp && cosine > bestCosine)
+    if (model_.nurbs().edges[e].sharp && cosine > bestCosine && allowsSettledEnds(e, edge, reach))
     {
       best = { e, where.distance };
       bestCosine = cosine;

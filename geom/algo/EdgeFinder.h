@@ -90,6 +90,7 @@ private:
   bool fitsNormals(const ClosestPoint& where, const MeshEdge& edge) const;
   bool endsAreNearCreases(const MeshEdge& edge) const;
   bool passesAsCrease(const ClosestPoint& where, const MeshEdge& edge) const;
+  bool allowsSettledEnds(std::int32_t candidate, const MeshEdge& edge, double reach) const;
   EdgeMatch matchCrease(std::int32_t candidate, const MeshEdge& edge, double reach) const;
   EdgeMatch matchFollowed(std::int32_t candidate, const MeshEdge& edge, double reach) const;
   EdgeMatch matchAnyCrease(const MeshEdge& edge, double reach) const;

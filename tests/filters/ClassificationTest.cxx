@@ -168,6 +168,37 @@ TEST_P(Classification, recoversTheEntitiesOfTheNodes)
   EXPECT_EQ(cadtest::fieldValue(projected, "UnprojectedVertices"), 0);
 }
 
+/// Nodes that gmsh has put onto the CAD.
+class ExactNodes : public testing::TestWithParam<std::pair<const char*, const char*>>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(Files, ExactNodes,
+  testing::Values(std::pair{ "bottle", "/usr/share/opencascade/data/occ/bottle.brep" },
+    std::pair{ "crank_arm", "/usr/share/opencascade/data/occ/CrankArm.brep" }),
+  [](const auto& test) { return std::string(test.param.first); });
+
+TEST_P(ExactNodes, stayWhereTheyAre)
+{
+  const auto [solid, file] = GetParam();
+  const cadtest::FilterRun filters(file);
+  const auto mesh = cadtest::readGrid(std::string(CADREFINE_TRUTH) + "/" + solid + ".vtu");
+  const auto projected = filters.project(mesh);
+  const auto found = entitiesOf(projected);
+  vtkDataArray* truth = mesh->GetPointData()->GetArray("TruthDimension");
+  const double tolerance = 1e-9 * mesh->GetLength();
+  for (vtkIdType p = 0; p < mesh->GetNumberOfPoints(); ++p)
+  {
+    const double dimension = truth->GetTuple1(p);
+    EXPECT_EQ(found[p].dimension, dimension == 3 ? -1 : dimension) << "node " << p;
+    Point3 before;
+    Point3 after;
+    mesh->GetPoint(p, before.data());
+    projected->GetPoint(p, after.data());
+    EXPECT_LE(distance(before, after), tolerance) << "node " << p;
+  }
+}
+
 /// A dent with three vertices of the CAD, in a corner for which the mesh has but one.
 TEST(Conflicts, areReportedWhereTheMeshIsTooCoarse)
 {

@@ -5,7 +5,8 @@ usage: gmsh_truth.py FOLDER [SOLID ...]
 
 For each solid writes the CAD file FOLDER/SOLID.brep and, at two sizes, the meshes FOLDER/SOLID_coarse.vtu and
 FOLDER/SOLID_fine.vtu of tetrahedra. Each node is moved in a random direction (of a fixed seed) by up to 5% of the mean
-length of its edges. Point arrays: TruthDimension and TruthTag, the dimension and tag of gmsh's entity that the node
+length of its edges. Of each solid that is read from a file, writes FOLDER/SOLID.vtu, with its nodes where gmsh put
+them. Point arrays: TruthDimension and TruthTag, the dimension and tag of gmsh's entity that the node
 belongs to (3: inside); ExactPosition, where gmsh had put it.
 """
 
@@ -105,6 +106,13 @@ SOLIDS = {
 }
 
 
+# Solid: its file, and the size of cells.
+FILES = {
+    "bottle": ("/usr/share/opencascade/data/occ/bottle.brep", 4.7),
+    "crank_arm": ("/usr/share/opencascade/data/occ/CrankArm.brep", 7.7),
+}
+
+
 def write_cad(path, make):
     gmsh.clear()
     make()
@@ -158,12 +166,13 @@ def moved(points, cells, seed):
     return points + lengths[:, None] * directions
 
 
-def write_mesh(path, make, size, graded, seed):
+def write_mesh(path, make, size, graded=False, seed=None):
+    """Moves the nodes where there is a seed."""
     points, cells, truth = mesh_domain(make, size, graded)
     used, cells = np.unique(cells, return_inverse=True)  # No nodes of curves that the mesh does not use.
     points, truth, cells = points[used], truth[used], cells.reshape(-1, 4)
     cells[volumes(points, cells) < 0] = cells[volumes(points, cells) < 0][:, [1, 0, 2, 3]]
-    after = moved(points, cells, seed)
+    after = points if seed is None else moved(points, cells, seed)
     if volumes(after, cells).min() <= 0:
         raise RuntimeError(f"{path}: moving the nodes inverted a cell; choose another size or seed")
     meshio.write(path, meshio.Mesh(after, [("tetra", cells)], point_data={
@@ -178,7 +187,13 @@ def main():
     gmsh.initialize()
     gmsh.option.setNumber("General.Terminal", 0)
     gmsh.option.setNumber("General.NumThreads", 1)
+    for name in sys.argv[2:] or FILES:
+        if name in FILES:
+            file, size = FILES[name]
+            write_mesh(os.path.join(folder, f"{name}.vtu"), lambda file=file: occ.importShapes(file), size)
     for name in sys.argv[2:] or SOLIDS:
+        if name not in SOLIDS:
+            continue
         cad, domain, sizes = SOLIDS[name]
         write_cad(os.path.join(folder, name + ".brep"), cad)
         for label, size in zip(("coarse", "fine"), sizes):
