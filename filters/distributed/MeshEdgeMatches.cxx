@@ -96,23 +96,71 @@ std::vector<std::int64_t> sumLengths(
   return task.exchange.sum(lengths);
 }
 
+/// The CAD edges along at least half of which these mesh edges run.
+std::vector<unsigned char> findCovered(
+  const ProjectionTask& task, const std::vector<std::int32_t>& ofMeshEdges)
+{
+  const auto& edges = task.model().nurbs().edges;
+  const auto lengths = sumLengths(task, ofMeshEdges);
+  std::vector<unsigned char> covered(edges.size(), 0);
+  for (std::size_t edge = 0; edge < edges.size(); ++edge)
+  {
+    const double length = std::ldexp(static_cast<double>(lengths[edge]), -40);
+    covered[edge] =
+      lengths[edge] > 0 && length * task.model().size() >= 0.5 * lengthOf(edges[edge]);
+  }
+  return covered;
+}
+
+/// For each mesh edge whose ends lie exactly on a CAD edge that it follows, that; -1 otherwise.
+std::vector<std::int32_t> findExact(const ProjectionTask& task,
+  const std::vector<ClosestPoint>& hits, const std::vector<unsigned char>& settled)
+{
+  const EdgeFinder finder(task.model());
+  const auto& edges = task.boundary.edges.edges();
+  std::vector<std::int32_t> exact(edges.size(), -1);
+  for (std::size_t e = 0; e < edges.size(); ++e)
+  {
+    const auto [a, b] = edges[e];
+    if (!settled[a] || !settled[b] || hits[a].entity.dimension > 1 || hits[b].entity.dimension > 1)
+    {
+      continue;
+    }
+    for (const std::int32_t edge :
+      commonEntities(task.model().nurbs(), hits[a].entity, hits[b].entity, 1))
+    {
+      if (finder.follows(edge, { task.points()[a], task.points()[b] }))
+      {
+        exact[e] = edge;
+      }
+    }
+  }
+  return exact;
+}
+
+/// Forgets mesh edges that would take vertices on the CAD to a CAD edge along which others run
+/// exactly: those are it.
+void forgetStrays(const ProjectionTask& task, const std::vector<std::int32_t>& exact,
+  std::vector<EdgeMatch>& matches)
+{
+  const auto covered = findCovered(task, exact);
+  for (EdgeMatch& match : matches)
+  {
+    if (match.unsettles && covered[match.edge])
+    {
+      match = {};
+    }
+  }
+}
+
 /// Forgets smooth CAD edges along less than half of which the mesh runs: it does not know of them.
 void forgetAccidents(const ProjectionTask& task, std::vector<std::int32_t>& ofMeshEdges)
 {
   const auto& edges = task.model().nurbs().edges;
-  const auto lengths = sumLengths(task, ofMeshEdges);
-  std::vector<unsigned char> followed(edges.size(), 1);
-  for (std::size_t edge = 0; edge < edges.size(); ++edge)
-  {
-    if (lengths[edge] > 0 && !edges[edge].sharp)
-    {
-      const double length = std::ldexp(static_cast<double>(lengths[edge]), -40);
-      followed[edge] = length * task.model().size() >= 0.5 * lengthOf(edges[edge]);
-    }
-  }
+  const auto followed = findCovered(task, ofMeshEdges);
   for (std::int32_t& edge : ofMeshEdges)
   {
-    edge = edge >= 0 && followed[edge] ? edge : -1;
+    edge = edge >= 0 && (edges[edge].sharp || followed[edge]) ? edge : -1;
   }
 }
 
@@ -120,7 +168,8 @@ std::vector<std::int32_t> edgesOfMeshEdges(const ProjectionTask& task,
   const std::vector<ClosestPoint>& hits, const std::vector<FacetRecord>& records,
   const std::vector<unsigned char>& settled)
 {
-  const auto matches = matchMeshEdges(task, hits, records, settled);
+  auto matches = matchMeshEdges(task, hits, records, settled);
+  forgetStrays(task, findExact(task, hits, settled), matches);
   std::vector<std::int32_t> result(matches.size());
   std::transform(matches.begin(), matches.end(), result.begin(),
     [](const EdgeMatch& match) { return match.edge; });

@@ -138,28 +138,11 @@ bool EdgeFinder::endsAreNearCreases(const MeshEdge& edge) const
   return nearestCrease(edge.points[0], limit).entity && nearestCrease(edge.points[1], limit).entity;
 }
 
-/// Whether the ends that lie on the CAD already lie on the crease, or, like the middle of one of
-/// its chords, next to it: of a mesh edge that follows it.
-bool EdgeFinder::allowsSettledEnds(std::int32_t candidate, const MeshEdge& edge, double reach) const
-{
-  const double exact = 1e-9 * model_.size() + model_.nurbs().edges[candidate].tolerance;
-  for (int k = 0; k < 2; ++k)
-  {
-    const double away =
-      edge.settled[k] ? model_.nearestOn({ 1, candidate }, edge.points[k]).distance : 0;
-    if (away > exact && (away > followingDistance * reach || !follows(candidate, edge.points)))
-    {
-      return false;
-    }
-  }
-  return true;
-}
-
 EdgeMatch EdgeFinder::matchCrease(std::int32_t candidate, const MeshEdge& edge, double reach) const
 {
   const ClosestPoint where = model_.nearestOn({ 1, candidate }, middleOf(edge.points));
-  const bool passes = where.entity.dimension == 1 && where.distance <= 0.5 * reach &&
-                      passesAsCrease(where, edge) && allowsSettledEnds(candidate, edge, reach);
+  const bool passes =
+    where.entity.dimension == 1 && where.distance <= 0.5 * reach && passesAsCrease(where, edge);
   return passes ? EdgeMatch{ candidate, where.distance } : EdgeMatch{};
 }
 
@@ -201,9 +184,7 @@ EdgeMatch EdgeFinder::matchAnyCrease(const MeshEdge& edge, double reach) const
   }
   if (where.entity.dimension == 1)
   {
-    return allowsSettledEnds(where.entity.index, edge, reach)
-             ? EdgeMatch{ where.entity.index, where.distance }
-             : EdgeMatch{};
+    return { where.entity.index, where.distance };
   }
   EdgeMatch best;
   double bestCosine = 0;
@@ -211,7 +192,7 @@ EdgeMatch EdgeFinder::matchAnyCrease(const MeshEdge& edge, double reach) const
   {
     const double cosine =
       std::abs(dot(tangentAwayFrom(model_, e, where.entity.index), directionOf(edge.points)));
-    if (model_.nurbs().edges[e].sharp && cosine > bestCosine && allowsSettledEnds(e, edge, reach))
+    if (model_.nurbs().edges[e].sharp && cosine > bestCosine)
     {
       best = { e, where.distance };
       bestCosine = cosine;
@@ -264,6 +245,15 @@ EdgeMatch EdgeFinder::findCrease(const std::vector<MeshEdge>& edges) const
   return best;
 }
 
+bool EdgeFinder::unsettles(const MeshEdge& edge, std::int32_t match) const
+{
+  const double exact = 1e-9 * model_.size() + model_.nurbs().edges[match].tolerance;
+  const auto isOff = [&](int k) {
+    return edge.settled[k] && model_.nearestOn({ 1, match }, edge.points[k]).distance > exact;
+  };
+  return isOff(0) || isOff(1);
+}
+
 EdgeMatch EdgeFinder::find(const MeshEdge& edge) const
 {
   const double reach = reachOf(edge);
@@ -275,6 +265,7 @@ EdgeMatch EdgeFinder::find(const MeshEdge& edge) const
       best = std::min(best, matchFollowed(candidate, edge, reach));
     }
   }
+  best.unsettles = best.edge >= 0 && unsettles(edge, best.edge);
   return best;
 }
 

@@ -50,6 +50,7 @@ struct EdgeMatch
 {
   std::int32_t edge = -1; ///< -1: none.
   double distance = std::numeric_limits<double>::infinity();
+  unsigned char unsettles = 0; ///< An end that is settled does not lie on it.
 
   friend bool operator<(const EdgeMatch& a, const EdgeMatch& b)
   {
@@ -74,7 +75,8 @@ public:
   ///     degrees;
   ///   - where there is none of these, and the facets make an angle: the nearest crease of the
   ///     whole model, with the limits above.
-  /// Cost: a query for each edge that the faces share, at times one of the whole model.
+  /// Cost: a query for each edge that the faces share, at times one of the whole model, and two of
+  /// the edge found.
   EdgeMatch find(const MeshEdge& edge) const;
   /// The nearest crease for any of these, with the same limits.
   EdgeMatch findCrease(const std::vector<MeshEdge>& edges) const;
@@ -90,7 +92,7 @@ private:
   bool fitsNormals(const ClosestPoint& where, const MeshEdge& edge) const;
   bool endsAreNearCreases(const MeshEdge& edge) const;
   bool passesAsCrease(const ClosestPoint& where, const MeshEdge& edge) const;
-  bool allowsSettledEnds(std::int32_t candidate, const MeshEdge& edge, double reach) const;
+  bool unsettles(const MeshEdge& edge, std::int32_t match) const;
   EdgeMatch matchCrease(std::int32_t candidate, const MeshEdge& edge, double reach) const;
   EdgeMatch matchFollowed(std::int32_t candidate, const MeshEdge& edge, double reach) const;
   EdgeMatch matchAnyCrease(const MeshEdge& edge, double reach) const;

@@ -199,6 +199,33 @@ TEST_P(ExactNodes, stayWhereTheyAre)
   }
 }
 
+/// How many vertices each entity has.
+std::map<EntityId, int> countEntities(vtkPointSet* mesh)
+{
+  std::map<EntityId, int> counts;
+  for (const EntityId entity : entitiesOf(mesh))
+  {
+    ++counts[entity];
+  }
+  return counts;
+}
+
+/// The middles of a crease's chords may lie exactly on a face beside it: on the end of a cylinder.
+TEST(StraightRefinement, isFoundOnTheCreasesOfTheCoarseMesh)
+{
+  const std::string path = std::string(CADREFINE_TRUTH) + "/half_cylinder";
+  const cadtest::FilterRun filters(path + ".brep");
+  const auto mesh = cadtest::readGrid(path + "_fine.vtu");
+  mesh->GetPoints()->SetData(mesh->GetPointData()->GetArray("ExactPosition"));
+  for (const int levels : { 1, 2 })
+  {
+    const auto expected = filters.refineUniformly(filters.project(mesh), levels);
+    const auto found = filters.project(filters.refineStraight(mesh, levels));
+    EXPECT_EQ(countEntities(found), countEntities(expected)) << levels;
+    EXPECT_EQ(cadtest::fieldValue(found, "UnprojectedVertices"), 0);
+  }
+}
+
 /// A dent with three vertices of the CAD, in a corner for which the mesh has but one.
 TEST(Conflicts, areReportedWhereTheMeshIsTooCoarse)
 {
