@@ -1,10 +1,12 @@
 // 1. Each rank keeps a stretch of the range of the numbers, as long as the others'.
-// 2. Weights go to the rank that keeps their numbers, which writes them into its list.
-// 3. A prefix sum over the list and over the ranks; sums go back the way the weights came.
+// 2. Numbers of a rank that follow each other make a run; its sum goes to the rank that keeps these
+//    numbers, which writes it into its list.
+// 3. A prefix sum over the list and over the ranks; sums go back the way the runs came.
 
 #include "GlobalNumbering.h"
 
 #include "LargeMemory.h"
+#include "RadixOrder.h"
 
 #include <algorithm>
 #include <limits>
@@ -18,11 +20,12 @@ namespace
 
 constexpr std::int64_t sparse = 4;
 
-// A number, as its place in the stretch of the rank that keeps it, and its weight.
-struct PlacedWeight
+// Numbers one after the other, kept by one rank: the first as its place in that rank's stretch.
+struct Run
 {
   std::uint32_t place;
-  std::uint32_t weight;
+  std::uint32_t length;
+  std::int64_t weight; // of all together
 };
 
 struct Range
@@ -61,7 +64,45 @@ Range findRange(RankExchange& exchange, const std::vector<GlobalId>& numbers)
   return range;
 }
 
-// The sums of weights before the numbers that came, list by list.
+// Calls begin(keeper, number) where a run starts, and weigh(weight) for each number.
+template<class Begin, class Weigh>
+void forRuns(
+  const Range& range, const std::vector<GlobalId>& numbers, const Begin& begin, const Weigh& weigh)
+{
+  GlobalId next = 0;
+  GlobalId end = 0; // of the stretch
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+  {
+    if (i == 0 || numbers[i] != next || next == end)
+    {
+      const int keeper = range.keeper(numbers[i]);
+      end = range.first + (keeper + 1) * range.length;
+      begin(keeper, numbers[i]);
+    }
+    weigh(i);
+    next = numbers[i] + 1;
+  }
+}
+
+std::vector<std::vector<Run>> makeRuns(int ranks, const Range& range,
+  const std::vector<GlobalId>& numbers, const std::vector<std::int64_t>& weights)
+{
+  std::vector<std::vector<Run>> runs(static_cast<std::size_t>(ranks));
+  Run* run = nullptr;
+  forRuns(
+    range, numbers,
+    [&](int keeper, GlobalId number) {
+      run = &runs[static_cast<std::size_t>(keeper)].emplace_back(Run{ range.place(number), 0, 0 });
+    },
+    [&](std::size_t i)
+    {
+      ++run->length;
+      run->weight += weights[i];
+    });
+  return runs;
+}
+
+// The sums of weights before the runs that came, list by list.
 struct Sums
 {
   std::vector<std::vector<std::int64_t>> before;
@@ -69,33 +110,40 @@ struct Sums
   bool repeated = false; // a number that came twice
 };
 
-Sums sumStretch(const std::vector<std::vector<PlacedWeight>>& incoming, std::int64_t length)
+Sums sumStretch(const std::vector<std::vector<Run>>& incoming, std::int64_t length)
 {
-  constexpr std::int64_t none = -1;
-  std::vector<std::int64_t> list;
-  reserveLong(list, static_cast<std::size_t>(length));
-  list.assign(static_cast<std::size_t>(length), none);
+  std::vector<Run> runs;
+  for (const auto& list : incoming)
+    runs.insert(runs.end(), list.begin(), list.end());
+  std::vector<std::uint32_t> runAt; // each place: the run that starts there, counted from 1
+  reserveLong(runAt, static_cast<std::size_t>(length));
+  runAt.assign(static_cast<std::size_t>(length), 0);
   Sums sums;
-  for (const auto& weights : incoming)
+  for (std::size_t r = 0; r < runs.size(); ++r)
   {
-    for (const PlacedWeight& placed : weights)
+    sums.repeated = sums.repeated || runAt[runs[r].place] != 0;
+    runAt[runs[r].place] = static_cast<std::uint32_t>(r + 1);
+  }
+  std::size_t end = 0; // of the last run
+  for (std::size_t place = 0; place < runAt.size(); ++place)
+  {
+    if (runAt[place] != 0)
     {
-      sums.repeated = sums.repeated || list[placed.place] != none;
-      list[placed.place] = placed.weight;
+      Run& run = runs[runAt[place] - 1];
+      sums.repeated = sums.repeated || place < end;
+      end = place + run.length;
+      const std::int64_t weight = run.weight;
+      run.weight = sums.total; // from now on what is before it
+      sums.total += weight;
     }
   }
-  for (std::int64_t& entry : list)
-  {
-    const std::int64_t weight = std::max<std::int64_t>(entry, 0);
-    entry = sums.total;
-    sums.total += weight;
-  }
-  for (const auto& weights : incoming)
+  auto run = runs.begin();
+  for (const auto& list : incoming)
   {
     auto& before = sums.before.emplace_back();
-    resizeLong(before, weights.size());
-    std::transform(weights.begin(), weights.end(), before.begin(),
-      [&](const PlacedWeight& placed) { return list[placed.place]; });
+    resizeLong(before, list.size());
+    for (std::int64_t& sum : before)
+      sum = (run++)->weight;
   }
   return sums;
 }
@@ -103,28 +151,69 @@ Sums sumStretch(const std::vector<std::vector<PlacedWeight>>& incoming, std::int
 Numbering sumDense(RankExchange& exchange, const Range& range, const std::vector<GlobalId>& numbers,
   const std::vector<std::int64_t>& weights)
 {
-  std::vector<std::vector<PlacedWeight>> outgoing(static_cast<std::size_t>(exchange.size()));
-  for (auto& list : outgoing)
-    list.reserve(numbers.size() / outgoing.size());
-  for (std::size_t i = 0; i < numbers.size(); ++i)
-  {
-    outgoing[static_cast<std::size_t>(range.keeper(numbers[i]))].push_back(
-      { range.place(numbers[i]), static_cast<std::uint32_t>(weights[i]) });
-  }
-  Sums sums = sumStretch(exchange.allToAll(outgoing), range.length);
+  const Sums sums =
+    sumStretch(exchange.allToAll(makeRuns(exchange.size(), range, numbers, weights)), range.length);
   exchange.agree(sums.repeated ? "A number that must be unique occurs twice." : "");
   const std::int64_t first = exchange.sumBefore(sums.total);
   Numbering result;
   result.count = exchange.sum(sums.total);
   const auto answers = exchange.allToAll(sums.before);
   std::vector<std::size_t> next(answers.size(), 0);
-  std::vector<std::int64_t> firsts = exchange.gather(first);
+  const std::vector<std::int64_t> firsts = exchange.gather(first);
   resizeLong(result.numbers, numbers.size());
+  std::int64_t sum = 0;
+  forRuns(
+    range, numbers,
+    [&](int rank, GlobalId)
+    {
+      const auto keeper = static_cast<std::size_t>(rank);
+      sum = firsts[keeper] + answers[keeper][next[keeper]++];
+    },
+    [&](std::size_t i)
+    {
+      result.numbers[i] = sum;
+      sum += weights[i];
+    });
+  return result;
+}
+
+// The places of the numbers in ascending order.
+std::vector<std::uint32_t> ascendingPlaces(const std::vector<GlobalId>& numbers)
+{
+  std::vector<PlacedKey> keys;
+  resizeLong(keys, numbers.size());
   for (std::size_t i = 0; i < numbers.size(); ++i)
+    keys[i] = { orderedBits(numbers[i]), static_cast<std::uint32_t>(i) };
+  radixSort(keys);
+  std::vector<std::uint32_t> places;
+  resizeLong(places, keys.size());
+  std::transform(
+    keys.begin(), keys.end(), places.begin(), [](const PlacedKey& key) { return key.place; });
+  return places;
+}
+
+// Ascending, so that runs are as long as can be; on one rank nothing is sent.
+Numbering sumInOrder(RankExchange& exchange, const Range& range,
+  const std::vector<GlobalId>& numbers, const std::vector<std::int64_t>& weights)
+{
+  if (exchange.size() == 1 || std::is_sorted(numbers.begin(), numbers.end()))
+    return sumDense(exchange, range, numbers, weights);
+  const std::vector<std::uint32_t> places = ascendingPlaces(numbers);
+  std::vector<GlobalId> sortedNumbers;
+  std::vector<std::int64_t> sortedWeights;
+  reserveLong(sortedNumbers, numbers.size());
+  reserveLong(sortedWeights, numbers.size());
+  for (const std::uint32_t place : places)
   {
-    const auto keeper = static_cast<std::size_t>(range.keeper(numbers[i]));
-    result.numbers[i] = firsts[keeper] + answers[keeper][next[keeper]++];
+    sortedNumbers.push_back(numbers[place]);
+    sortedWeights.push_back(weights[place]);
   }
+  const Numbering sorted = sumDense(exchange, range, sortedNumbers, sortedWeights);
+  Numbering result;
+  result.count = sorted.count;
+  resizeLong(result.numbers, numbers.size());
+  for (std::size_t i = 0; i < places.size(); ++i)
+    result.numbers[places[i]] = sorted.numbers[i];
   return result;
 }
 
@@ -138,7 +227,7 @@ Numbering denseOffsets(RankExchange& exchange, const std::vector<GlobalId>& numb
   {
     exchange.agree(
       numbers.size() == weights.size() ? "" : "There are not as many weights as numbers.");
-    return sumDense(exchange, range, numbers, weights);
+    return sumInOrder(exchange, range, numbers, weights);
   }
   std::vector<Key<1>> keys;
   reserveLong(keys, numbers.size());

@@ -47,8 +47,9 @@ Numbering offsets(RankExchange& exchange, const std::vector<Key<K>>& keys,
 
 /// offsets of whole numbers. Where these lie dense (over all ranks at most four times as many
 /// numbers in their range as are given) no rank sorts: each keeps a stretch of the range, as a
-/// list, and the weights come to where their numbers lie; costs 8 bytes a number there and 8 back.
-/// Weights are below 2^32.
+/// list of 4 bytes a number, and the sums of weights come to where their numbers lie. Numbers of a
+/// rank that follow each other, and lie in one stretch, go as one: 16 bytes for each such run, and
+/// 8 back. So where ranks hold few runs, it is the runs that cost, not the numbers.
 Numbering denseOffsets(RankExchange& exchange, const std::vector<GlobalId>& numbers,
   const std::vector<std::int64_t>& weights);
 

@@ -203,6 +203,39 @@ TEST_F(GlobalNumberingTest, refuseRepeatedKeysOnAllRanks)
   }
 }
 
+// Stretches of numbers, of which each rank has every so many, cost as many bytes however long they
+// are.
+TEST_F(GlobalNumberingTest, sendRunsOfDenseNumbersAsOne)
+{
+  std::vector<std::int64_t> bytes;
+  for (const GlobalId length : { 10, 1000 })
+  {
+    std::vector<GlobalId> numbers;
+    for (GlobalId stretch = exchange.rank(); stretch < 30; stretch += exchange.size())
+    {
+      for (GlobalId i = 0; i < length; ++i)
+        numbers.push_back(stretch * length + i);
+    }
+    std::vector<std::int64_t> weights(numbers.size());
+    std::transform(
+      numbers.begin(), numbers.end(), weights.begin(), [](GlobalId n) { return n % 3; });
+    const std::int64_t before = exchange.bytesSent();
+    const Numbering result = denseOffsets(exchange, numbers, weights);
+    bytes.push_back(exchange.bytesSent() - before);
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+      EXPECT_EQ(result.numbers[i], numbers[i] / 3 * 3 + (numbers[i] % 3 == 2 ? 1 : 0));
+  }
+  EXPECT_EQ(bytes[0], bytes[1]);
+}
+
+TEST_F(GlobalNumberingTest, refuseRunsThatOverlap)
+{
+  const bool last = exchange.rank() == exchange.size() - 1;
+  const auto numbers = last ? std::vector<GlobalId>{ 1, 2, 3, 2, 3, 4 } : std::vector<GlobalId>{};
+  EXPECT_THROW(
+    denseOffsets(exchange, numbers, std::vector<std::int64_t>(numbers.size(), 1)), Error);
+}
+
 // Each rank gets about its share, though all keys were on one.
 TEST_F(GlobalNumberingTest, spreadTheWork)
 {
