@@ -137,6 +137,13 @@ std::int32_t BoundaryProjector::commonSmoothEdge(const std::array<Point3, 2>& po
   return -1;
 }
 
+bool BoundaryProjector::isOnLineOf(std::int32_t crease, EntityId entity) const
+{
+  const auto edges = entitiesAround(model_.nurbs(), entity, 1);
+  return std::any_of(
+    edges.begin(), edges.end(), [&](std::int32_t edge) { return lines_[edge] == lines_[crease]; });
+}
+
 EdgeClass BoundaryProjector::classify(const std::array<Point3, 2>& points,
   const std::array<EntityId, 2>& entities, const std::vector<FacetRecord>& facets) const
 {
@@ -154,7 +161,7 @@ EdgeClass BoundaryProjector::classify(const std::array<Point3, 2>& points,
   const bool angle = std::any_of(pairs.begin(), pairs.end(), hasAngle);
   const std::int32_t common = angle ? commonCrease(points, entities) : -1;
   const std::int32_t crease = common >= 0 ? common : edges_.findCrease(pairs).edge;
-  if (crease >= 0)
+  if (crease >= 0 && isOnLineOf(crease, entities[0]) && isOnLineOf(crease, entities[1]))
   {
     return { EdgeClass::OnEdge, crease };
   }
