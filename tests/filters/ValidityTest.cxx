@@ -8,7 +8,12 @@
 #include "TestShapes.h"
 
 #include <gtest/gtest.h>
+#include <vtkCADReader.h>
+#include <vtkCellData.h>
+#include <vtkCleanPolyData.h>
 #include <vtkDataArray.h>
+#include <vtkNew.h>
+#include <vtkPartitionedDataSetCollection.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkUnstructuredGrid.h>
@@ -55,6 +60,26 @@ std::string bowFile(const cadtest::TemporaryFolder&)
   return "/usr/share/doc/libdeal.ii-doc/examples/step-54/input/DTMB-5415_bulbous_bow.iges";
 }
 
+const char* const bearingFile = "/usr/share/opencascade/data/iges/bearing.iges";
+
+/// The bearing's faces as the reader draws them, coarsely, points of neighbours made one.
+vtkSmartPointer<vtkPointSet> bearingMesh()
+{
+  vtkNew<vtkCADReader> reader;
+  reader->SetFileName(bearingFile);
+  reader->SetTessellationTolerance(0.02);
+  reader->Update();
+  vtkNew<vtkCleanPolyData> clean;
+  clean->SetInputData(reader->GetOutput()->GetPartitionAsDataObject(0, 0));
+  clean->ToleranceIsAbsoluteOn();
+  clean->SetAbsoluteTolerance(1e-6 * vtkPolyData::SafeDownCast(clean->GetInput())->GetLength());
+  clean->Update();
+  vtkSmartPointer<vtkPolyData> mesh = clean->GetOutput();
+  mesh->GetPointData()->Initialize();
+  mesh->GetCellData()->Initialize();
+  return mesh;
+}
+
 std::string sphereFile(const cadtest::TemporaryFolder& folder)
 {
   return cadtest::writeInto(folder, cadtest::sphere(2), ".step");
@@ -86,6 +111,8 @@ const std::vector<Case> cases{
     [](const cadtest::TemporaryFolder& folder)
     { return cadtest::writeInto(folder, cadtest::torus(3, 1), ".step"); },
     3, 0.9 },
+  { "Bearing", bearingMesh,
+    [](const cadtest::TemporaryFolder&) -> std::string { return bearingFile; }, 2, 0.9 },
   // Two flat triangles become a bulb: no sliding gives back the shape that they had.
   { "Bow", bowMesh, bowFile, 5, 0.7 },
 };
