@@ -24,24 +24,61 @@ bool userChoseBackend()
          std::string(vtkSMPTools::GetBackend()) != "Sequential";
 }
 
-/// The same on ranks that may run on the same cores of the same host.
-std::int64_t coresNumber()
+struct Cores
+{
+  std::int64_t number; ///< The same on ranks that are bound to the same cores of the same host.
+  int count;
+};
+
+/// The cores that this rank is bound to; all of the host where the system does not tell.
+Cores ownCores()
 {
   vtksys::SystemInformation host;
-  std::string cores = host.GetHostname();
+  std::string name = host.GetHostname();
+  int count = static_cast<int>(std::thread::hardware_concurrency());
   cpu_set_t set;
   if (sched_getaffinity(0, sizeof(set), &set) == 0)
-    cores.append(reinterpret_cast<const char*>(&set), sizeof(set));
-  return static_cast<std::int64_t>(std::hash<std::string>()(cores));
+  {
+    name.append(reinterpret_cast<const char*>(&set), sizeof(set));
+    count = CPU_COUNT(&set);
+  }
+  return { static_cast<std::int64_t>(std::hash<std::string>()(name)), count };
 }
 
-int mostThreads()
+/// At most as many as the user allows each process.
+int limited(int threads)
 {
   const char* limit = vtksys::SystemTools::GetEnv("VTK_SMP_MAX_THREADS");
-  const int cores = static_cast<int>(std::thread::hardware_concurrency());
-  const int wanted = limit ? std::atoi(limit) : 0;
-  return wanted > 0 ? std::min(wanted, cores) : cores;
+  const int most = limit ? std::atoi(limit) : 0;
+  return most > 0 ? std::min(most, threads) : threads;
 }
+
+/// The exception of the lowest range that threw one.
+class LowestFailure
+{
+public:
+  /// Keeps the exception that is being handled, of the range that begins at `begin`.
+  void keep(std::size_t begin)
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!exception_ || begin < begin_)
+    {
+      begin_ = begin;
+      exception_ = std::current_exception();
+    }
+  }
+
+  void rethrow() const
+  {
+    if (exception_)
+      std::rethrow_exception(exception_);
+  }
+
+private:
+  std::mutex mutex_;
+  std::size_t begin_ = 0;
+  std::exception_ptr exception_;
+};
 
 /// Threads are started anew for every loop.
 void forRanges(int threads, std::size_t count, std::size_t grain, const RangeBody& body)
@@ -51,8 +88,7 @@ void forRanges(int threads, std::size_t count, std::size_t grain, const RangeBod
     body(0, count);
     return;
   }
-  std::mutex mutex;
-  std::exception_ptr failure;
+  LowestFailure failure;
   const auto guarded = [&](vtkIdType begin, vtkIdType end)
   {
     try
@@ -61,8 +97,7 @@ void forRanges(int threads, std::size_t count, std::size_t grain, const RangeBod
     }
     catch (...)
     {
-      const std::lock_guard<std::mutex> lock(mutex);
-      failure = std::current_exception();
+      failure.keep(static_cast<std::size_t>(begin));
     }
   };
   const auto run = [&]
@@ -71,19 +106,19 @@ void forRanges(int threads, std::size_t count, std::size_t grain, const RangeBod
     run();
   else
     vtkSMPTools::LocalScope(vtkSMPTools::Config{ threads, "STDThread", false }, run);
-  if (failure)
-    std::rethrow_exception(failure);
+  failure.rethrow();
 }
 
 } // namespace
 
 int findThreads(RankExchange& exchange)
 {
-  const std::vector<std::int64_t> cores = exchange.gather(coresNumber());
+  const Cores own = ownCores();
+  const std::vector<std::int64_t> numbers = exchange.gather(own.number);
   if (userChoseBackend())
     return 0;
-  const auto ranksHere = std::count(cores.begin(), cores.end(), cores[exchange.rank()]);
-  return std::max(1, mostThreads() / static_cast<int>(ranksHere));
+  const auto ranksHere = std::count(numbers.begin(), numbers.end(), own.number);
+  return limited(std::max(1, own.count / static_cast<int>(ranksHere)));
 }
 
 ParallelFor forOnThreads(int threads)

@@ -9,7 +9,9 @@
 #include <atomic>
 #include <cstdlib>
 #include <numeric>
+#include <sched.h>
 #include <set>
+#include <string>
 #include <thread>
 
 namespace cadrefine
@@ -103,20 +105,54 @@ TEST_F(EvenWorkTest, aFailureOnOneRankIsOneOnAll)
 class ThreadsTest : public ParallelTest
 {
 protected:
+  void SetUp() override { ASSERT_EQ(sched_getaffinity(0, sizeof(allCores), &allCores), 0); }
+
   void TearDown() override
   {
     unsetenv("VTK_SMP_BACKEND_IN_USE");
     unsetenv("VTK_SMP_MAX_THREADS");
+    EXPECT_EQ(sched_setaffinity(0, sizeof(allCores), &allCores), 0);
     ParallelTest::TearDown();
   }
+
+  // To one of the cores that this rank may run on.
+  void bindToOneCore()
+  {
+    int core = 0;
+    while (!CPU_ISSET(core, &allCores))
+      ++core;
+    cpu_set_t one;
+    CPU_ZERO(&one);
+    CPU_SET(core, &one);
+    EXPECT_EQ(sched_setaffinity(0, sizeof(one), &one), 0);
+  }
+
+  cpu_set_t allCores; // as this rank was bound before the test
 };
 
 TEST_F(ThreadsTest, ranksShareTheirCores)
 {
   const int threads = findThreads(exchange);
-  const auto cores = static_cast<int>(std::thread::hardware_concurrency()); // as this rank is bound
+  const int cores = CPU_COUNT(&allCores);
   EXPECT_GE(threads, std::max(1, cores / exchange.size()));
   EXPECT_LE(threads, cores);
+}
+
+TEST_F(ThreadsTest, noMoreThreadsThanCoresARankIsBoundTo)
+{
+  bindToOneCore();
+  EXPECT_EQ(findThreads(exchange), 1);
+}
+
+TEST_F(ThreadsTest, aRankBoundElsewhereTakesNoShare)
+{
+  const bool elsewhere = exchange.rank() == 0;
+  if (elsewhere)
+    bindToOneCore();
+  const int threads = findThreads(exchange);
+  const int others = std::max(1, exchange.size() - 1);
+  EXPECT_GE(threads, elsewhere ? 1 : std::max(1, CPU_COUNT(&allCores) / others));
+  EXPECT_LE(threads, elsewhere ? 1 : CPU_COUNT(&allCores));
 }
 
 TEST_F(ThreadsTest, theUsersSettingsAreKept)
@@ -156,6 +192,28 @@ TEST_F(ThreadsTest, theCallerGetsAnExceptionOfAThread)
       throw Error("too far");
   };
   EXPECT_THROW(forOnThreads(2)(10000, coarseGrain, failing), Error);
+}
+
+TEST_F(ThreadsTest, ofSeveralExceptionsTheLowestRangesIsThrown)
+{
+  const auto failing = [](std::size_t begin, std::size_t end)
+  {
+    if (end > 5000)
+      throw Error(std::to_string(begin));
+  };
+  constexpr std::size_t grain = 1000;
+  for (const int threads : { 0, 2, 5 })
+  {
+    try
+    {
+      forOnThreads(threads)(20000, grain, failing);
+      ADD_FAILURE() << "no exception";
+    }
+    catch (const Error& error)
+    {
+      EXPECT_STREQ(error.what(), "5000");
+    }
+  }
 }
 
 } // namespace
