@@ -72,8 +72,19 @@ std::vector<unsigned char> onSurface(const SimplexMesh& mesh)
   return flags;
 }
 
-/// Vertices that other ranks may hold: those in the boxes round their pieces. Where these are many,
-/// of those only the ones on the surface of this piece, if it has one.
+/// Vertices that other ranks may hold: those in the boxes round their pieces. Where these are many
+/// and all cells of the mesh are tetrahedra, of those only the ones on the surface of this piece.
+///
+/// A vertex off that surface is held by no other rank, if cells do not overlap. The sides opposite
+/// to it, seen from it, are triangles on a sphere; each edge of one is a side at the vertex, met
+/// twice, with another triangle beyond it. So they have no rim and cover the sphere, however the
+/// mesh is knotted elsewhere, and no room is left for another rank's cell. A vertex at which blocks
+/// meet in an edge or a point alone has a rim in each of them. Inverted cells do not matter, as
+/// long as the mesh has the connectivity of one without.
+///
+/// Triangles in space leave room: where three sheets meet at an edge and this rank has two, each
+/// side there is met twice, but the vertices are the third sheet's too. Listed cells of lower
+/// dimension may be anywhere.
 std::vector<Index> candidates(RankExchange& exchange, const SimplexMesh& mesh)
 {
   constexpr std::size_t many = 4; // of this number of vertices, one
@@ -87,10 +98,8 @@ std::vector<Index> candidates(RankExchange& exchange, const SimplexMesh& mesh)
       result.push_back(static_cast<Index>(v));
     }
   }
-  const std::size_t own = mesh.dimension == 3   ? mesh.tetrahedra.size()
-                          : mesh.dimension == 2 ? mesh.triangles.size()
-                                                : 0;
-  if (!exchange.any(mesh.cellCount() > own) && many * result.size() > mesh.points.size())
+  const bool others = mesh.dimension < 3 || mesh.cellCount() > mesh.tetrahedra.size();
+  if (!exchange.any(others) && many * result.size() > mesh.points.size())
   {
     const auto flags = onSurface(mesh);
     result.erase(std::remove_if(

@@ -24,8 +24,10 @@ struct DistributedMesh
 DistributedMesh makeDistributedMesh(RankExchange& exchange, vtkPointSet* input);
 
 /// The shared vertices of a mesh. Collective. Ids are sent of the vertices in the boxes round other
-/// ranks' pieces; where these are many and there are only cells of the mesh's own dimension, of
-/// those on the surface of the piece alone. Six numbers are gathered from every rank.
+/// ranks' pieces; where these are many and all cells are tetrahedra (which must not overlap), of
+/// those on the surface of the piece alone. Six numbers are gathered from every rank. Work: a look
+/// at each vertex for each box that meets this rank's, that of findOuterFacets where only the
+/// surface is taken, and that of findSharedVertices.
 SharedVertices findShared(RankExchange& exchange, const SimplexMesh& mesh);
 
 /// Box round the whole mesh: low above high where it has no points.

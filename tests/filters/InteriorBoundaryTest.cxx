@@ -198,7 +198,7 @@ protected:
 
 TEST_F(NoManifold, cubesAtAnEdge)
 {
-  const auto coarse = cadtest::toGrid(cadtest::cubesAtAnEdgeMesh());
+  const auto coarse = cadtest::toGrid(cadtest::cubesAtAnEdgeMesh(1));
   const auto uniform = filters.refineStraight(coarse, 3);
   expectSound(uniform, 2, 1e-12);
   EXPECT_EQ(uniform->GetNumberOfCells(), 12 * 512);
@@ -214,7 +214,7 @@ TEST_F(NoManifold, cubesAtAnEdge)
 
 TEST_F(NoManifold, sheetsAtAnEdge)
 {
-  const auto coarse = cadtest::toPolyData(cadtest::threeSheetsMesh());
+  const auto coarse = cadtest::toPolyData(cadtest::threeSheetsMesh(1));
   const auto uniform = filters.refineStraight(coarse, 3);
   expectSound(uniform, 3, 1e-12);
   EXPECT_EQ(uniform->GetNumberOfCells(), 6 * 64);
@@ -227,7 +227,7 @@ TEST_F(NoManifold, cubesAtAnEdgeOnTheirCAD)
   cadtest::TemporaryFolder folderOfCubes;
   const cadtest::FilterRun cubes(
     cadtest::writeInto(folderOfCubes, cadtest::cubesAtAnEdge(), ".brep"));
-  auto data = cubes.project(cadtest::toGrid(cadtest::cubesAtAnEdgeMesh()));
+  auto data = cubes.project(cadtest::toGrid(cadtest::cubesAtAnEdgeMesh(1)));
   for (int level = 0; level < 2; ++level)
   {
     data = cubes.refineUniformly(data);

@@ -66,7 +66,12 @@ vtkSmartPointer<vtkPointSet> discInRing()
 
 vtkSmartPointer<vtkPointSet> cubesAtAnEdge()
 {
-  return cadtest::toGrid(cadtest::cubesAtAnEdgeMesh());
+  return cadtest::toGrid(cadtest::cubesAtAnEdgeMesh(1));
+}
+
+vtkSmartPointer<vtkPointSet> threeSheets()
+{
+  return cadtest::toPolyData(cadtest::threeSheetsMesh(4));
 }
 
 vtkSmartPointer<vtkPointSet> surface()
@@ -158,6 +163,18 @@ bool onCubes(const std::vector<Point3>& side)
   return isPlane(0) || isPlane(1) || isPlane(2);
 }
 
+/// On the edge that the sheets have in common, or on the border of one.
+bool roundSheets(const std::vector<Point3>& side)
+{
+  const auto all = [&](auto&& holds) { return std::all_of(side.begin(), side.end(), holds); };
+  const auto radiusIs = [](double radius) {
+    return [radius](const Point3& p) { return std::abs(std::hypot(p[0], p[1]) - radius) < 1e-11; };
+  };
+  const auto heightIs = [](double height)
+  { return [height](const Point3& p) { return std::abs(p[2] - height) < 1e-11; }; };
+  return all(radiusIs(0)) || all(radiusIs(1)) || all(heightIs(0)) || all(heightIs(1));
+}
+
 /// Creases, corners and a seam, found by facets on several ranks.
 vtkSmartPointer<vtkPointSet> boxWithHole()
 {
@@ -178,7 +195,7 @@ bool roundBoxWithHole(const std::vector<Point3>& side)
          onPlane(1, size[1]) || onPlane(2, size[2]);
 }
 
-const std::array<Problem, 10> problems{ { { "Ball", "", taggedBall, 0.01, onSphere },
+const std::array<Problem, 11> problems{ { { "Ball", "", taggedBall, 0.01, onSphere },
   { "Surface", "", surface, 0.01, nowhere },
   { "Wing", CADREFINE_DATA "/naca0012_sharp.igs", wing, 1e-4, roundWing },
   { "Arcs", CADREFINE_DATA "/three_arcs.igs", arcs, 1e-3, roundArcs },
@@ -187,6 +204,7 @@ const std::array<Problem, 10> problems{ { { "Ball", "", taggedBall, 0.01, onSphe
   { "CoarseBall", "", coarseBall, 0.01, nearSphere },
   { "Shell", "", ballInShell, 0.01, farOutside },
   { "Cubes", "", cubesAtAnEdge, 0.01, onCubes, cadtest::cubesAtAnEdge },
+  { "Sheets", "", threeSheets, 0.01, roundSheets, cadtest::threeSheets },
   { "Ring", "", discInRing, 1e-3, farOutside, circle } } };
 
 struct Case

@@ -169,7 +169,8 @@ testing::AssertionResult isWatertight(
     {
       corners.push_back(mesh.points[vertex]);
     }
-    if (count > 2 || (count == 1 && !onBoundary(corners)))
+    const bool mayBranch = corners.size() == 2;
+    if (count != 2 && ((count > 2 && !mayBranch) || !onBoundary(corners)))
     {
       return testing::AssertionFailure()
              << "a side at (" << corners[0][0] << ", " << corners[0][1] << ", " << corners[0][2]

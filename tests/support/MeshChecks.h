@@ -26,8 +26,8 @@ testing::AssertionResult areCellsValid(const cadrefine::SimplexMesh& mesh);
 /// The same, and there are cells.
 testing::AssertionResult isValid(const cadrefine::SimplexMesh& mesh);
 
-/// Every side of a cell is met once or twice, and a side that is met once lies on the boundary:
-/// `onBoundary` says so of its vertices.
+/// Every side of a cell is met twice, but for those on the boundary (`onBoundary` says so of their
+/// vertices), which are met once, or of triangles any number of times: sheets may meet there.
 testing::AssertionResult isWatertight(const cadrefine::SimplexMesh& mesh,
   const std::function<bool(const std::vector<cadrefine::Point3>&)>& onBoundary);
 

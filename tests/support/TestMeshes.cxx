@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <random>
 
@@ -340,45 +341,76 @@ SimplexMesh discInRingMesh(double radius, double offset, int corners)
   return mesh;
 }
 
-SimplexMesh cubesAtAnEdgeMesh()
+namespace
 {
-  SimplexMesh mesh = cubeMesh(1, 0, 1);
-  const SimplexMesh other = mesh;
+
+/// Adds the other mesh; where points are the same, there is one vertex.
+void join(SimplexMesh& mesh, const SimplexMesh& other)
+{
+  std::map<Point3, Index> vertexAt;
+  for (const Point3& point : mesh.points)
+  {
+    vertexAt.emplace(point, static_cast<Index>(vertexAt.size()));
+  }
   std::vector<Index> numbers;
   for (const Point3& point : other.points)
   {
-    const Point3 moved = point + Point3{ 1, 1, 0 };
-    const auto found = std::find(mesh.points.begin(), mesh.points.end(), moved);
-    numbers.push_back(static_cast<Index>(found - mesh.points.begin()));
-    if (found == mesh.points.end())
+    const auto [vertex, isNew] = vertexAt.emplace(point, static_cast<Index>(mesh.points.size()));
+    numbers.push_back(vertex->second);
+    if (isNew)
     {
-      mesh.points.push_back(moved);
+      mesh.points.push_back(point);
     }
   }
-  for (auto cell : other.tetrahedra)
+  const auto append = [&](const auto& cells, auto& all)
   {
-    std::transform(cell.begin(), cell.end(), cell.begin(), [&](Index v) { return numbers[v]; });
-    mesh.tetrahedra.push_back(cell);
-  }
+    for (auto cell : cells)
+    {
+      std::transform(cell.begin(), cell.end(), cell.begin(), [&](Index v) { return numbers[v]; });
+      all.push_back(cell);
+    }
+  };
+  append(other.triangles, mesh.triangles);
+  append(other.tetrahedra, mesh.tetrahedra);
   mesh.ids = consecutiveIds(mesh.points.size());
+}
+
+SimplexMesh twoCubes(int n, const Point3& second)
+{
+  SimplexMesh mesh = cubeMesh(n, 0, 1);
+  SimplexMesh other = mesh;
+  std::transform(other.points.begin(), other.points.end(), other.points.begin(),
+    [&](const Point3& point) { return point + second; });
+  join(mesh, other);
   return mesh;
 }
 
-SimplexMesh threeSheetsMesh()
+} // namespace
+
+SimplexMesh cubesAtAnEdgeMesh(int n)
+{
+  return twoCubes(n, { 1, 1, 0 });
+}
+
+SimplexMesh cubesAtACornerMesh(int n)
+{
+  return twoCubes(n, { 1, 1, 1 });
+}
+
+SimplexMesh threeSheetsMesh(int n)
 {
   SimplexMesh mesh;
   mesh.dimension = 2;
-  mesh.points = { { 0, 0, 0 }, { 0, 0, 1 } };
-  for (int sheet = 0; sheet < 3; ++sheet)
+  for (int s = 0; s < 3; ++s)
   {
-    const double angle = 2 * pi * sheet / 3;
-    const auto first = static_cast<Index>(mesh.points.size());
-    mesh.points.push_back({ std::cos(angle), std::sin(angle), 0 });
-    mesh.points.push_back({ std::cos(angle), std::sin(angle), 1 });
-    mesh.triangles.push_back({ 0, first, first + 1 });
-    mesh.triangles.push_back({ 0, first + 1, 1 });
+    const double angle = 2 * pi * s / 3;
+    SimplexMesh sheet = squareMesh(n, 0, 1);
+    for (Point3& point : sheet.points)
+    {
+      point = { point[0] * std::cos(angle), point[0] * std::sin(angle), point[1] };
+    }
+    join(mesh, sheet);
   }
-  mesh.ids = consecutiveIds(mesh.points.size());
   return mesh;
 }
 

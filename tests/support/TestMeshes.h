@@ -41,9 +41,12 @@ cadrefine::SimplexMesh discMesh(double radius, double offset, int corners);
 /// are listed.
 cadrefine::SimplexMesh discInRingMesh(double radius, double offset, int corners);
 
-/// Two unit cubes that have an edge in common and nothing else.
-cadrefine::SimplexMesh cubesAtAnEdgeMesh();
-/// Three unit squares in space, of two triangles each, that have an edge in common.
-cadrefine::SimplexMesh threeSheetsMesh();
+/// Two unit cubes of n * n * n boxes that have an edge in common and nothing else.
+cadrefine::SimplexMesh cubesAtAnEdgeMesh(int n);
+/// The same, with a corner in common and nothing else.
+cadrefine::SimplexMesh cubesAtACornerMesh(int n);
+/// Three unit squares in space, of n * n boxes of two triangles each, that have an edge in common,
+/// on the z axis.
+cadrefine::SimplexMesh threeSheetsMesh(int n);
 
 } // namespace cadtest

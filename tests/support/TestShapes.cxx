@@ -2,6 +2,7 @@
 
 #include "CADFile.h"
 
+#include <BRepAlgoAPI_BuilderAlgo.hxx>
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepAlgoAPI_Fuse.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
@@ -13,10 +14,14 @@
 #include <BRepPrimAPI_MakeTorus.hxx>
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
+#include <TopTools_ListOfShape.hxx>
 #include <gp.hxx>
 #include <gp_Ax2.hxx>
+#include <gp_Ax3.hxx>
 #include <gp_Circ.hxx>
 #include <gp_Pln.hxx>
+
+#include <cmath>
 
 namespace cadtest
 {
@@ -78,6 +83,21 @@ TopoDS_Shape cubesAtAnEdge()
 {
   const TopoDS_Shape other = BRepPrimAPI_MakeBox(gp_Pnt(1, 1, 0), 1, 1, 1).Shape();
   return BRepAlgoAPI_Fuse(box(1, 1, 1), other).Shape();
+}
+
+TopoDS_Shape threeSheets()
+{
+  BRepAlgoAPI_BuilderAlgo together;
+  TopTools_ListOfShape sheets;
+  for (int s = 0; s < 3; ++s)
+  {
+    gp_Ax3 axes(gp::Origin(), gp::DY().Reversed(), gp::DX()); // x outward, y along the edge
+    axes.Rotate(gp::OZ(), 2 * M_PI * s / 3);
+    sheets.Append(BRepBuilderAPI_MakeFace(gp_Pln(axes), 0, 1, 0, 1).Shape());
+  }
+  together.SetArguments(sheets);
+  together.Build();
+  return together.Shape();
 }
 
 std::string writeInto(

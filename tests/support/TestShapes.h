@@ -34,6 +34,8 @@ TopoDS_Shape cone(double radius, double height);
 TopoDS_Shape boxWithoutCorner(double x, double y, double z, double radius);
 /// Two unit boxes that have an edge in common and nothing else: no manifold.
 TopoDS_Shape cubesAtAnEdge();
+/// Three unit squares that have an edge in common, on the z axis.
+TopoDS_Shape threeSheets();
 
 /// Writes `shape` into the folder with this extension (".step", ".igs", ".brep"); the file's path.
 std::string writeInto(
