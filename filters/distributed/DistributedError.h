@@ -21,8 +21,12 @@ struct MeshError
 };
 
 /// Error of every facet on the CAD, added up for its cell (see geometricError). The global sum is
-/// bit for bit the same for every partition. The facets are shared out evenly over ranks and
-/// threads. Throws Error for points alone. Collective.
+/// bit for bit the same for every partition. Throws Error for points alone.
+///
+/// Collective. Work: that of findBoundary and classifyBoundary, and the projections of
+/// geometricError, at most 3 (1 + 4 + ... + 4^(depth-1)) a facet on the CAD, shared out evenly over
+/// ranks and threads. Messages: a few exchanges of the interface, those of answerEvenly, and a few
+/// reductions of up to four numbers.
 MeshError measureError(RankExchange& exchange, const DistributedMesh& mesh, const CADModel& model,
   const Classification& classification, int depth);
 

@@ -47,6 +47,7 @@ struct MeshCounts
   std::int64_t cells = 0; ///< Of the mesh's own dimension.
 };
 
+/// Collective; one reduction of two numbers, work linear in the vertices of the piece.
 MeshCounts countMesh(RankExchange& exchange, const DistributedMesh& mesh);
 
 } // namespace cadrefine

@@ -25,14 +25,22 @@ struct VertexEntities
   std::vector<unsigned char> wrongSide;
 };
 
-/// Collective.
+/// Finds them, given the nearest point of each vertex and the classes of the facets. Collective.
+/// Work: that of findCADEdges, a look at each corner of a facet and each end of a boundary edge,
+/// and the normals of the CAD faces at a vertex for each of its facets until one fits. Messages:
+/// those of findCADEdges, and four to and from each neighbour, of 66 bytes together for each shared
+/// vertex; of a boundary of triangles six, of 71.
 VertexEntities findVertexEntities(
   const ProjectionTask& task, const std::vector<ClosestPoint>& hits, const FacetClasses& facets);
 
 /// Puts vertices of boundaries of triangles onto what meets there: the nearest of their CAD edges,
 /// and of those that continue it (see findCreaseLines); of vertices without these, those whose
 /// nearest point is on the wrong side of something thin onto the nearest of their faces. A point
-/// beyond a vertex's limit is not taken. Collective.
+/// beyond a vertex's limit is not taken. Of segments, nothing is moved.
+///
+/// Collective. Work: for each such vertex one query of each of its entities, and one more of all
+/// creases where its nearest edge ends; shared out evenly over ranks and threads (see answerEvenly,
+/// also for the messages).
 void placeVertices(
   const ProjectionTask& task, const VertexEntities& meeting, std::vector<ClosestPoint>& hits);
 

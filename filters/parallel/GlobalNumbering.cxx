@@ -1,6 +1,5 @@
 // 1. Every rank sorts its keys and drops duplicates: by radix, as many of the first words as 64
-// bits
-//    hold once the least value is taken off, and the rest by comparing.
+//    bits hold once the least value is taken off, and the rest by comparing.
 // 2. Samples of all ranks, one in each stretch of equal length, go to rank 0, which picks the
 //    splitters: the keys at which one rank's share ends and the next one's begins.
 // 3. Every rank sends its keys to the ranks whose share they are in.

@@ -113,7 +113,6 @@ std::vector<T> RankExchange::reduce(const std::vector<T>& mine, const Operation&
   if (!link_)
     return mine;
   const Clock clock(seconds_);
-  ++collectivesCalled_;
   std::vector<T> result;
   diy::mpi::all_reduce(link_->ranks, mine, result, operation);
   return result;
@@ -165,7 +164,6 @@ std::vector<std::int64_t> RankExchange::gather(std::int64_t mine)
   if (!link_)
     return { mine };
   const Clock clock(seconds_);
-  ++collectivesCalled_;
   std::vector<std::int64_t> all;
   diy::mpi::all_gather(link_->ranks, mine, all);
   return all;
@@ -176,7 +174,6 @@ std::vector<double> RankExchange::gather(const std::vector<double>& mine)
   if (!link_)
     return mine;
   const Clock clock(seconds_);
-  ++collectivesCalled_;
   std::vector<std::vector<double>> all;
   diy::mpi::all_gather(link_->ranks, mine, all);
   std::vector<double> row;
@@ -190,7 +187,6 @@ std::int64_t RankExchange::sumBefore(std::int64_t mine)
   if (!link_)
     return 0;
   const Clock clock(seconds_);
-  ++collectivesCalled_;
   std::int64_t withMine = 0;
   diy::mpi::scan(link_->ranks, mine, withMine, std::plus<std::int64_t>());
   return withMine - mine;
@@ -218,7 +214,6 @@ std::vector<char> RankExchange::broadcast(const std::vector<char>& bytes, int ro
   const Clock clock(seconds_);
   std::int64_t total = static_cast<std::int64_t>(bytes.size());
   diy::mpi::broadcast(link_->ranks, total, root);
-  ++collectivesCalled_;
   std::vector<char> result;
   result.reserve(static_cast<std::size_t>(total));
   while (result.size() < static_cast<std::size_t>(total))
@@ -232,7 +227,6 @@ std::vector<char> RankExchange::broadcast(const std::vector<char>& bytes, int ro
       part.assign(first, first + static_cast<std::ptrdiff_t>(count));
     }
     diy::mpi::broadcast(link_->ranks, part, root);
-    ++collectivesCalled_;
     result.insert(result.end(), part.begin(), part.end());
   }
   return result;
@@ -255,7 +249,6 @@ std::vector<RankExchange::Message> RankExchange::allToAllMessages(std::vector<Me
     const Clock clock(seconds_);
     diy::mpi::all_to_all(link_->ranks, bytesTo, bytesFrom);
   }
-  ++collectivesCalled_;
 
   std::vector<int> destinations;
   std::vector<int> sources;

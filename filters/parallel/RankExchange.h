@@ -117,11 +117,10 @@ public:
   /// The bytes that rank `root` gives; what the others give is ignored.
   std::vector<char> broadcast(const std::vector<char>& bytes, int root);
 
-  /// Since construction, by this rank: bytes and number of messages to single other ranks, and
-  /// calls of MPI collectives, whose bytes are not counted.
+  /// Since construction, by this rank: bytes and number of messages to single other ranks. MPI
+  /// collectives are not counted.
   std::int64_t bytesSent() const { return bytesSent_; }
   std::int64_t messagesSent() const { return messagesSent_; }
-  std::int64_t collectivesCalled() const { return collectivesCalled_; }
 
   /// Since construction, the seconds that this rank spent sending, receiving and waiting for
   /// others.
@@ -156,7 +155,6 @@ private:
   std::size_t messageLimit_;
   std::int64_t bytesSent_ = 0;
   std::int64_t messagesSent_ = 0;
-  std::int64_t collectivesCalled_ = 0;
   double seconds_ = 0;
 };
 

@@ -1,6 +1,5 @@
 // 1. Every rank sorts its keys by vertex, and those of a vertex by the rest; equal ones have the
-// same
-//    place at the vertex.
+//    same place at the vertex.
 // 2. Those at shared vertices go to the owner, which merges them with its own and sends their
 //    places back.
 // 3. A parallel sort of the vertices by id, weighing as many distinct keys as they have, gives the

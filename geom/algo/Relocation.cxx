@@ -67,12 +67,6 @@ void Moves::add(Index vertex, const Point3& target)
   fractions[vertex] = 1;
 }
 
-void Moves::addWhole(Index vertex, const Point3& target)
-{
-  add(vertex, target);
-  whole[vertex] = 1;
-}
-
 Point3 Moves::position(const SimplexMesh& mesh, Index vertex) const
 {
   const double fraction = fractions[vertex];

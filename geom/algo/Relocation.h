@@ -19,8 +19,6 @@ struct Moves
   /// No moves of the vertices of `mesh`.
   explicit Moves(const SimplexMesh& mesh);
   void add(Index vertex, const Point3& target);
-  /// All of the way or nothing: for vertices that must not leave the CAD.
-  void addWhole(Index vertex, const Point3& target);
   /// Where the vertex stands: its target exactly at fraction 1.
   Point3 position(const SimplexMesh& mesh, Index vertex) const;
 };

@@ -43,9 +43,11 @@ struct SearchScope
 /// and solves those that are convex for it by Newton's method; the others by branch and bound on
 /// the Bernstein form of the squared distance (after Johnson & Cohen, "Distance extrema for spline
 /// models using tangent cones", 2005), which also settles centres of curvature and poles.
-/// Cost: about 20 microseconds of build and 350 bytes a leaf, some five to hundred leaves a patch;
-/// 1 to 3 microseconds a query close to the surface, ten far from it, up to a millisecond on axes
-/// and at centres of curvature, and a work limit of about a tenth of a second.
+/// Cost: about 20 microseconds of build and 350 bytes a leaf, some 5 to 50 leaves a patch, up to
+/// 700 near poles or sharp bends; 0.9 to 1.7 microseconds a query close to the surface, some 2 to
+/// 10 far from it, up to a millisecond on axes and at centres of curvature, and a work limit of
+/// about a tenth of a second.
+///
 /// On a seam the answer has the lower parameter, at a pole the lowest of those that meet there.
 /// Points equally near to within 1e-12 of the model's size are a tie. A point within 1e-9 of a trim
 /// loop, relative to the loops' extent in the parameter plane, counts as inside it.

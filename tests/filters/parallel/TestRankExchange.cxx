@@ -75,7 +75,7 @@ TEST_F(RankExchangeTest, workAloneWithoutAController)
     EXPECT_EQ(alone.exchange<int>({}, {}), std::vector<std::vector<int>>());
     EXPECT_THROW(alone.agree("reason"), Error);
     EXPECT_EQ(alone.messagesSent(), 0);
-    EXPECT_EQ(alone.collectivesCalled(), 0);
+    EXPECT_EQ(alone.bytesSent(), 0);
   }
 }
 

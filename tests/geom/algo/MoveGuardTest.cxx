@@ -180,11 +180,13 @@ TEST(MoveGuard, stopsWholeMovesAtOnce)
   const SimplexMesh mesh =
     cadtest::oneTetrahedron({ { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } });
   Moves down(mesh);
-  down.addWhole(3, { 0, 0, -0.1 });
+  down.add(3, { 0, 0, -0.1 });
+  down.whole[3] = 1;
   EXPECT_EQ(settle(mesh, down), 1);
   EXPECT_EQ(down.position(mesh, 3), mesh.points[3]);
   Moves up(mesh);
-  up.addWhole(3, { 0, 0, 2 });
+  up.add(3, { 0, 0, 2 });
+  up.whole[3] = 1;
   EXPECT_EQ(settle(mesh, up), 0);
   EXPECT_EQ(up.position(mesh, 3), (Point3{ 0, 0, 2 }));
 }
