@@ -9,6 +9,7 @@
 #include "VertexNumbering.h"
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -24,6 +25,21 @@ RefinementPlan makePlan(RankExchange& exchange, const DistributedMesh& mesh)
   plan.table = buildEdgeTable(mesh.mesh());
   plan.sharedEdges = findSharedEdges(exchange, mesh.shared, mesh.mesh().ids, plan.table.edges);
   return plan;
+}
+
+/// Marks the shared edges that any rank has marked. Returns those that are new to this one.
+std::vector<Index> combineMarks(RankExchange& exchange, RefinementPlan& plan)
+{
+  std::vector<Index> fresh;
+  const auto& shared = plan.sharedEdges.all;
+  std::copy_if(shared.begin(), shared.end(), std::back_inserter(fresh),
+    [&](Index edge) { return !plan.marks[edge]; });
+  combineShared(exchange, plan.sharedEdges, plan.marks,
+    [](unsigned char a, unsigned char b) { return std::max(a, b); });
+  fresh.erase(
+    std::remove_if(fresh.begin(), fresh.end(), [&](Index edge) { return !plan.marks[edge]; }),
+    fresh.end());
+  return fresh;
 }
 
 std::vector<GlobalId> numberNewVertices(RankExchange& exchange, DistributedMesh& mesh,
@@ -262,12 +278,12 @@ RefinementPlan planLongestEdge(
   RefinementPlan plan = makePlan(exchange, mesh);
   plan.marks.assign(plan.table.edges.size(), 0);
   markLongestEdges(mesh.mesh(), plan.table, cellMarks, plan.marks);
-  const auto either = [](unsigned char a, unsigned char b) { return std::max(a, b); };
-  bool changed = true;
+  combineMarks(exchange, plan);
+  MarkClosure closure(plan.table, plan.marks);
+  bool changed = exchange.any(closure.closeAll());
   while (changed)
   {
-    combineShared(exchange, plan.sharedEdges, plan.marks, either);
-    changed = exchange.any(closeMarks(plan.table, plan.marks));
+    changed = exchange.any(closure.closeFrom(combineMarks(exchange, plan)));
   }
   return plan;
 }

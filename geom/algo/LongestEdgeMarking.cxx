@@ -1,51 +1,28 @@
 #include "LongestEdgeMarking.h"
 
+#include <algorithm>
+
 namespace cadrefine
 {
 namespace
 {
 
-/// The longest of `count` edges.
-Index longest(const EdgeOrder& order, const Index* edges, int count)
+template<std::size_t Edges>
+Index longest(const EdgeOrder& order, const std::array<Index, Edges>& edges)
 {
-  Index result = edges[0];
-  for (int k = 1; k < count; ++k)
-  {
-    result = order.longer(edges[k], result) ? edges[k] : result;
-  }
-  return result;
+  return *std::max_element(
+    edges.begin(), edges.end(), [&](Index a, Index b) { return order.longer(b, a); });
 }
 
-bool mark(EdgeMarks& marks, Index edge)
+template<std::size_t Edges>
+bool isPartlyMarked(const EdgeMarks& marks, const std::array<Index, Edges>& edges)
 {
-  const bool isNew = marks[edge] == 0;
-  marks[edge] = 1;
-  return isNew;
-}
-
-bool closeTriangle(const EdgeOrder& order, const std::array<Index, 3>& edges, EdgeMarks& marks)
-{
-  const int marked = marks[edges[0]] + marks[edges[1]] + marks[edges[2]];
-  return marked != 0 && marked != 3 && mark(marks, longest(order, edges.data(), 3));
-}
-
-bool closeTetrahedron(const EdgeOrder& order, const std::array<Index, 6>& edges, EdgeMarks& marks)
-{
-  int marked = 0;
+  std::size_t marked = 0;
   for (const Index edge : edges)
   {
     marked += marks[edge];
   }
-  if (marked == 0 || marked == 6)
-  {
-    return false;
-  }
-  bool changed = mark(marks, longest(order, edges.data(), 6));
-  for (const auto& face : tetrahedronFaceEdges)
-  {
-    changed |= closeTriangle(order, { edges[face[0]], edges[face[1]], edges[face[2]] }, marks);
-  }
-  return changed;
+  return marked != 0 && marked != Edges;
 }
 
 } // namespace
@@ -58,30 +35,145 @@ void markLongestEdges(const SimplexMesh& mesh, const EdgeTable& table,
   {
     if (cellMarks[c])
     {
-      marks[mesh.dimension == 3 ? longest(order, table.ofTetrahedra[c].data(), 6)
-                                : longest(order, table.ofTriangles[c].data(), 3)] = 1;
+      marks[mesh.dimension == 3 ? longest(order, table.ofTetrahedra[c])
+                                : longest(order, table.ofTriangles[c])] = 1;
     }
   }
 }
 
-bool closeMarks(const EdgeTable& table, EdgeMarks& marks)
+MarkClosure::MarkClosure(const EdgeTable& table, EdgeMarks& marks)
+  : table_(table), order_(table), marks_(marks)
 {
-  const EdgeOrder order(table);
-  bool changedEver = false;
-  for (bool changed = true; changed;)
+}
+
+bool MarkClosure::closeAll()
+{
+  sweep();
+  const bool changed = !fresh_.empty();
+  close();
+  return changed;
+}
+
+bool MarkClosure::closeFrom(const std::vector<Index>& edges)
+{
+  fresh_ = edges;
+  return close();
+}
+
+/// Until no cell waits for a look. Returns true where an edge was marked.
+bool MarkClosure::close()
+{
+  bool changed = false;
+  while (!fresh_.empty() && sweepsLeft_ > 0)
   {
-    changed = false;
-    for (const auto& edges : table.ofTetrahedra)
-    {
-      changed |= closeTetrahedron(order, edges, marks);
-    }
-    for (const auto& edges : table.ofTriangles)
-    {
-      changed |= closeTriangle(order, edges, marks);
-    }
-    changedEver |= changed;
+    sweep();
+    changed |= !fresh_.empty();
   }
-  return changedEver;
+  return spread() || changed;
+}
+
+/// Looks at every cell; what was fresh before is not any more.
+void MarkClosure::sweep()
+{
+  --sweepsLeft_;
+  fresh_.clear();
+  looks_ += table_.ofTetrahedra.size() + table_.ofTriangles.size();
+  for (const auto& edges : table_.ofTetrahedra)
+  {
+    lookAt(edges);
+  }
+  for (const auto& edges : table_.ofTriangles)
+  {
+    lookAt(edges);
+  }
+}
+
+/// Looks at the cells at fresh edges only. Returns true where an edge was marked.
+bool MarkClosure::spread()
+{
+  if (fresh_.empty())
+  {
+    return false;
+  }
+  if (!cellsAt_)
+  {
+    listCells();
+  }
+  const std::size_t begun = fresh_.size();
+  for (std::size_t i = 0; i < fresh_.size(); ++i)
+  {
+    const auto [first, last] = cellsAt_->at(fresh_[i]);
+    std::for_each(first, last, [&](std::uint32_t cell) { lookAtCell(cell); });
+  }
+  const bool changed = fresh_.size() > begun;
+  fresh_.clear();
+  return changed;
+}
+
+void MarkClosure::listCells()
+{
+  cellsAt_.emplace(table_.edges.size());
+  const auto forEachSide = [&](const auto& use)
+  {
+    std::uint32_t cell = 0;
+    const auto useAll = [&](const auto& edges)
+    {
+      std::for_each(edges.begin(), edges.end(), [&](Index edge) { use(edge, cell); });
+      ++cell;
+    };
+    std::for_each(table_.ofTetrahedra.begin(), table_.ofTetrahedra.end(), useAll);
+    std::for_each(table_.ofTriangles.begin(), table_.ofTriangles.end(), useAll);
+  };
+  forEachSide([&](Index edge, std::uint32_t) { cellsAt_->count(edge); });
+  cellsAt_->start();
+  forEachSide([&](Index edge, std::uint32_t cell) { cellsAt_->add(edge, cell); });
+}
+
+void MarkClosure::lookAtCell(std::uint32_t cell)
+{
+  ++looks_;
+  const std::size_t tetrahedra = table_.ofTetrahedra.size();
+  if (cell < tetrahedra)
+  {
+    lookAt(table_.ofTetrahedra[cell]);
+  }
+  else
+  {
+    lookAt(table_.ofTriangles[cell - tetrahedra]);
+  }
+}
+
+template<class Edges>
+void MarkClosure::lookAt(const Edges& edges)
+{
+  if (isPartlyMarked(marks_, edges))
+  {
+    markLongest(edges);
+  }
+}
+
+/// Of the tetrahedron, and of its faces.
+void MarkClosure::markLongest(const std::array<Index, 6>& edges)
+{
+  mark(longest(order_, edges));
+  for (const auto& face : tetrahedronFaceEdges)
+  {
+    lookAt(std::array<Index, 3>{ edges[face[0]], edges[face[1]], edges[face[2]] });
+  }
+}
+
+void MarkClosure::markLongest(const std::array<Index, 3>& edges)
+{
+  mark(longest(order_, edges));
+}
+
+void MarkClosure::mark(Index edge)
+{
+  if (!marks_[edge])
+  {
+    marks_[edge] = 1;
+    fresh_.push_back(edge);
+  }
 }
 
 } // namespace cadrefine

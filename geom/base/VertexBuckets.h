@@ -1,4 +1,4 @@
-// Sides of cells, by one of their vertices.
+// Things by a vertex or an edge to which they belong.
 #pragma once
 
 #include "LargeMemory.h"
@@ -6,14 +6,15 @@
 
 #include <cstddef>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace cadrefine
 {
 
-/// Puts things into buckets, one for each vertex, in the order in which they come: a counting sort.
-/// Fill in two rounds, which must name the same vertices in the same order: count all, start, add
-/// all.
+/// Puts things into buckets, one for each vertex (or edge), in the order in which they come: a
+/// counting sort. Fill in two rounds, which must name the same vertices in the same order: count
+/// all, start, add all.
 template<class Entry>
 class VertexBuckets
 {
@@ -39,6 +40,13 @@ public:
     {
       use(static_cast<Index>(v), entries_.data() + begins_[v], entries_.data() + begins_[v + 1]);
     }
+  }
+
+  /// Where the entries of a vertex begin and end.
+  std::pair<const Entry*, const Entry*> at(Index vertex) const
+  {
+    const auto v = static_cast<std::size_t>(vertex);
+    return { entries_.data() + begins_[v], entries_.data() + begins_[v + 1] };
   }
 
 private:

@@ -121,7 +121,7 @@ struct Closure
     : table(buildEdgeTable(mesh)), marks(table.edges.size(), 0)
   {
     markLongestEdges(mesh, table, cellMarks, marks);
-    closeMarks(table, marks);
+    MarkClosure(table, marks).closeAll();
     for (std::size_t e = 0; e < marks.size(); ++e)
     {
       if (marks[e])
@@ -181,6 +181,14 @@ TEST_P(LongestEdge, closureIsTheLeastFixpoint)
   }
 }
 
+/// The same cells from the last to the first.
+SimplexMesh withReversedCells(SimplexMesh mesh)
+{
+  std::reverse(mesh.tetrahedra.begin(), mesh.tetrahedra.end());
+  std::reverse(mesh.triangles.begin(), mesh.triangles.end());
+  return mesh;
+}
+
 TEST_P(LongestEdge, closureDoesNotDependOnTheOrderOfCells)
 {
   const SimplexMesh mesh = this->mesh(11);
@@ -194,15 +202,100 @@ TEST_P(LongestEdge, closureDoesNotDependOnTheOrderOfCells)
       marked.insert(cells[c]);
     }
   }
+  std::vector<SimplexMesh> others = { withReversedCells(mesh) };
   for (std::uint64_t seed = 0; seed < 4; ++seed)
   {
-    const SimplexMesh shuffled = cadtest::withShuffledCells(mesh, seed);
-    std::vector<unsigned char> shuffledMarks;
-    for (const auto& cell : cellsOf(shuffled))
+    others.push_back(cadtest::withShuffledCells(mesh, seed));
+  }
+  for (const SimplexMesh& other : others)
+  {
+    std::vector<unsigned char> otherMarks;
+    for (const auto& cell : cellsOf(other))
     {
-      shuffledMarks.push_back(marked.count(cell) > 0);
+      otherMarks.push_back(marked.count(cell) > 0);
     }
-    EXPECT_EQ(Closure(shuffled, shuffledMarks).ids, Closure(mesh, cellMarks).ids);
+    EXPECT_EQ(Closure(other, otherMarks).ids, Closure(mesh, cellMarks).ids);
+  }
+}
+
+/// Marks that arrive later, as those of other ranks do, give what marks from the start give;
+/// however often they arrive, no cell is looked at more often than its edges are marked, but for
+/// the sweeps.
+TEST_P(LongestEdge, marksMayArriveLater)
+{
+  const SimplexMesh mesh = this->mesh(16);
+  const auto cellMarks = someCells(mesh, 17);
+  const EdgeTable table = buildEdgeTable(mesh);
+  EdgeMarks marks(table.edges.size(), 0);
+  MarkClosure closure(table, marks);
+  EXPECT_FALSE(closure.closeAll());
+  const std::size_t sides = mesh.dimension == 3 ? 6 : 3;
+  std::size_t arrived = 0;
+  for (std::size_t c = 0; c < cellMarks.size(); ++c)
+  {
+    std::vector<unsigned char> oneMark(cellMarks.size(), 0);
+    oneMark[c] = cellMarks[c];
+    const EdgeMarks before = marks;
+    markLongestEdges(mesh, table, oneMark, marks);
+    const auto fresh = std::mismatch(marks.begin(), marks.end(), before.begin()).first;
+    if (fresh != marks.end())
+    {
+      const EdgeMarks arrival = marks;
+      const bool changed = closure.closeFrom({ static_cast<Index>(fresh - marks.begin()) });
+      EXPECT_EQ(changed, marks != arrival);
+      ++arrived;
+    }
+  }
+  EXPECT_GT(arrived, 3u);
+  EXPECT_EQ(marks, Closure(mesh, cellMarks).marks);
+  EXPECT_LE(closure.looks(), (MarkClosure::maximumSweeps + sides) * mesh.cellCount());
+}
+
+/// A strip of triangles: the edges between them grow, so that a mark at its thin end runs through
+/// all of it.
+SimplexMesh growingStrip(int cells)
+{
+  SimplexMesh mesh;
+  mesh.dimension = 2;
+  for (int i = 0; i < cells + 2; ++i)
+  {
+    const double height = 1 + 1e-3 * i;
+    mesh.points.push_back({ 1e-4 * i, i % 2 == 0 ? height : -height, 0 });
+    mesh.ids.push_back(i);
+  }
+  for (int i = 0; i < cells; ++i)
+  {
+    mesh.triangles.push_back({ i, i + 1, i + 2 });
+  }
+  return mesh;
+}
+
+/// The number of looks at cells, and of marked edges, once a mark at the strip's thin end is
+/// closed.
+std::pair<std::size_t, std::ptrdiff_t> workOnStrip(const SimplexMesh& strip)
+{
+  std::vector<unsigned char> cellMarks(strip.cellCount());
+  std::transform(strip.triangles.begin(), strip.triangles.end(), cellMarks.begin(),
+    [](const std::array<Index, 3>& cell)
+    { return std::find(cell.begin(), cell.end(), 0) != cell.end(); });
+  const EdgeTable table = buildEdgeTable(strip);
+  EdgeMarks marks(table.edges.size(), 0);
+  markLongestEdges(strip, table, cellMarks, marks);
+  MarkClosure closure(table, marks);
+  EXPECT_TRUE(closure.closeAll());
+  return { closure.looks(), std::count(marks.begin(), marks.end(), 1) };
+}
+
+TEST(LongestEdgeWork, isLinearWhateverTheOrderOfCells)
+{
+  const int cells = 2000;
+  const SimplexMesh strip = growingStrip(cells);
+  for (const SimplexMesh& mesh :
+    { strip, withReversedCells(strip), cadtest::withShuffledCells(strip, 18) })
+  {
+    const auto [looks, marked] = workOnStrip(mesh);
+    EXPECT_EQ(marked, cells);
+    EXPECT_LE(looks, (MarkClosure::maximumSweeps + 3u) * cells);
   }
 }
 
@@ -210,7 +303,7 @@ TEST_P(LongestEdge, closedMarksStayAsTheyAre)
 {
   const SimplexMesh mesh = this->mesh(13);
   Closure closure(mesh, someCells(mesh, 14));
-  EXPECT_FALSE(closeMarks(closure.table, closure.marks));
+  EXPECT_FALSE(MarkClosure(closure.table, closure.marks).closeAll());
 }
 
 /// Six rounds of refinement near a corner: the mesh stays whole and its cells do not degenerate.
