@@ -52,14 +52,15 @@ QualitySummary summaryOf(const CellQualities& qualities)
   const auto& ratios = qualities.meanRatios;
   QualitySummary summary;
   summary.invalidCells = std::count(qualities.valid.begin(), qualities.valid.end(), 0);
-  summary.minimum = std::accumulate(ratios.begin(), ratios.end(), summary.minimum,
+  summary.smallestRatio = std::accumulate(ratios.begin(), ratios.end(), summary.smallestRatio,
     [](double a, double b) { return std::min(a, b); });
   return summary;
 }
 
 QualitySummary overRanks(RankExchange& exchange, const QualitySummary& mine)
 {
-  return { exchange.sum(mine.invalidCells), exchange.min(mine.minimum) };
+  return { exchange.sum(mine.invalidCells), exchange.min(mine.smallestRatio),
+    exchange.min(mine.smallestCube) };
 }
 
 } // namespace
@@ -110,7 +111,7 @@ void summariseMesh(RankExchange& exchange, const DistributedMesh& mesh,
   setFieldValue(output, "GlobalVertices", counts.vertices);
   setFieldValue(output, "GlobalCells", counts.cells);
   setFieldValue(output, "InvalidCells", quality.invalidCells);
-  setFieldValue(output, "MinimumQuality", quality.minimum);
+  setFieldValue(output, "MinimumQuality", quality.minimum());
 }
 
 void summariseConflicts(RankExchange& exchange, const DistributedMesh& mesh,

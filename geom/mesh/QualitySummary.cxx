@@ -24,8 +24,7 @@ constexpr double largestCube = std::numeric_limits<double>::max();
 /// square of eight times as much for half the value, over L^3.
 constexpr double certainlyPositive = (16 * epsilon) * (16 * epsilon);
 
-/// Of the cells so far; the smallest mean ratio as the cube of a twelfth of it, which needs no
-/// root.
+/// Of the cells so far.
 class Summary
 {
 public:
@@ -38,7 +37,7 @@ public:
     const double part = half * half;
     if (half > 0 && part > certainlyPositive * cube && cube > smallestCube && cube < largestCube)
     {
-      smallestCube_ = std::min(smallestCube_, part / cube);
+      summary_.smallestCube = std::min(summary_.smallestCube, part / cube);
     }
     else
     {
@@ -46,24 +45,24 @@ public:
     }
   }
 
-  QualitySummary result() const
-  {
-    return { invalidCells_, std::min(12 * std::cbrt(smallestCube_), smallestRatio_) };
-  }
+  const QualitySummary& result() const { return summary_; }
 
 private:
   void addByOne(const Point3& a, const Point3& b, const Point3& c, const Point3& d)
   {
-    invalidCells_ += orientation(a, b, c, d) <= 0;
-    smallestRatio_ = std::min(smallestRatio_, meanRatio(a, b, c, d));
+    summary_.invalidCells += orientation(a, b, c, d) <= 0;
+    summary_.smallestRatio = std::min(summary_.smallestRatio, meanRatio(a, b, c, d));
   }
 
-  std::int64_t invalidCells_ = 0;
-  double smallestCube_ = std::numeric_limits<double>::infinity();
-  double smallestRatio_ = std::numeric_limits<double>::infinity();
+  QualitySummary summary_;
 };
 
 } // namespace
+
+double QualitySummary::minimum() const
+{
+  return std::min(12 * std::cbrt(smallestCube), smallestRatio);
+}
 
 QualitySummary summariseTetrahedra(const SimplexMesh& mesh)
 {

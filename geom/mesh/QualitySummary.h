@@ -11,8 +11,15 @@ namespace cadrefine
 
 struct QualitySummary
 {
-  std::int64_t invalidCells = 0;                            ///< Inverted or degenerate.
-  double minimum = std::numeric_limits<double>::infinity(); ///< Of the mean ratios.
+  std::int64_t invalidCells = 0; ///< Inverted or degenerate.
+  /// Smallest mean ratio of cells whose cube is not known, and smallest cube of a twelfth of the
+  /// others'. Two numbers, because roots of numbers next to each other may change places: a minimum
+  /// of roots would depend on which cells are together.
+  double smallestRatio = std::numeric_limits<double>::infinity();
+  double smallestCube = std::numeric_limits<double>::infinity();
+
+  /// Of the mean ratios.
+  double minimum() const;
 };
 
 /// What orientation and meanRatio (up to rounding) say of the tetrahedra of a mesh, asking them for

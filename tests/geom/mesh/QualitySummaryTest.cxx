@@ -21,7 +21,7 @@ QualitySummary oneByOne(const SimplexMesh& mesh)
   for (const auto& [a, b, c, d] : mesh.tetrahedra)
   {
     summary.invalidCells += orientation(p[a], p[b], p[c], p[d]) <= 0;
-    summary.minimum = std::min(summary.minimum, meanRatio(p[a], p[b], p[c], p[d]));
+    summary.smallestRatio = std::min(summary.smallestRatio, meanRatio(p[a], p[b], p[c], p[d]));
   }
   return summary;
 }
@@ -31,7 +31,7 @@ void expectSame(const SimplexMesh& mesh)
   const QualitySummary expected = oneByOne(mesh);
   const QualitySummary summary = summariseTetrahedra(mesh);
   EXPECT_EQ(summary.invalidCells, expected.invalidCells);
-  EXPECT_NEAR(summary.minimum, expected.minimum, 1e-14);
+  EXPECT_NEAR(summary.minimum(), expected.minimum(), 1e-14);
 }
 
 TEST(QualitySummary, isThatOfTheCellsOneByOne)
@@ -50,7 +50,7 @@ TEST(QualitySummary, countsInvertedAndFlatCells)
   mesh.tetrahedra.push_back({ 0, 1, 2, 2 });
   expectSame(mesh);
   EXPECT_EQ(summariseTetrahedra(mesh).invalidCells, 2);
-  EXPECT_LT(summariseTetrahedra(mesh).minimum, 0);
+  EXPECT_LT(summariseTetrahedra(mesh).minimum(), 0);
 }
 
 /// Volumes within the rounding errors, of either sign.
@@ -90,7 +90,7 @@ TEST(QualitySummary, ofNoCellsHasNoMinimum)
 {
   const QualitySummary summary = summariseTetrahedra({});
   EXPECT_EQ(summary.invalidCells, 0);
-  EXPECT_EQ(summary.minimum, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(summary.minimum(), std::numeric_limits<double>::infinity());
 }
 
 } // namespace
