@@ -54,6 +54,7 @@ void vtkCADGeometricError::Execute(cadrefine::RankExchange& exchange, vtkPointSe
   addCellArray(output, arrays::error, error.ofCells);
   addCellArray(output, arrays::errorDistance, error.distanceOfCells);
   setFieldValue(output, "GlobalGeometricError", error.global);
+  setFieldValue(output, "GeometricErrorDimension", std::int64_t(error.dimension));
   setFieldValue(output, "MaximumGeometricDistance", error.maximumDistance);
 }
 

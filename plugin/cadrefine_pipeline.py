@@ -91,12 +91,7 @@ class Pipeline:
         return marked
 
     def children_per_cell(self):
-        return 4 if self.flat() else 8
-
-    def flat(self):
-        """True for meshes of triangles."""
-        grid = local_output(self.mesh)
-        return grid.GetNumberOfCells() == 0 or grid.GetCell(0).GetCellDimension() < 3
+        return 2 ** self.values["MeshDimension"]
 
     def run(self, phase):
         """Runs the last filter, adds its time to `phase` and takes over what it counted."""

@@ -34,6 +34,10 @@ STEP_VALUES = {  # Key of the step, field data of the mesh.
     "minimum_quality": "MinimumQuality",
 }
 
+ERROR_MEASURES = {2: "area", 3: "volume"}
+
+PROJECTION_VALUES = {"conflicts": "ClassificationConflicts"}  # Refinement leaves these as they are.
+
 UNREAD = re.compile(r"(?:(?:DE|#)\s*(?P<entity>\d+):\s*)?(?P<type>.*?):\s+(?P<reason>.*)")
 
 
@@ -44,13 +48,12 @@ class Report:
         self.steps = []
         self.stopped = None
         self.seconds = {}
-        self.flat = False
+        self.measured = {}
 
     def describe_input(self, pipeline):
         cad = pipeline.cad_values()
         counts = {name: pipeline.count_cad(name.capitalize()) for name in ("faces", "edges", "vertices")}
         facts = cad_facts(cad)
-        self.flat = pipeline.flat()
         self.input = {"ranks": session.ranks(), "mesh": self.options.mesh,
                       "cad": {"file": self.options.cad, **counts, **facts}}
         self.seconds = {name: pipeline.seconds[name] for name in ("read_cad", "read_mesh")}
@@ -62,7 +65,8 @@ class Report:
 
     def add_step(self, method, pipeline):
         step = {"step": len(self.steps), "method": method}
-        for key, array in STEP_VALUES.items():
+        wanted = {**STEP_VALUES, **PROJECTION_VALUES} if method == "projection" else STEP_VALUES
+        for key, array in wanted.items():
             if array not in pipeline.values:
                 raise Failure(f"{self.options.mesh}: the filters left no field data {array}")
             step[key] = pipeline.values[array]
@@ -72,9 +76,14 @@ class Report:
         cells = "".join(f"{step[key]:{column_width(head, style)}{style.lstrip('0123456789')}}"
                         for head, key, style in COLUMNS)
         self.say(f"{cells}{sum(step['seconds'].values()):9.2f}  {method}")
+        if step.get("conflicts"):
+            self.say(f"Vertices in conflict (CADConflict is 1): {step['conflicts']}")
 
     def finish(self, pipeline, total):
         self.seconds["total"] = total
+        self.measured = {"dimension": pipeline.values["MeshDimension"],
+                         "error_measure": ERROR_MEASURES[pipeline.values["GeometricErrorDimension"]],
+                         "recursion_depth": self.options.recursion_depth}
         if self.stopped:
             self.say(f"Stopped after step {self.steps[-1]['step']}: {self.stopped}")
 
@@ -85,12 +94,12 @@ class Report:
     def write(self):
         if not session.speaks():
             return
-        report = {**self.input, "no_cad": self.options.no_cad, "steps": self.steps, "stopped": self.stopped,
-                  "seconds": self.seconds}
+        report = {**self.input, **self.measured, "no_cad": self.options.no_cad, "steps": self.steps,
+                  "stopped": self.stopped, "seconds": self.seconds}
         if self.options.report:
             write_whole(self.options.report, json.dumps(finite(report), indent=2) + "\n")
         if self.options.plot:
-            plot(report, self.options, self.flat)
+            plot(report, self.options)
 
 
 def column_width(heading, style):
@@ -167,7 +176,7 @@ def load_report(path):
         raise Failure(f"{path}: is no report of this driver") from None
 
 
-def plot(report, options, flat):
+def plot(report, options):
     """Global error over the number of vertices, with the slope of second order."""
     import matplotlib
 
@@ -179,11 +188,11 @@ def plot(report, options, flat):
     for run, color in zip(runs, ("tab:blue", "tab:orange")):
         label = "new vertices stay off the CAD" if run.get("no_cad") else "new vertices on the CAD"
         draw_run(axes, run["steps"], color, label)
-    draw_slope(axes, report["steps"], -1.0 if flat else -2.0 / 3.0)
+    draw_slope(axes, report["steps"], -2.0 / report["dimension"])
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.set_xlabel("vertices of the mesh")
-    axes.set_ylabel("area between mesh and CAD" if flat else "volume between mesh and CAD")
+    axes.set_ylabel(f"{report['error_measure']} between mesh and CAD")
     axes.set_title(f"{os.path.basename(report['mesh'])} on {os.path.basename(report['cad']['file'])}")
     axes.grid(True, which="both", linewidth=0.3)
     axes.legend()

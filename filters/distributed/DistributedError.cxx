@@ -43,6 +43,7 @@ MeshError measureError(RankExchange& exchange, const DistributedMesh& mesh, cons
     classifyBoundary(exchange, piece, boundary, classification.entities, projector);
 
   MeshError result;
+  result.dimension = boundary.facetCorners();
   const std::size_t cells = mesh.converted.cellIds[piece.dimension].size();
   result.ofCells.assign(cells, 0.0);
   result.distanceOfCells.assign(cells, 0.0);

@@ -15,6 +15,7 @@ struct MeshError
 {
   std::vector<double> ofCells; ///< Area or volume between the cell's CAD facets and the CAD.
   std::vector<double> distanceOfCells; ///< Largest distance found from these facets to the CAD.
+  int dimension = 0;                   ///< Of what the error measures: 2 area, 3 volume.
   double global = 0;
   double maximumDistance = 0;
   WorkBalance balance; ///< Of the facets over the ranks.

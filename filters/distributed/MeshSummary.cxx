@@ -108,6 +108,7 @@ void summariseMesh(RankExchange& exchange, const DistributedMesh& mesh,
   const QualitySummary& quality, vtkPointSet* output)
 {
   const MeshCounts counts = countMesh(exchange, mesh);
+  setFieldValue(output, "MeshDimension", std::int64_t(mesh.mesh().dimension));
   setFieldValue(output, "GlobalVertices", counts.vertices);
   setFieldValue(output, "GlobalCells", counts.cells);
   setFieldValue(output, "InvalidCells", quality.invalidCells);

@@ -39,7 +39,7 @@ std::string warningOfInvalidCells(RankExchange& exchange, const DistributedMesh&
 void setFieldValue(vtkPointSet* output, const char* name, double value);
 void setFieldValue(vtkPointSet* output, const char* name, std::int64_t value);
 
-/// Adds GlobalVertices, GlobalCells, InvalidCells and MinimumQuality. Collective.
+/// Adds MeshDimension, GlobalVertices, GlobalCells, InvalidCells and MinimumQuality. Collective.
 void summariseMesh(RankExchange& exchange, const DistributedMesh& mesh,
   const QualitySummary& quality, vtkPointSet* output);
 

@@ -101,6 +101,13 @@ class BadInput(unittest.TestCase):
         self.assert_fails(self.mesh, self.cad, "--indicator", "error", names="--indicator-threshold")
         self.assert_fails(self.mesh, self.cad, "--no-such-option", names="--no-such-option")
 
+    def test_values_out_of_range(self):
+        """Are told before anything is read: there are no such files."""
+        for option, values in (("--recursion-depth", ["9"]), ("--maximum-distance", ["-1"]), ("--threshold", ["nan"]),
+                               ("--region", ["0", "1", "1", "0", "0", "1"])):
+            with self.subTest(option, values=values):
+                self.assert_fails("none.vtu", "none.igs", option, *values, names=option + ": ")
+
     def test_folder_of_output_is_missing(self):
         path = os.path.join(self.folder, "none", "out.vtu")
         self.assert_fails(self.mesh, self.cad, "--output", path, names="out.vtu: there is no folder")

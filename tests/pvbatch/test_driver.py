@@ -1,7 +1,9 @@
 #!/usr/bin/python3
 """The driver on the bundled cases: what the report says, what the files hold."""
 
+import json
 import os
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -14,6 +16,11 @@ RANKS = int(sys.argv.pop()) if sys.argv[-1].isdigit() else 1
 WING = (driver.data("naca0012_coarse.vtu"), driver.data("naca0012_sharp.igs"))
 ARCS = (driver.data("three_arcs_coarse.vtu"), driver.data("three_arcs.igs"))
 
+PIECES = """<VTKFile type="PUnstructuredGrid" version="0.1"><PUnstructuredGrid GhostLevel="0">
+<PPoints><PDataArray type="Float64" NumberOfComponents="3"/></PPoints>
+<Piece Source="empty.vtu"/><Piece Source="all.vtu"/>
+</PUnstructuredGrid></VTKFile>
+"""
 PNG = b"\x89PNG\r\n\x1a\n"
 STEP_KEYS = {"step", "vertices", "cells", "cad_vertices", "projected_points", "global_error", "maximum_distance",
              "invalid_cells", "unprojected_vertices", "minimum_quality", "seconds"}
@@ -28,6 +35,13 @@ class Driver(unittest.TestCase):
     def path(self, name):
         return os.path.join(self.folder, name)
 
+    def tagged_wing(self):
+        """The wing with its boundary triangles, which come before the tetrahedra."""
+        path = self.path("tagged.vtu")
+        subprocess.run(["/usr/bin/python3", "-B", driver.data("naca0012_mesh.py"), "--boundary-triangles", path],
+                       check=True, stdout=subprocess.DEVNULL)
+        return path
+
     def test_report(self):
         report = driver.report_of(RANKS, *WING, "--method", "uniform", "--steps", "1")
         self.assertEqual(report["ranks"], max(RANKS, 1))
@@ -40,6 +54,7 @@ class Driver(unittest.TestCase):
         self.assertEqual({item["reason"] for item in cad["left_out"]}, {"construction geometry (use flag 06)"})
         self.assertGreater(cad["sewing_tolerance"], 0.0)
         self.assertEqual([step["step"] for step in report["steps"]], [0, 1])
+        self.assertEqual((report["dimension"], report["error_measure"], report["recursion_depth"]), (3, "volume", 1))
         for step in report["steps"]:
             self.assertLessEqual(STEP_KEYS, set(step))
             self.assertEqual(set(step["seconds"]), {"project", "error", "refine"})
@@ -75,19 +90,61 @@ class Driver(unittest.TestCase):
         report = driver.report_of(RANKS, *ARCS, "--steps", "4", "--method", "uniform")
         cad = report["cad"]
         self.assertEqual((cad["faces"], cad["edges"], cad["vertices"]), (0, 3, 3))
+        self.assertEqual((report["dimension"], report["error_measure"]), (2, "area"))
         errors = [step["global_error"] for step in report["steps"]]
         for coarse, fine in zip(errors[1:], errors[2:]):
             self.assertTrue(3.6 < coarse / fine < 4.4, errors)
+
+    def test_triangles_in_space(self):
+        mesh = meshio.read(self.tagged_wing())
+        surface, plot = self.path("surface.vtu"), self.path("plot.png")
+        triangles = mesh.cells_dict["triangle"]
+        meshio.write(surface, meshio.Mesh(mesh.points, {"triangle": triangles}))
+        report = driver.report_of(RANKS, surface, WING[1], "--method", "uniform", "--steps", "1", "--recursion-depth",
+                                  "2", "--plot", plot)
+        self.assertEqual((report["dimension"], report["error_measure"], report["recursion_depth"]), (2, "volume", 2))
+        self.assertEqual(report["steps"][1]["cells"], 4 * len(triangles))
+        self.assertTrue(os.path.isfile(plot))
+
+    def test_conflicts(self):
+        path = self.path("report.json")
+        case = driver.data("naca0012_blunt_coarse.vtu"), WING[1]  # The mesh has an edge more than the CAD.
+        run = driver.Run(RANKS, *case, "--steps", "1", "--method", "uniform", "--report", path)
+        self.assertEqual((run.status, run.errors), (0, []))
+        with open(path, encoding="utf-8") as file:
+            first, second = json.load(file)["steps"]
+        self.assertGreater(first["conflicts"], 0)
+        self.assertNotIn("conflicts", second)
+        lines = [line for line in run.output.splitlines() if "in conflict" in line]
+        self.assertEqual(lines, [f"Vertices in conflict (CADConflict is 1): {first['conflicts']}"])
+        fitting = driver.Run(RANKS, *WING, "--steps", "0", "--report", path)
+        with open(path, encoding="utf-8") as file:
+            self.assertEqual(json.load(file)["steps"][0]["conflicts"], 0)
+        self.assertNotIn("in conflict", fitting.output)
 
     def test_without_cad_the_error_stays(self):
         report = driver.report_of(RANKS, *WING, "--no-cad", "--method", "uniform", "--steps", "2")
         first, last = report["steps"][0], report["steps"][-1]
         self.assertGreater(last["global_error"], 0.5 * first["global_error"])
 
+    def wing_after_an_empty_piece(self):
+        """The wing as two pieces, of which the first, which is read by rank 0, has no cells."""
+        mesh = meshio.read(WING[0])
+        meshio.write(self.path("all.vtu"), meshio.Mesh(mesh.points, {"tetra": mesh.cells_dict["tetra"]}))
+        meshio.write(self.path("empty.vtu"), meshio.Mesh(np.zeros((0, 3)), {"tetra": np.zeros((0, 4), dtype=int)}))
+        with open(self.path("wing.pvtu"), "w", encoding="ascii") as file:
+            file.write(PIECES)
+        return self.path("wing.pvtu")
+
     def test_stops(self):
         many = driver.report_of(RANKS, *WING, "--method", "uniform", "--maximum-cells", "2000", "--steps", "5")
         self.assertEqual(many["steps"][-1]["cells"], 8 * 228)
         self.assertIn("2000 cells", many["stopped"])
+        options = "--method", "uniform", "--maximum-cells", "8000", "--steps", "3"
+        tagged = driver.report_of(RANKS, self.tagged_wing(), WING[1], *options)
+        self.assertEqual(tagged["steps"][-1]["cells"], 8 * 228)
+        pieces = driver.report_of(RANKS, self.wing_after_an_empty_piece(), WING[1], *options)
+        self.assertEqual(pieces["steps"][-1]["cells"], 8 * 228)
         marked = driver.report_of(RANKS, *WING, "--threshold", "1e9")
         self.assertEqual(len(marked["steps"]), 1)
         target = driver.report_of(RANKS, *WING, "--target-error", "1e9")
