@@ -18,35 +18,21 @@
 #define vtkRefineWithCAD_h
 
 #include "CADRefineFiltersModule.h"
-#include "vtkSimplexMeshAlgorithm.h"
+#include "vtkRefinementAlgorithm.h"
 
 #include <string>
 
-class CADREFINEFILTERS_EXPORT vtkRefineWithCAD : public vtkSimplexMeshAlgorithm
+class CADREFINEFILTERS_EXPORT vtkRefineWithCAD : public vtkRefinementAlgorithm
 {
 public:
   static vtkRefineWithCAD* New();
-  vtkTypeMacro(vtkRefineWithCAD, vtkSimplexMeshAlgorithm);
+  vtkTypeMacro(vtkRefineWithCAD, vtkRefinementAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  enum RefinementMethod
-  {
-    LONGEST_EDGE_BISECTION = 0,
-    UNIFORM_BISECTION = 1
-  };
-
   ///@{
   /**
-   * LONGEST_EDGE_BISECTION (default) of the marked cells, or UNIFORM_BISECTION: 4 triangles, 8
-   * tetrahedra for each marked or unmarked cell.
-   */
-  vtkSetClampMacro(Method, int, LONGEST_EDGE_BISECTION, UNIFORM_BISECTION);
-  vtkGetMacro(Method, int);
-  ///@}
-
-  ///@{
-  /**
-   * How often to refine, at least 1. Children inherit the value of the marking array. Default 1.
+   * How often to refine, at least 1. Children inherit the values of the arrays that mark cells.
+   * Default 1.
    */
   vtkSetClampMacro(Levels, int, 1, 20);
   vtkGetMacro(Levels, int);
@@ -54,33 +40,18 @@ public:
 
   ///@{
   /**
-   * Cell array with one component that marks cells whose value is larger than Threshold (default
-   * 0). Empty (default): all cells. Only for LONGEST_EDGE_BISECTION.
+   * Cell array with one component that marks cells, for LONGEST_EDGE_BISECTION: by Marking (default
+   * THRESHOLD) and Threshold (default 0) or Fraction (default 0.5, above 0 and at most 1; of values
+   * that are not negative). Empty (default): all cells, unless another criterion is set.
    */
   vtkSetMacro(MarkingArray, std::string);
   vtkGetMacro(MarkingArray, std::string);
+  vtkSetClampMacro(Marking, int, THRESHOLD, BULK);
+  vtkGetMacro(Marking, int);
   vtkSetMacro(Threshold, double);
   vtkGetMacro(Threshold, double);
-  ///@}
-
-  ///@{
-  /**
-   * Whether new boundary vertices are put onto the CAD; off: they stay in the middle of their edge
-   * (classified, with their CADDistance, if the mesh was projected). Default on.
-   */
-  vtkSetMacro(ProjectNewVertices, bool);
-  vtkGetMacro(ProjectNewVertices, bool);
-  vtkBooleanMacro(ProjectNewVertices, bool);
-  ///@}
-
-  ///@{
-  /**
-   * Whether the cells are first redistributed over the ranks, by the number of cells that the first
-   * level will make of them. Default on.
-   */
-  vtkSetMacro(Balance, bool);
-  vtkGetMacro(Balance, bool);
-  vtkBooleanMacro(Balance, bool);
+  vtkSetMacro(Fraction, double);
+  vtkGetMacro(Fraction, double);
   ///@}
 
 protected:
@@ -94,12 +65,11 @@ private:
   vtkRefineWithCAD(const vtkRefineWithCAD&) = delete;
   void operator=(const vtkRefineWithCAD&) = delete;
 
-  int Method = LONGEST_EDGE_BISECTION;
   int Levels = 1;
   std::string MarkingArray;
+  int Marking = THRESHOLD;
   double Threshold = 0;
-  bool ProjectNewVertices = true;
-  bool Balance = true;
+  double Fraction = 0.5;
 };
 
 #endif

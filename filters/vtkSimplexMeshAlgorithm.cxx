@@ -4,6 +4,7 @@
 #include "CADModel.h"
 #include "RankExchange.h"
 #include "RunStatistics.h"
+#include "StepContext.h"
 #include "vtkCADModelCache.h"
 
 #include <vtkDataObject.h>
@@ -47,6 +48,13 @@ std::shared_ptr<const cadrefine::CADModel> vtkSimplexMeshAlgorithm::FindModel(
   return model;
 }
 
+cadrefine::StepContext vtkSimplexMeshAlgorithm::MakeContext(
+  cadrefine::RankExchange& exchange, const cadrefine::CADModel& model)
+{
+  return { exchange, model, *this->Statistics,
+    [this](const std::string& warning) { vtkWarningMacro(<< warning); } };
+}
+
 int vtkSimplexMeshAlgorithm::RequestData(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
@@ -69,7 +77,10 @@ int vtkSimplexMeshAlgorithm::RequestData(
   }
   catch (const std::exception& error)
   {
-    output->Initialize();
+    for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
+    {
+      vtkDataObject::GetData(outputs, port)->Initialize();
+    }
     if (!this->Controller || this->Controller->GetLocalProcessId() == 0)
     {
       vtkErrorMacro(<< error.what());

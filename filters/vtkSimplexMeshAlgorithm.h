@@ -24,6 +24,7 @@ namespace cadrefine
 class CADModel;
 class RankExchange;
 class RunStatistics;
+struct StepContext;
 } // namespace cadrefine
 class vtkMultiProcessController;
 
@@ -64,6 +65,10 @@ protected:
    */
   virtual void Execute(cadrefine::RankExchange& exchange, vtkPointSet* input,
     const cadrefine::CADModel* model, vtkPointSet* output) = 0;
+
+  /// What the steps of cadrefine need: warnings become those of this filter.
+  cadrefine::StepContext MakeContext(
+    cadrefine::RankExchange& exchange, const cadrefine::CADModel& model);
 
   std::unique_ptr<cadrefine::RunStatistics> Statistics; ///< Of this run, by this rank.
 

@@ -37,6 +37,8 @@ constexpr const char* distance = "CADDistance";
 constexpr const char* conflict = "CADConflict";
 constexpr const char* error = "GeometricError";
 constexpr const char* errorDistance = "GeometricDistance";
+constexpr const char* chordError = "ChordError";
+constexpr const char* normalAngle = "NormalAngle";
 } // namespace arrays
 
 /// Reads the arrays of a projected mesh for the vertices that come from its points `pointOf`.

@@ -188,17 +188,27 @@ BoundaryClasses classifyBoundary(RankExchange& exchange, const SimplexMesh& mesh
     classes.facetOnCAD[f] = record.onCAD;
   };
   attempt(exchange, [&] { forEachIndex(parallelFor, records.size(), coarseGrain, classifyFacet); });
-  const auto ofEdges = gatherFacetRecords(exchange, boundary, records);
+  classes.facetsAtEdges = gatherFacetRecords(exchange, boundary, records);
   const auto& edges = boundary.edges.edges();
   classes.ofEdges.resize(edges.size());
   const auto classifyEdge = [&](std::size_t e)
   {
     const auto [a, b] = edges[e];
     classes.ofEdges[e] = projector.classify(
-      { mesh.points[a], mesh.points[b] }, { entities[a], entities[b] }, ofEdges[e]);
+      { mesh.points[a], mesh.points[b] }, { entities[a], entities[b] }, classes.facetsAtEdges[e]);
   };
   attempt(exchange, [&] { forEachIndex(parallelFor, edges.size(), coarseGrain, classifyEdge); });
   return classes;
+}
+
+ClassifiedBoundary findClassifiedBoundary(RankExchange& exchange, const DistributedMesh& mesh,
+  const CADModel& model, const Classification& classification)
+{
+  DistributedBoundary boundary = findBoundary(exchange, mesh, model);
+  BoundaryProjector projector(model, boundary.kind);
+  BoundaryClasses classes =
+    classifyBoundary(exchange, mesh.mesh(), boundary, classification.entities, projector);
+  return { std::move(projector), std::move(boundary), std::move(classes) };
 }
 
 } // namespace cadrefine

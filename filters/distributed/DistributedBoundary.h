@@ -62,10 +62,24 @@ struct BoundaryClasses
 {
   std::vector<EdgeClass> ofEdges;
   std::vector<unsigned char> facetOnCAD;
+  std::vector<std::vector<FacetRecord>> facetsAtEdges; ///< See gatherFacetRecords.
 };
 
 BoundaryClasses classifyBoundary(RankExchange& exchange, const SimplexMesh& mesh,
   const DistributedBoundary& boundary, const std::vector<EntityId>& entities,
   const BoundaryProjector& projector);
+
+/// The boundary of a mesh that is classified on a model. Refers to both, and is of use until the
+/// mesh changes.
+struct ClassifiedBoundary
+{
+  BoundaryProjector projector;
+  DistributedBoundary boundary;
+  BoundaryClasses classes;
+};
+
+/// findBoundary and classifyBoundary. Collective.
+ClassifiedBoundary findClassifiedBoundary(RankExchange& exchange, const DistributedMesh& mesh,
+  const CADModel& model, const Classification& classification);
 
 } // namespace cadrefine

@@ -1,6 +1,6 @@
 #include "DistributedError.h"
 
-#include "DistributedBoundary.h"
+#include "BoundaryAngles.h"
 #include "Error.h"
 #include "EvenWork.h"
 #include "GeometricError.h"
@@ -29,6 +29,13 @@ ErrorFacet makeErrorFacet(const SimplexMesh& mesh, const DistributedBoundary& bo
 
 } // namespace
 
+void Deviation::add(const Deviation& other)
+{
+  distance = std::max(distance, other.distance);
+  chord = std::max(chord, other.chord);
+  angle = std::max(angle, other.angle);
+}
+
 MeshError measureError(RankExchange& exchange, const DistributedMesh& mesh, const CADModel& model,
   const Classification& classification, int depth)
 {
@@ -37,41 +44,44 @@ MeshError measureError(RankExchange& exchange, const DistributedMesh& mesh, cons
   {
     throw Error("the mesh has no triangles or tetrahedra; points alone have no geometric error");
   }
-  const DistributedBoundary boundary = findBoundary(exchange, mesh, model);
-  const BoundaryProjector projector(model, boundary.kind);
-  const BoundaryClasses classes =
-    classifyBoundary(exchange, piece, boundary, classification.entities, projector);
-
-  MeshError result;
-  result.dimension = boundary.facetCorners();
-  const std::size_t cells = mesh.converted.cellIds[piece.dimension].size();
-  result.ofCells.assign(cells, 0.0);
-  result.distanceOfCells.assign(cells, 0.0);
+  const ClassifiedBoundary classified =
+    findClassifiedBoundary(exchange, mesh, model, classification);
+  const DistributedBoundary& boundary = classified.boundary;
   std::vector<std::size_t> facets;
   std::vector<ErrorFacet> questions;
   for (std::size_t f = 0; f < boundary.facets.size(); ++f)
   {
-    if (classes.facetOnCAD[f])
+    if (classified.classes.facetOnCAD[f])
     {
       facets.push_back(f);
-      questions.push_back(makeErrorFacet(piece, boundary, classes, classification, f));
+      questions.push_back(makeErrorFacet(piece, boundary, classified.classes, classification, f));
     }
   }
   const auto answers = answerEvenly<FacetError>(exchange, std::move(questions),
-    [&](const ErrorFacet& facet) { return geometricError(projector, facet, depth); });
+    [&](const ErrorFacet& facet) { return geometricError(classified.projector, facet, depth); });
+  const auto angles = neighbourAngles(exchange, mesh, classified, classification);
+
+  MeshError result;
+  result.dimension = boundary.facetCorners();
+  result.ofCells.resize(mesh.converted.cellIds[piece.dimension].size());
   std::vector<double> addends;
   for (std::size_t i = 0; i < facets.size(); ++i)
   {
     const FacetError& error = answers.values[i];
-    const Index cell = boundary.facets[facets[i]].cell;
-    result.ofCells[cell] += error.measure;
-    result.distanceOfCells[cell] = std::max(result.distanceOfCells[cell], error.maximumDistance);
-    result.maximumDistance = std::max(result.maximumDistance, error.maximumDistance);
+    CellError& cell = result.ofCells[boundary.facets[facets[i]].cell];
+    cell.measure += error.measure;
+    cell.largest.add({ error.maximumDistance, error.chordError, angles[facets[i]] });
     addends.push_back(error.measure);
+  }
+  for (const CellError& cell : result.ofCells)
+  {
+    result.largest.add(cell.largest);
   }
   result.balance = answers.balance;
   result.global = exchange.sumReproducibly(addends);
-  result.maximumDistance = exchange.max(result.maximumDistance);
+  const Deviation& mine = result.largest;
+  const auto all = exchange.max(std::vector<double>{ mine.distance, mine.chord, mine.angle });
+  result.largest = { all[0], all[1], all[2] };
   return result;
 }
 

@@ -10,15 +10,29 @@
 namespace cadrefine
 {
 
-/// For the cells of the mesh's own dimension, and over all ranks.
+/// How far facets are from the CAD: the largest of each.
+struct Deviation
+{
+  double distance = 0; ///< Found from the facets to the CAD.
+  double chord = 0;    ///< From the middle of an edge of the facets to the CAD.
+  double angle = 0;    ///< Between neighbouring facets, in degrees (see neighbourAngles).
+
+  void add(const Deviation& other);
+};
+
+struct CellError
+{
+  double measure = 0; ///< Area or volume between the cell's CAD facets and the CAD.
+  Deviation largest;
+};
+
 struct MeshError
 {
-  std::vector<double> ofCells; ///< Area or volume between the cell's CAD facets and the CAD.
-  std::vector<double> distanceOfCells; ///< Largest distance found from these facets to the CAD.
-  int dimension = 0;                   ///< Of what the error measures: 2 area, 3 volume.
-  double global = 0;
-  double maximumDistance = 0;
-  WorkBalance balance; ///< Of the facets over the ranks.
+  std::vector<CellError> ofCells; ///< Of the mesh's own dimension.
+  int dimension = 0;              ///< Of what the error measures: 2 area, 3 volume.
+  double global = 0;              ///< Measure of all facets of all ranks.
+  Deviation largest;              ///< Of all ranks.
+  WorkBalance balance;            ///< Of the facets over the ranks.
 };
 
 /// Error of every facet on the CAD, added up for its cell (see geometricError). The global sum is

@@ -42,6 +42,32 @@ std::vector<Index> combineMarks(RankExchange& exchange, RefinementPlan& plan)
   return fresh;
 }
 
+/// Marks the longest edge of each facet on the CAD of a marked cell.
+void markFacets(const ClassifiedBoundary& classified, const std::vector<unsigned char>& cellMarks,
+  RefinementPlan& plan)
+{
+  const DistributedBoundary& boundary = classified.boundary;
+  const EdgeOrder order(plan.table);
+  for (std::size_t f = 0; f < boundary.facets.size(); ++f)
+  {
+    if (!classified.classes.facetOnCAD[f] || !cellMarks[boundary.facets[f].cell])
+    {
+      continue;
+    }
+    Index longest = -1;
+    for (const Index e : boundary.facetEdges[f])
+    {
+      if (e >= 0)
+      {
+        const auto& [a, b] = boundary.edges.edges()[e];
+        const Index edge = plan.table.find(a, b);
+        longest = longest < 0 || order.longer(edge, longest) ? edge : longest;
+      }
+    }
+    plan.marks[longest] = 1;
+  }
+}
+
 std::vector<GlobalId> numberNewVertices(RankExchange& exchange, DistributedMesh& mesh,
   const std::vector<std::array<Index, 2>>& parentEdges)
 {
@@ -133,17 +159,14 @@ EdgeClass decode(std::int64_t code)
 }
 
 /// The code of every edge of the piece, also of edges whose boundary facets are on other ranks.
-std::vector<std::int64_t> edgeCodes(RankExchange& exchange, const DistributedMesh& mesh,
-  const RefinementPlan& plan, const DistributedBoundary& boundary,
-  const BoundaryProjector& projector, const Classification& classification)
+std::vector<std::int64_t> edgeCodes(
+  RankExchange& exchange, const RefinementPlan& plan, const ClassifiedBoundary& classified)
 {
-  const BoundaryClasses classes =
-    classifyBoundary(exchange, mesh.mesh(), boundary, classification.entities, projector);
   std::vector<std::int64_t> codes(plan.table.edges.size(), 0);
-  const auto& edges = boundary.edges.edges();
+  const auto& edges = classified.boundary.edges.edges();
   for (std::size_t e = 0; e < edges.size(); ++e)
   {
-    codes[plan.table.find(edges[e][0], edges[e][1])] = encode(classes.ofEdges[e]);
+    codes[plan.table.find(edges[e][0], edges[e][1])] = encode(classified.classes.ofEdges[e]);
   }
   combineShared(exchange, plan.sharedEdges, codes,
     [](std::int64_t a, std::int64_t b) { return std::max(a, b); });
@@ -272,12 +295,16 @@ RefinementPlan planUniform(RankExchange& exchange, const DistributedMesh& mesh)
   return plan;
 }
 
-RefinementPlan planLongestEdge(
-  RankExchange& exchange, const DistributedMesh& mesh, const std::vector<unsigned char>& cellMarks)
+RefinementPlan planLongestEdge(RankExchange& exchange, const DistributedMesh& mesh,
+  const std::vector<unsigned char>& cellMarks, const ClassifiedBoundary* toCut)
 {
   RefinementPlan plan = makePlan(exchange, mesh);
   plan.marks.assign(plan.table.edges.size(), 0);
   markLongestEdges(mesh.mesh(), plan.table, cellMarks, plan.marks);
+  if (toCut)
+  {
+    markFacets(*toCut, cellMarks, plan);
+  }
   combineMarks(exchange, plan);
   MarkClosure closure(plan.table, plan.marks);
   bool changed = exchange.any(closure.closeAll());
@@ -319,17 +346,16 @@ RefinementTrace refine(RankExchange& exchange, DistributedMesh& mesh, const Refi
 }
 
 RefinementTrace refineOntoCAD(RankExchange& exchange, DistributedMesh& mesh,
-  const RefinementPlan& plan, const CADModel& model, Classification& classification,
+  const RefinementPlan& plan, const ClassifiedBoundary& classified, Classification& classification,
   NewVertices newVertices, RunStatistics& statistics)
 {
   std::optional<RunStatistics::Stopwatch> watch;
   watch.emplace(statistics, "seconds projection");
-  const DistributedBoundary boundary = findBoundary(exchange, mesh, model);
-  const BoundaryProjector projector(model, boundary.kind);
-  const auto codes = edgeCodes(exchange, mesh, plan, boundary, projector, classification);
+  const BoundaryProjector& projector = classified.projector;
+  const auto codes = edgeCodes(exchange, plan, classified);
   const auto hits =
     projectMidpoints(exchange, mesh.mesh(), plan, codes, projector, classification, statistics);
-  const auto onBoundary = onRefinedBoundary(plan, codes, boundary.onBoundary);
+  const auto onBoundary = onRefinedBoundary(plan, codes, classified.boundary.onBoundary);
   const std::size_t oldCount = mesh.mesh().points.size();
   watch.reset();
   RefinementTrace trace = refine(exchange, mesh, plan, statistics);

@@ -1,8 +1,8 @@
 // One level of refinement over all ranks.
 #pragma once
 
-#include "BoundaryProjector.h"
 #include "CADArrays.h"
+#include "DistributedBoundary.h"
 #include "DistributedMesh.h"
 #include "EdgeTable.h"
 #include "LongestEdgeMarking.h"
@@ -28,10 +28,14 @@ struct RefinementPlan
 RefinementPlan planUniform(RankExchange& exchange, const DistributedMesh& mesh);
 
 /// Marks the longest edges of the marked cells (one entry for each cell of the mesh's own
-/// dimension), and others until no vertex hangs on any rank. Collective; one message to each
+/// dimension), and others until no vertex hangs on any rank. With `toCut`, the boundary of the
+/// mesh, also the longest edges of the marked cells' facets on the CAD: where a cell's longest edge
+/// is inside the mesh, bisecting it there leaves its facets, and their geometric error, as they
+/// were (S. Strunk, KTH 2013, chapter 5). The cell is then bisected on, first at its longest edge,
+/// as in skeleton based refinement (see LongestEdgeMarking.h). Collective; one message to each
 /// neighbour, of a byte a shared edge, for every time that marks cross between ranks.
-RefinementPlan planLongestEdge(
-  RankExchange& exchange, const DistributedMesh& mesh, const std::vector<unsigned char>& cellMarks);
+RefinementPlan planLongestEdge(RankExchange& exchange, const DistributedMesh& mesh,
+  const std::vector<unsigned char>& cellMarks, const ClassifiedBoundary* toCut);
 
 /// How many cells `refine` makes of each cell.
 ChildRanges countChildren(const SimplexMesh& mesh, const RefinementPlan& plan);
@@ -60,11 +64,11 @@ enum class NewVertices
 };
 
 /// The same, and classifies the new vertices of classified edges: each belongs onto the entity of
-/// its edge (S. Strunk, KTH 2013, Algorithm 4.3). MoveOntoCAD moves them there as far as all cells
-/// stay valid; vertices that stopped on the way earlier try again. Adds to "seconds projection" and
-/// "seconds moves" too. Collective.
+/// its edge in `classified`, the boundary of the mesh (S. Strunk, KTH 2013, Algorithm 4.3).
+/// MoveOntoCAD moves them there as far as all cells stay valid; vertices that stopped on the way
+/// earlier try again. Adds to "seconds projection" and "seconds moves" too. Collective.
 RefinementTrace refineOntoCAD(RankExchange& exchange, DistributedMesh& mesh,
-  const RefinementPlan& plan, const CADModel& model, Classification& classification,
+  const RefinementPlan& plan, const ClassifiedBoundary& classified, Classification& classification,
   NewVertices newVertices, RunStatistics& statistics);
 
 } // namespace cadrefine

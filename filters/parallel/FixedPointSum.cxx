@@ -48,6 +48,15 @@ void FixedPointSum::add(double addend)
   }
 }
 
+void FixedPointSum::add(const FixedPointSum& other)
+{
+  limbs_ = carried(limbs_);
+  const Limbs addend = other.limbs();
+  for (std::size_t i = 0; i < limbs_.size(); ++i)
+    limbs_[i] += addend[i];
+  addedSinceCarry_ = 1;
+}
+
 FixedPointSum::Limbs FixedPointSum::carried(Limbs limbs)
 {
   for (std::size_t i = limbs.size() - 1; i > 0; --i)

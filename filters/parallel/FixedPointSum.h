@@ -37,6 +37,11 @@ public:
 
   void add(double addend);
 
+  /// Adds a sum with the same exponent.
+  void add(const FixedPointSum& other);
+
+  std::int64_t exponent() const { return exponent_; }
+
   /// The sum so far, most significant first; the lower three are in [0, 2^32), so that those of
   /// 2^31 sums can be added.
   Limbs limbs() const { return carried(limbs_); }

@@ -30,10 +30,12 @@ Corner projectedMidpoint(const BoundaryProjector& projector, const ErrorFacet& f
   {
     return { middle, {} };
   }
+  error.chordError = std::max(error.chordError, where.distance);
   error.maximumDistance = std::max(error.maximumDistance, where.distance);
   return { where.point, where.entity };
 }
 
+/// Adds the error of a child.
 void add(FacetError& sum, const FacetError& part)
 {
   sum.measure += part.measure;

@@ -12,7 +12,8 @@ namespace cadrefine
 struct FacetError
 {
   double measure = 0;         ///< Area (segments) or volume (triangles) between facet and CAD.
-  double maximumDistance = 0; ///< Largest distance from the facet's edge midpoints to the CAD.
+  double chordError = 0;      ///< Largest distance from the middle of the facet's edges to the CAD.
+  double maximumDistance = 0; ///< The same over the edges of its children too.
 };
 
 /// A facet on the CAD with the classes of its edges: edge k joins corners k and k + 1. A segment

@@ -1,0 +1,37 @@
+// Which cells to refine.
+#pragma once
+
+#include "ArrayTransfer.h"
+#include "DistributedMesh.h"
+
+#include <string>
+#include <vector>
+
+namespace cadrefine
+{
+
+/// A rule that marks cells by the values of an array.
+struct MarkingCriterion
+{
+  enum class Strategy
+  {
+    Threshold,         ///< Values larger than `value`.
+    FractionOfLargest, ///< Positive values of at least `value` times the largest of all ranks.
+    Bulk ///< The fewest cells that carry `value` of the sum (W. Doerfler, SIAM J. Numer. Anal. 33,
+         ///< 1996, pp. 1106-1124), see markBulk.
+  };
+
+  std::string array; ///< Cell array with one component.
+  Strategy strategy = Strategy::Threshold;
+  double value = 0;
+};
+
+/// 1 for the cells of the mesh's own dimension that any of the criteria marks; all cells if there
+/// are no criteria. Throws Error, on all ranks, where an array is missing or has several
+/// components, and for other strategies than Threshold where a value is negative or no number, or
+/// the fraction is not in (0, 1]. Collective. Work: a look at each cell a criterion, and that of
+/// markBulk.
+std::vector<unsigned char> markCells(RankExchange& exchange, const DistributedMesh& mesh,
+  const MeshArrays& arrays, const std::vector<MarkingCriterion>& criteria);
+
+} // namespace cadrefine

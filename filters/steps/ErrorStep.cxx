@@ -1,0 +1,69 @@
+#include "ErrorStep.h"
+
+#include "Agreement.h"
+#include "ArrayTransfer.h"
+#include "DistributedError.h"
+#include "MeshSummary.h"
+
+#include <vtkCellData.h>
+#include <vtkDoubleArray.h>
+#include <vtkNew.h>
+#include <vtkPointSet.h>
+
+#include <algorithm>
+
+namespace cadrefine
+{
+namespace
+{
+
+/// Adds a cell array with a value of each cell of the mesh's own dimension, the last ones.
+template<class ValueOf>
+void addCellArray(vtkPointSet* output, const char* name, const std::vector<CellError>& cells,
+  const ValueOf& valueOf)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  array->SetNumberOfValues(output->GetNumberOfCells());
+  array->FillValue(0);
+  const auto first = output->GetNumberOfCells() - static_cast<vtkIdType>(cells.size());
+  std::transform(cells.begin(), cells.end(), array->GetPointer(first), valueOf);
+  output->GetCellData()->AddArray(array);
+}
+
+void addErrors(vtkPointSet* output, const MeshError& error)
+{
+  const auto add = [&](const char* name, const auto& valueOf)
+  { addCellArray(output, name, error.ofCells, valueOf); };
+  add(arrays::error, [](const CellError& cell) { return cell.measure; });
+  add(arrays::errorDistance, [](const CellError& cell) { return cell.largest.distance; });
+  add(arrays::chordError, [](const CellError& cell) { return cell.largest.chord; });
+  add(arrays::normalAngle, [](const CellError& cell) { return cell.largest.angle; });
+  setFieldValue(output, "GlobalGeometricError", error.global);
+  setFieldValue(output, "GeometricErrorDimension", std::int64_t(error.dimension));
+  setFieldValue(output, "MaximumGeometricDistance", error.largest.distance);
+  setFieldValue(output, "MaximumChordError", error.largest.chord);
+  setFieldValue(output, "MaximumNormalAngle", error.largest.angle);
+}
+
+} // namespace
+
+vtkSmartPointer<vtkPointSet> measureMesh(
+  const StepContext& context, vtkPointSet* input, int recursionDepth)
+{
+  DistributedMesh mesh = makeDistributedMesh(context.exchange, input);
+  Classification classification;
+  attempt(context.exchange,
+    [&] { classification = readClassification(input, mesh.converted.pointOf, context.model); });
+  const MeshError error =
+    measureError(context.exchange, mesh, context.model, classification, recursionDepth);
+
+  recordBalance(context.statistics, "facets", error.balance);
+
+  vtkSmartPointer<vtkPointSet> output = makePointSet(input, mesh.mesh());
+  copyArrays(input, mesh.converted, output);
+  addErrors(output, error);
+  return output;
+}
+
+} // namespace cadrefine

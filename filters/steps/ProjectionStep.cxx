@@ -1,0 +1,74 @@
+#include "ProjectionStep.h"
+
+#include "ArrayTransfer.h"
+#include "Error.h"
+#include "InitialProjection.h"
+#include "MeshSummary.h"
+
+#include <vtkPointSet.h>
+
+#include <algorithm>
+#include <string>
+
+namespace cadrefine
+{
+namespace
+{
+
+ProjectionResult projectCells(
+  const StepContext& context, DistributedMesh& mesh, ProjectionOptions options)
+{
+  const DistributedBoundary boundary = findBoundary(context.exchange, mesh, context.model);
+  const BoundaryProjector projector(context.model, boundary.kind);
+  const std::string warning = warningOfInvalidCells(context.exchange, mesh);
+  options.mendCells = !warning.empty();
+  if (options.mendCells && context.exchange.rank() == 0)
+  {
+    context.warn(warning);
+  }
+  return projectBoundary(context.exchange, mesh, projector, boundary, options);
+}
+
+} // namespace
+
+ProjectionOptions makeProjectionOptions(const double* region, double maximumDistance)
+{
+  ProjectionOptions options;
+  options.maximumDistance = maximumDistance;
+  if (region)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      if (!(region[2 * axis] <= region[2 * axis + 1]))
+      {
+        throw Error("the region is empty (Region): a lower bound is above its upper one");
+      }
+    }
+    std::copy_n(region, 6, options.region.emplace().begin());
+  }
+  return options;
+}
+
+vtkSmartPointer<vtkPointSet> projectMesh(
+  const StepContext& context, vtkPointSet* input, ProjectionOptions options)
+{
+  RankExchange& exchange = context.exchange;
+  DistributedMesh mesh = makeDistributedMesh(exchange, input);
+  const ProjectionResult result = mesh.mesh().dimension == 0
+                                    ? projectPoints(exchange, mesh, context.model, options)
+                                    : projectCells(context, mesh, options);
+
+  recordBalance(context.statistics, "points", result.balance);
+  context.statistics.set("points that gave up", static_cast<double>(result.slowPoints));
+
+  vtkSmartPointer<vtkPointSet> output = makePointSet(input, mesh.mesh());
+  copyArrays(input, mesh.converted, output);
+  writeClassification(output, result.classification);
+  writeConflicts(output, result.conflicts);
+  summariseMesh(exchange, mesh, summariseQuality(exchange, mesh), output);
+  summariseProjection(exchange, mesh, result.classification, result.projectedPoints, output);
+  summariseConflicts(exchange, mesh, result.conflicts, output);
+  return output;
+}
+
+} // namespace cadrefine

@@ -1,0 +1,41 @@
+// What Refine with CAD does with a data set.
+#pragma once
+
+#include "Marking.h"
+#include "StepContext.h"
+
+#include <vtkSmartPointer.h>
+
+#include <cstdint>
+#include <vector>
+
+class vtkPointSet;
+
+namespace cadrefine
+{
+
+struct RefinementOptions
+{
+  bool uniform = false; ///< Cut all edges; else the longest of marked cells.
+  int levels = 1;
+  std::vector<MarkingCriterion> criteria; ///< None: all cells are marked.
+  /// Bisect further until the facets on the CAD of each marked cell are cut.
+  bool cutFacets = false;
+  bool projectNewVertices = true;
+  bool balance = true;
+  /// No level is made that would have more cells of the mesh's own dimension; 0: no limit.
+  std::int64_t maximumCells = 0;
+};
+
+struct RefinementOutcome
+{
+  vtkSmartPointer<vtkPointSet> mesh; ///< Null where the limit forbade the first level.
+  std::int64_t markedCells = 0;      ///< In the last level, over all ranks.
+  bool limited = false;              ///< Not all levels were made.
+};
+
+/// Refines a mesh (see refine and refineOntoCAD). Collective.
+RefinementOutcome refineMesh(
+  const StepContext& context, vtkPointSet* input, const RefinementOptions& options);
+
+} // namespace cadrefine

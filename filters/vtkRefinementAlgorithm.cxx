@@ -1,0 +1,67 @@
+#include "vtkRefinementAlgorithm.h"
+
+#include "CADArrays.h"
+#include "RefinementStep.h"
+
+using cadrefine::MarkingCriterion;
+
+vtkRefinementAlgorithm::vtkRefinementAlgorithm(bool cutFacets)
+  : vtkSimplexMeshAlgorithm(true), CutFacets(cutFacets)
+{
+}
+
+vtkRefinementAlgorithm::~vtkRefinementAlgorithm() = default;
+
+MarkingCriterion vtkRefinementAlgorithm::MakeCriterion(
+  const std::string& array, int strategy, double threshold, double fraction)
+{
+  MarkingCriterion criterion;
+  criterion.array = array == "None" ? "" : array;
+  criterion.strategy = static_cast<MarkingCriterion::Strategy>(strategy);
+  criterion.value = strategy == THRESHOLD ? threshold : fraction;
+  return criterion;
+}
+
+cadrefine::RefinementOptions vtkRefinementAlgorithm::MakeOptions(const MarkingCriterion& own) const
+{
+  cadrefine::RefinementOptions options;
+  options.uniform = this->Method == UNIFORM_BISECTION;
+  const auto add = [&](const MarkingCriterion& criterion)
+  {
+    if (!criterion.array.empty())
+    {
+      options.criteria.push_back(criterion);
+    }
+  };
+  add(own);
+  add(MakeCriterion(this->IndicatorArray, this->IndicatorMarking, this->IndicatorThreshold,
+    this->IndicatorFraction));
+  for (const auto& [array, limit] :
+    { std::pair(cadrefine::arrays::chordError, this->ChordTolerance),
+      std::pair(cadrefine::arrays::normalAngle, this->NormalAngle) })
+  {
+    if (limit > 0)
+    {
+      add(MakeCriterion(array, THRESHOLD, limit, 0));
+    }
+  }
+  options.cutFacets = this->CutFacets;
+  options.projectNewVertices = this->ProjectNewVertices;
+  options.balance = this->Balance;
+  return options;
+}
+
+void vtkRefinementAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Method: " << this->Method << "\n";
+  os << indent << "IndicatorArray: " << this->IndicatorArray << "\n";
+  os << indent << "IndicatorMarking: " << this->IndicatorMarking << "\n";
+  os << indent << "IndicatorThreshold: " << this->IndicatorThreshold << "\n";
+  os << indent << "IndicatorFraction: " << this->IndicatorFraction << "\n";
+  os << indent << "ChordTolerance: " << this->ChordTolerance << "\n";
+  os << indent << "NormalAngle: " << this->NormalAngle << "\n";
+  os << indent << "CutFacets: " << this->CutFacets << "\n";
+  os << indent << "ProjectNewVertices: " << this->ProjectNewVertices << "\n";
+  os << indent << "Balance: " << this->Balance << "\n";
+}

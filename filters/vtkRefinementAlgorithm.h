@@ -1,0 +1,139 @@
+/**
+ * @class vtkRefinementAlgorithm
+ * @brief common base of the filters that refine a mesh on the CAD
+ *
+ * Holds what they have in common: how cells are cut, which of them beside those that the subclass
+ * marks, and what becomes of new vertices. A cell is refined if any of the criteria marks it. All
+ * are taken over all ranks, and mark the same cells on any number of them.
+ */
+#ifndef vtkRefinementAlgorithm_h
+#define vtkRefinementAlgorithm_h
+
+#include "CADRefineFiltersModule.h"
+#include "vtkSimplexMeshAlgorithm.h"
+
+#include <string>
+
+namespace cadrefine
+{
+struct MarkingCriterion;
+struct RefinementOptions;
+} // namespace cadrefine
+
+class CADREFINEFILTERS_EXPORT vtkRefinementAlgorithm : public vtkSimplexMeshAlgorithm
+{
+public:
+  vtkTypeMacro(vtkRefinementAlgorithm, vtkSimplexMeshAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  enum RefinementMethod
+  {
+    LONGEST_EDGE_BISECTION = 0,
+    UNIFORM_BISECTION = 1
+  };
+
+  enum MarkingStrategy
+  {
+    THRESHOLD = 0,           ///< Cells whose value is larger than a threshold.
+    FRACTION_OF_LARGEST = 1, ///< Cells whose value is at least this part of the largest one.
+    BULK = 2                 ///< The fewest cells that carry this part of the sum (W. Doerfler).
+  };
+
+  ///@{
+  /**
+   * LONGEST_EDGE_BISECTION (default) of the marked cells, or UNIFORM_BISECTION: 4 triangles, 8
+   * tetrahedra for each marked or unmarked cell.
+   */
+  vtkSetClampMacro(Method, int, LONGEST_EDGE_BISECTION, UNIFORM_BISECTION);
+  vtkGetMacro(Method, int);
+  ///@}
+
+  ///@{
+  /**
+   * A solver's error indicator: a cell array with one component that marks cells too, by
+   * IndicatorMarking (default THRESHOLD) and IndicatorThreshold (default 0) or IndicatorFraction
+   * (default 0.5, above 0 and at most 1; of values that are not negative). Empty (default): none.
+   */
+  vtkSetMacro(IndicatorArray, std::string);
+  vtkGetMacro(IndicatorArray, std::string);
+  vtkSetClampMacro(IndicatorMarking, int, THRESHOLD, BULK);
+  vtkGetMacro(IndicatorMarking, int);
+  vtkSetMacro(IndicatorThreshold, double);
+  vtkGetMacro(IndicatorThreshold, double);
+  vtkSetMacro(IndicatorFraction, double);
+  vtkGetMacro(IndicatorFraction, double);
+  ///@}
+
+  ///@{
+  /**
+   * Size that follows the CAD, by the arrays ChordError and NormalAngle of vtkCADGeometricError:
+   * cells with an edge on the CAD whose middle is farther from the CAD than ChordTolerance, and
+   * with a facet that makes more than NormalAngle degrees with a neighbour (across no crease) are
+   * marked too. Default 0 for both: not used.
+   */
+  vtkSetClampMacro(ChordTolerance, double, 0, VTK_DOUBLE_MAX);
+  vtkGetMacro(ChordTolerance, double);
+  vtkSetClampMacro(NormalAngle, double, 0, 180);
+  vtkGetMacro(NormalAngle, double);
+  ///@}
+
+  ///@{
+  /**
+   * Whether marked cells are bisected until their facets on the CAD are cut: the longest edge of a
+   * cell may be inside the mesh, and cutting it there alone does not lower the geometric error.
+   */
+  vtkSetMacro(CutFacets, bool);
+  vtkGetMacro(CutFacets, bool);
+  vtkBooleanMacro(CutFacets, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Whether new boundary vertices are put onto the CAD; off: they stay in the middle of their edge
+   * (classified, with their CADDistance, if the mesh was projected). Default on.
+   */
+  vtkSetMacro(ProjectNewVertices, bool);
+  vtkGetMacro(ProjectNewVertices, bool);
+  vtkBooleanMacro(ProjectNewVertices, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Whether the cells are first redistributed over the ranks, by the number of cells that the first
+   * level will make of them. Default on.
+   */
+  vtkSetMacro(Balance, bool);
+  vtkGetMacro(Balance, bool);
+  vtkBooleanMacro(Balance, bool);
+  ///@}
+
+protected:
+  /// `cutFacets`: default of CutFacets.
+  explicit vtkRefinementAlgorithm(bool cutFacets);
+  ~vtkRefinementAlgorithm() override;
+
+  /// The properties of this class, for one level; the criterion `own` of the subclass joins those
+  /// of this class, if it names an array.
+  cadrefine::RefinementOptions MakeOptions(const cadrefine::MarkingCriterion& own) const;
+
+  /// Criterion on an array ("" and "None", the panel's entry for no array: none).
+  static cadrefine::MarkingCriterion MakeCriterion(
+    const std::string& array, int strategy, double threshold, double fraction);
+
+private:
+  vtkRefinementAlgorithm(const vtkRefinementAlgorithm&) = delete;
+  void operator=(const vtkRefinementAlgorithm&) = delete;
+
+  int Method = LONGEST_EDGE_BISECTION;
+  std::string IndicatorArray;
+  int IndicatorMarking = THRESHOLD;
+  double IndicatorThreshold = 0;
+  double IndicatorFraction = 0.5;
+  double ChordTolerance = 0;
+  double NormalAngle = 0;
+  bool CutFacets;
+  bool ProjectNewVertices = true;
+  bool Balance = true;
+};
+
+#endif
