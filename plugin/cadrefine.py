@@ -16,7 +16,6 @@ import cadrefine_options
 import cadrefine_pictures as pictures
 import cadrefine_report as reporting
 import cadrefine_session as session
-from cadrefine_options import METHODS
 from cadrefine_pipeline import Pipeline
 from cadrefine_session import Failure
 
@@ -56,7 +55,7 @@ def run(options, started):
         report.stopped = reason_to_stop(options, method, report.steps[-1], pipeline)
         if report.stopped:
             break
-        pipeline.refine(options, method, METHODS[method])
+        pipeline.refine(options, method)
         pipeline.measure(options)
         report.add_step(method, pipeline)
     report.finish(pipeline, time.perf_counter() - started)

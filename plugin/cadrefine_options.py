@@ -5,10 +5,10 @@ import math
 
 import cadrefine_pictures as pictures
 import cadrefine_session as session
+from cadrefine_pipeline import METHODS, STRATEGIES
 from cadrefine_session import Failure
 
 DEEPEST = 8  # Recursion depth that CADGeometricError takes.
-METHODS = {"longest-edge": "Longest Edge Bisection", "uniform": "Uniform Bisection"}
 
 
 def parse(arguments, description):
@@ -33,17 +33,29 @@ def option_parser(description):
     steps.add_argument("--steps", type=natural, default=3, metavar="N", help="refinement steps (default 3)")
     steps.add_argument("--method", choices=list(METHODS), default="longest-edge",
                        help="of --steps: bisect the marked cells at their longest edge (default), or all cells")
-    steps.add_argument("--threshold", type=number, metavar="E",
-                       help="longest-edge: mark cells whose geometric error is larger (default: all cells)")
-    steps.add_argument("--indicator", metavar="ARRAY", help="longest-edge: mark cells by this cell array too")
-    steps.add_argument("--indicator-threshold", type=number, metavar="E", help="those whose value is larger")
     steps.add_argument("--maximum-cells", type=natural, metavar="N", help="stop before there are more cells")
     steps.add_argument("--target-error", type=number, metavar="E", help="stop at this global geometric error")
+
+    marking = parser.add_argument_group("marking (longest-edge; a cell that any of these marks; default: all cells)")
+    marking.add_argument("--threshold", type=number, metavar="E", help="by the geometric error, those where it is larger")
+    marking.add_argument("--marking", choices=list(STRATEGIES), default="threshold",
+                         help="what --threshold is: a bound (default), a part of the largest error, from which on cells "
+                         "are marked, or a part of the sum, which the fewest cells shall carry (bulk, Doerfler)")
+    marking.add_argument("--indicator", metavar="ARRAY", help="by this cell array, a solver's error indicator")
+    marking.add_argument("--indicator-threshold", type=number, metavar="E", help="those whose value is larger")
+    marking.add_argument("--indicator-marking", choices=list(STRATEGIES), default="threshold",
+                         help="what --indicator-threshold is, as for --marking")
+    marking.add_argument("--chord-tolerance", type=limit, default=0.0, metavar="D",
+                         help="those with an edge on the CAD whose middle is farther from it")
+    marking.add_argument("--normal-angle", type=limit, default=0.0, metavar="DEGREES",
+                         help="those with a facet that makes a larger angle with a neighbour, across no crease")
+    marking.add_argument("--cut-facets", action="store_true",
+                         help="bisect marked cells until their facets on the CAD are cut")
 
     geometry = parser.add_argument_group("geometry")
     geometry.add_argument("--region", type=number, nargs=6, metavar=("X0", "X1", "Y0", "Y1", "Z0", "Z1"),
                           help="project only vertices inside this box, X0 <= X1, Y0 <= Y1, Z0 <= Z1")
-    geometry.add_argument("--maximum-distance", type=distance, default=0.0, metavar="D",
+    geometry.add_argument("--maximum-distance", type=limit, default=0.0, metavar="D",
                           help="leave vertices that are farther from the CAD, 0 or more (default 0: automatic)")
     geometry.add_argument("--recursion-depth", type=depth, default=1, metavar="K",
                           help=f"of the error, 1 to {DEEPEST} (default 1)")
@@ -84,7 +96,7 @@ def number(text):
     return value
 
 
-def distance(text):
+def limit(text):
     value = number(text)
     if value < 0:
         raise argparse.ArgumentTypeError(f"{text} is not a number of 0 or more")
@@ -98,10 +110,19 @@ def check_box(name, box):
             raise Failure(f"{name}: the box is empty, since {axis}0 is {lower:g} and {axis}1 is {upper:g}")
 
 
+def check_fraction(name, strategy, value):
+    if strategy != "threshold" and value is not None and not 0 < value <= 1:
+        raise Failure(f"{name}: {value:g} is not a part above 0 and at most 1")
+
+
 def check(options):
     """Finds what is wrong before any work is done."""
     if (options.indicator is None) != (options.indicator_threshold is None):
         raise Failure("--indicator and --indicator-threshold go together")
+    if options.marking != "threshold" and options.threshold is None:
+        raise Failure(f"--marking {options.marking} needs a --threshold")
+    check_fraction("--threshold", options.marking, options.threshold)
+    check_fraction("--indicator-threshold", options.indicator_marking, options.indicator_threshold)
     check_box("--region", options.region)
     check_box("--focus", options.focus)
     for path in (options.mesh, options.cad, options.compare_report):

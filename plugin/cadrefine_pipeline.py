@@ -16,7 +16,9 @@ import cadrefine_session as session
 from cadrefine_merge import merged_grid
 from cadrefine_session import Failure
 
-MARKING = "CADRefineMarking"
+# Names on the command line, and those of the filters.
+METHODS = {"longest-edge": "Longest Edge Bisection", "uniform": "Uniform Bisection"}
+STRATEGIES = {"threshold": "Threshold", "fraction": "Fraction of Largest", "bulk": "Bulk"}
 
 # paraview.simple names the filters after their labels: ProjectOntoCAD, "Project onto CAD", is ProjectontoCAD there.
 
@@ -50,45 +52,53 @@ class Pipeline:
         self.mesh = simple.CADGeometricError(Input=self.mesh, CAD=self.cad, RecursionDepth=options.recursion_depth)
         self.run("error")
 
-    def refine(self, options, method, method_name):
+    def refine(self, options, method):
         self.start_step()
-        marking, threshold = self.marking(options) if method == "longest-edge" else (None, 0.0)
-        self.mesh = simple.RefinewithCAD(Input=self.mesh, CAD=self.cad)
-        self.mesh.Method = method_name
+        self.mesh = simple.RefinewithCAD(Input=self.mesh, CAD=self.cad, MarkingArray="None", IndicatorArray="None")
+        self.mesh.Method = METHODS[method]
         self.mesh.ProjectNewVertices = 0 if options.no_cad else 1
-        self.mesh.MarkingArray = marking or "None"
-        self.mesh.Threshold = threshold
+        if method == "longest-edge":
+            self.mark(options)
         self.run("refine")
 
     def start_step(self):
         self.seconds.update(project=0.0, error=0.0, refine=0.0)
         self.costs = {}
 
-    def marking(self, options):
-        """Name of the cell array that marks the cells, and its threshold; a calculator joins two indicators."""
-        if options.indicator is None:
-            return ("GeometricError" if options.threshold is not None else None), options.threshold or 0.0
-        if options.threshold is None:
-            return options.indicator, options.indicator_threshold
-        self.mesh = simple.Calculator(Input=self.mesh, AttributeType="Cell Data", ResultArrayName=MARKING)
-        self.mesh.Function = (f'if("GeometricError" > {options.threshold!r}, 1, 0) + '
-                              f'if("{options.indicator}" > {options.indicator_threshold!r}, 1, 0)')
-        session.update(self.mesh, self.mesh_path)
-        return MARKING, 0.0
+    def mark(self, options):
+        """Sets by what the last filter, a refinement, marks cells."""
+        mesh = self.mesh
+        if options.threshold is not None:
+            mesh.MarkingArray = "GeometricError"
+            mesh.Marking = STRATEGIES[options.marking]
+            mesh.Threshold = options.threshold
+            mesh.Fraction = options.threshold
+        if options.indicator is not None:
+            mesh.IndicatorArray = options.indicator
+            mesh.IndicatorMarking = STRATEGIES[options.indicator_marking]
+            mesh.IndicatorThreshold = options.indicator_threshold
+            mesh.IndicatorFraction = options.indicator_threshold
+        mesh.ChordTolerance = options.chord_tolerance
+        mesh.NormalAngle = options.normal_angle
+        mesh.CutFacets = int(options.cut_facets)
 
     def marks_anything(self, options):
         """False where every cell of the last mesh is below the thresholds."""
-        if options.threshold is None and options.indicator is None:
-            return True
-        marked = False
-        for name, threshold in (("GeometricError", options.threshold),
-                                (options.indicator, options.indicator_threshold)):
-            if threshold is not None:
-                array = self.mesh.CellData[name]
-                if array is None:
-                    raise Failure(f"{self.mesh_path}: there is no cell array {name}")
-                marked = marked or array.GetRange(0)[1] > threshold
-        return marked
+        criteria = [(name, bound if strategy == "threshold" else 0.0)
+                    for name, strategy, bound in (
+                        ("GeometricError", options.marking, options.threshold),
+                        (options.indicator, options.indicator_marking, options.indicator_threshold),
+                        ("ChordError", "threshold", options.chord_tolerance or None),
+                        ("NormalAngle", "threshold", options.normal_angle or None))
+                    if bound is not None]
+        return not criteria or any(self.largest(name) > bound for name, bound in criteria)
+
+    def largest(self, name):
+        """Of a cell array of the last mesh, over all ranks."""
+        array = self.mesh.CellData[name]
+        if array is None:
+            raise Failure(f"{self.mesh_path}: there is no cell array {name}")
+        return array.GetRange(0)[1]
 
     def children_per_cell(self):
         return 2 ** self.values["MeshDimension"]

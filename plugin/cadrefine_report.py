@@ -32,6 +32,8 @@ STEP_VALUES = {  # Key of the step, field data of the mesh.
     "invalid_cells": "InvalidCells",
     "unprojected_vertices": "UnprojectedVertices",
     "minimum_quality": "MinimumQuality",
+    "maximum_chord_error": "MaximumChordError",
+    "maximum_normal_angle": "MaximumNormalAngle",
 }
 
 ERROR_MEASURES = {2: "area", 3: "volume"}

@@ -131,6 +131,7 @@ private:
     }
     const auto marks = markCells(exchange_, mesh_, arrays_, options_.criteria);
     markedCells_ = exchange_.sum(std::count(marks.begin(), marks.end(), 1));
+    context_.statistics.set("marked cells", static_cast<double>(markedCells_));
     plan_ = planLongestEdge(exchange_, mesh_, marks, toCut);
   }
 

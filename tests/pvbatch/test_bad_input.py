@@ -104,6 +104,7 @@ class BadInput(unittest.TestCase):
     def test_values_out_of_range(self):
         """Are told before anything is read: there are no such files."""
         for option, values in (("--recursion-depth", ["9"]), ("--maximum-distance", ["-1"]), ("--threshold", ["nan"]),
+                               ("--threshold", ["2", "--marking", "bulk"]), ("--normal-angle", ["-3"]),
                                ("--region", ["0", "1", "1", "0", "0", "1"])):
             with self.subTest(option, values=values):
                 self.assert_fails("none.vtu", "none.igs", option, *values, names=option + ": ")

@@ -106,6 +106,19 @@ class Driver(unittest.TestCase):
         self.assertEqual(report["steps"][1]["cells"], 4 * len(triangles))
         self.assertTrue(os.path.isfile(plot))
 
+    def test_marking(self):
+        """Bulk marking lowers the error with each step, if facets are cut; sizes are reached."""
+        options = "--marking", "bulk", "--threshold", "0.5", "--cut-facets"
+        steps = driver.report_of(RANKS, *WING, *options)["steps"]
+        for coarse, fine in zip(steps, steps[1:]):
+            self.assertLess(fine["global_error"], 0.9 * coarse["global_error"])
+            self.assertGreater(fine["costs"]["refine"]["marked cells"], 0)
+        report = driver.report_of(RANKS, *WING, "--chord-tolerance", "4e-3", "--normal-angle", "40", "--cut-facets",
+                                  "--steps", "20")
+        self.assertIn("no cell is marked", report["stopped"])
+        self.assertLessEqual(report["steps"][-1]["maximum_chord_error"], 4e-3)
+        self.assertLessEqual(report["steps"][-1]["maximum_normal_angle"], 40)
+
     def test_conflicts(self):
         path = self.path("report.json")
         case = driver.data("naca0012_blunt_coarse.vtu"), WING[1]  # The mesh has an edge more than the CAD.
