@@ -15,14 +15,6 @@ double degreesBetween(const Vector3& a, const Vector3& b)
   return vtkMath::DegreesFromRadians(std::atan2(norm(cross(a, b)), dot(a, b)));
 }
 
-/// Whether the surface may be expected to be smooth across a mesh edge of this class.
-bool isSmooth(const EdgeClass& edgeClass, const CADModel& model)
-{
-  return edgeClass.kind == EdgeClass::Smooth ||
-         (edgeClass.kind == EdgeClass::OnEdge && edgeClass.edge >= 0 &&
-           !model.nurbs().edges[edgeClass.edge].sharp);
-}
-
 std::vector<double> anglesAtEdges(const ClassifiedBoundary& classified)
 {
   const auto& ofEdges = classified.classes.facetsAtEdges;
@@ -85,6 +77,13 @@ std::vector<double> anglesAtVertices(RankExchange& exchange, const DistributedMe
 }
 
 } // namespace
+
+bool isSmooth(const EdgeClass& edgeClass, const CADModel& model)
+{
+  return edgeClass.kind == EdgeClass::Smooth ||
+         (edgeClass.kind == EdgeClass::OnEdge && edgeClass.edge >= 0 &&
+           !model.nurbs().edges[edgeClass.edge].sharp);
+}
 
 std::vector<double> neighbourAngles(RankExchange& exchange, const DistributedMesh& mesh,
   const ClassifiedBoundary& classified, const Classification& classification)

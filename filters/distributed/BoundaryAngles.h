@@ -8,6 +8,9 @@
 namespace cadrefine
 {
 
+/// Whether the surface may be expected to be smooth across a mesh edge of this class.
+bool isSmooth(const EdgeClass& edgeClass, const CADModel& model);
+
 /// For each facet on the CAD the largest angle, in degrees, between its normal and that of a
 /// neighbour on the CAD, across edges that lie on no crease of the CAD; for segments across
 /// vertices that lie on no CAD vertex. 0 for other facets, and where more than two meet.

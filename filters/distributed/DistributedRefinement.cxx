@@ -4,6 +4,7 @@
 #include "DistributedBoundary.h"
 #include "DistributedMoves.h"
 #include "EvenWork.h"
+#include "FacetMarking.h"
 #include "GlobalNumbering.h"
 #include "LargeMemory.h"
 #include "VertexNumbering.h"
@@ -40,32 +41,6 @@ std::vector<Index> combineMarks(RankExchange& exchange, RefinementPlan& plan)
     std::remove_if(fresh.begin(), fresh.end(), [&](Index edge) { return !plan.marks[edge]; }),
     fresh.end());
   return fresh;
-}
-
-/// Marks the longest edge of each facet on the CAD of a marked cell.
-void markFacets(const ClassifiedBoundary& classified, const std::vector<unsigned char>& cellMarks,
-  RefinementPlan& plan)
-{
-  const DistributedBoundary& boundary = classified.boundary;
-  const EdgeOrder order(plan.table);
-  for (std::size_t f = 0; f < boundary.facets.size(); ++f)
-  {
-    if (!classified.classes.facetOnCAD[f] || !cellMarks[boundary.facets[f].cell])
-    {
-      continue;
-    }
-    Index longest = -1;
-    for (const Index e : boundary.facetEdges[f])
-    {
-      if (e >= 0)
-      {
-        const auto& [a, b] = boundary.edges.edges()[e];
-        const Index edge = plan.table.find(a, b);
-        longest = longest < 0 || order.longer(edge, longest) ? edge : longest;
-      }
-    }
-    plan.marks[longest] = 1;
-  }
 }
 
 std::vector<GlobalId> numberNewVertices(RankExchange& exchange, DistributedMesh& mesh,
@@ -296,14 +271,15 @@ RefinementPlan planUniform(RankExchange& exchange, const DistributedMesh& mesh)
 }
 
 RefinementPlan planLongestEdge(RankExchange& exchange, const DistributedMesh& mesh,
-  const std::vector<unsigned char>& cellMarks, const ClassifiedBoundary* toCut)
+  const std::vector<unsigned char>& cellMarks, const FacetsToCut* toCut)
 {
   RefinementPlan plan = makePlan(exchange, mesh);
   plan.marks.assign(plan.table.edges.size(), 0);
   markLongestEdges(mesh.mesh(), plan.table, cellMarks, plan.marks);
   if (toCut)
   {
-    markFacets(*toCut, cellMarks, plan);
+    markFacets(
+      mesh.mesh(), toCut->boundary, toCut->classification, plan.table, cellMarks, plan.marks);
   }
   combineMarks(exchange, plan);
   MarkClosure closure(plan.table, plan.marks);

@@ -27,15 +27,19 @@ struct RefinementPlan
 /// Marks all edges. Collective.
 RefinementPlan planUniform(RankExchange& exchange, const DistributedMesh& mesh);
 
+/// The boundary of a mesh whose marked cells' facets are to be cut.
+struct FacetsToCut
+{
+  const ClassifiedBoundary& boundary;
+  const Classification& classification;
+};
+
 /// Marks the longest edges of the marked cells (one entry for each cell of the mesh's own
-/// dimension), and others until no vertex hangs on any rank. With `toCut`, the boundary of the
-/// mesh, also the longest edges of the marked cells' facets on the CAD: where a cell's longest edge
-/// is inside the mesh, bisecting it there leaves its facets, and their geometric error, as they
-/// were (S. Strunk, KTH 2013, chapter 5). The cell is then bisected on, first at its longest edge,
-/// as in skeleton based refinement (see LongestEdgeMarking.h). Collective; one message to each
+/// dimension), with `toCut` also those of markFacets, and others until no vertex hangs on any rank.
+/// A cell is bisected at the longest of its marked edges first. Collective; one message to each
 /// neighbour, of a byte a shared edge, for every time that marks cross between ranks.
 RefinementPlan planLongestEdge(RankExchange& exchange, const DistributedMesh& mesh,
-  const std::vector<unsigned char>& cellMarks, const ClassifiedBoundary* toCut);
+  const std::vector<unsigned char>& cellMarks, const FacetsToCut* toCut);
 
 /// How many cells `refine` makes of each cell.
 ChildRanges countChildren(const SimplexMesh& mesh, const RefinementPlan& plan);

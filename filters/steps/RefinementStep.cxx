@@ -121,7 +121,11 @@ private:
   void makePlan()
   {
     const bool cutFacets = options_.cutFacets && classified_ && !options_.uniform;
-    const ClassifiedBoundary* toCut = cutFacets ? &boundary() : nullptr;
+    std::optional<FacetsToCut> toCut;
+    if (cutFacets)
+    {
+      toCut.emplace(FacetsToCut{ boundary(), positions_ });
+    }
     const auto stopwatch = watch("seconds marking");
     if (options_.uniform)
     {
@@ -132,7 +136,7 @@ private:
     const auto marks = markCells(exchange_, mesh_, arrays_, options_.criteria);
     markedCells_ = exchange_.sum(std::count(marks.begin(), marks.end(), 1));
     context_.statistics.set("marked cells", static_cast<double>(markedCells_));
-    plan_ = planLongestEdge(exchange_, mesh_, marks, toCut);
+    plan_ = planLongestEdge(exchange_, mesh_, marks, toCut ? &*toCut : nullptr);
   }
 
   /// Cells that the plan makes of each cell, in the order of makePointSet.

@@ -190,7 +190,8 @@ void MoveGuard::guard(const Simplices<Corners>& cells, const std::vector<Index>&
       guarded.before = stateOf(cell, mesh_.points, guarded.side); // once mended, it stays so
     }
     const double quality = guarded.before.quality;
-    guarded.leastQuality = guarded.before.valid ? std::min(qualityFloor, 0.5 * quality) : quality;
+    const double half = std::clamp(0.5 * quality, lowestQuality, qualityFloor);
+    guarded.leastQuality = guarded.before.valid ? std::min(half, quality) : quality;
   };
   forEachIndex(parallelFor_, guarded_.size(), fineGrain, [&](std::size_t i) { look(guarded_[i]); });
 }

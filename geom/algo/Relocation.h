@@ -46,16 +46,18 @@ CellState stateOf(
 /// Keeps cells valid while their vertices move, from a mesh whose points are the starting state.
 ///
 /// A cell that is valid accepts moves after which it is valid by exact orientation and its mean
-/// ratio is above the smaller of `qualityFloor` and half of what it was in the reference state; one
-/// that is inverted or flat, if it gets no worse. With the state before all moves as reference, no
-/// number of moves in a row wears cells down. Halving the way of the vertices of every cell that
-/// does not accept, at once and until all do, ends in a state that does not depend on the order of
-/// cells: the unmoved state is accepted by all. Over ranks take the minimum of the fractions of
-/// shared vertices after each sweep, until no rank changes any.
+/// ratio is at least half of what it was in the reference state, but not below `lowestQuality`, or
+/// at least `qualityFloor`; one that is worse than that, inverted or flat, if it gets no worse.
+/// With the state before all moves as reference, no number of moves in a row wears cells down.
+/// Halving the way of the vertices of every cell that does not accept, at once and until all do,
+/// ends in a state that does not depend on the order of cells: the unmoved state is accepted by
+/// all. Over ranks take the minimum of the fractions of shared vertices after each sweep, until no
+/// rank changes any.
 class MoveGuard
 {
 public:
   static constexpr double qualityFloor = 0.05;
+  static constexpr double lowestQuality = 0.001;
   static constexpr int maximumHalvings = 12;
 
   /// For these moves; the starting state is the reference.

@@ -126,6 +126,20 @@ TEST_P(Apex, ofAPoorCellMovesAsLongAsItKeepsHalfOfItsQuality)
   EXPECT_GE(qualityAfter(mesh, flat), 0.5 * before);
 }
 
+/// Nor must moves in many steps make it ever worse.
+TEST_P(Apex, ofAnAlmostFlatCellDoesNotMakeItFlatter)
+{
+  SimplexMesh mesh = cell(1e-3);
+  double before = qualityAfter(mesh, Moves(mesh));
+  for (int step = 0; step < 40; ++step)
+  {
+    Moves flat = move(mesh, 0);
+    settle(mesh, flat);
+    mesh.points[GetParam()] = flat.position(mesh, GetParam());
+  }
+  EXPECT_GE(qualityAfter(mesh, Moves(mesh)), std::min(before, MoveGuard::lowestQuality));
+}
+
 TEST(MoveGuard, letsAnInvertedTetrahedronBecomeValid)
 {
   const SimplexMesh mesh =

@@ -1,0 +1,26 @@
+// Marks that cut the facets of cells.
+#pragma once
+
+#include "DistributedBoundary.h"
+#include "EdgeTable.h"
+#include "LongestEdgeMarking.h"
+
+#include <vector>
+
+namespace cadrefine
+{
+
+/// Marks edges of the marked cells (one entry in `cellMarks` for each cell of the mesh's own
+/// dimension), so that their facets on the CAD are cut well:
+///   - the longest edge of each facet on the CAD. Where a cell's longest edge is inside the mesh,
+///     bisecting it there leaves its facets, and their geometric error, as they were (S. Strunk,
+///     KTH 2013, chapter 5);
+///   - between two facets that meet where the CAD is smooth, the edge opposite to where they meet.
+///     Otherwise some child would have two such facets again, and become as flat as the CAD is
+///     between them; the new vertex is inside the mesh, and can move away from the CAD.
+/// Work: linear in the facets.
+void markFacets(const SimplexMesh& mesh, const ClassifiedBoundary& classified,
+  const Classification& classification, const EdgeTable& table,
+  const std::vector<unsigned char>& cellMarks, EdgeMarks& marks);
+
+} // namespace cadrefine
