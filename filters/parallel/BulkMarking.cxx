@@ -3,7 +3,9 @@
 #include "FixedPointSum.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <limits>
 #include <numeric>
 
 namespace cadrefine
@@ -91,17 +93,23 @@ std::vector<unsigned char> markBulk(RankExchange& exchange, const std::vector<do
   const std::vector<std::int64_t>& ids, double fraction)
 {
   std::vector<unsigned char> marks(values.size());
-  const double target = fraction * exchange.sumReproducibly(values);
-  if (target <= 0)
+  const std::int64_t exponent = exchange.max(FixedPointSum::exponentOf(values));
+  if (exponent == FixedPointSum::allZero)
   {
     return marks;
   }
-  const FixedPointSum nothing(exchange.max(FixedPointSum::exponentOf(values)));
+  // In [0, 1), so that neither their sum nor a part of it leaves the range of doubles.
+  std::vector<double> weights(values.size());
+  std::transform(values.begin(), values.end(), weights.begin(),
+    [&](double value) { return std::scalbn(value, static_cast<int>(-exponent)); });
+  const double target = std::max(
+    fraction * exchange.sumReproducibly(weights), std::numeric_limits<double>::denorm_min());
+  const FixedPointSum nothing(0);
   std::vector<Key> keys(values.size());
   std::transform(values.begin(), values.end(), keys.begin(), keyOf);
   std::vector<std::size_t> all(values.size());
   std::iota(all.begin(), all.end(), std::size_t{ 0 });
-  const Cut cut = findCut(exchange, keys, values, std::move(all), nothing, target);
+  const Cut cut = findCut(exchange, keys, weights, std::move(all), nothing, target);
 
   std::vector<std::size_t> ties;
   for (std::size_t i = 0; i < keys.size(); ++i)
@@ -116,7 +124,7 @@ std::vector<unsigned char> markBulk(RankExchange& exchange, const std::vector<do
   std::vector<Key> idKeys(ids.size());
   std::transform(
     ids.begin(), ids.end(), idKeys.begin(), [](std::int64_t id) { return ~static_cast<Key>(id); });
-  const Cut last = findCut(exchange, idKeys, values, ties, cut.above, target);
+  const Cut last = findCut(exchange, idKeys, weights, ties, cut.above, target);
   for (const std::size_t i : ties)
   {
     marks[i] = idKeys[i] >= last.key;
