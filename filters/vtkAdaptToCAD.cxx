@@ -72,7 +72,7 @@ void vtkAdaptToCAD::Execute(cadrefine::RankExchange& exchange, vtkPointSet* inpu
   observer.progress = [this](int steps)
   {
     this->SetProgressText(("Step " + std::to_string(steps + 1)).c_str());
-    this->UpdateProgress(static_cast<double>(steps) / (this->MaximumSteps + 1));
+    this->UpdateProgress(steps / (1.0 + this->MaximumSteps));
   };
   observer.isInterrupted = [this] { return this->GetAbortExecute() != 0; };
   const cadrefine::AdaptationResult result =
