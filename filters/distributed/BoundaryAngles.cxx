@@ -1,5 +1,7 @@
 #include "BoundaryAngles.h"
 
+#include "Quality.h"
+
 #include <vtkMath.h>
 
 #include <algorithm>
@@ -10,70 +12,74 @@ namespace cadrefine
 namespace
 {
 
-double degreesBetween(const Vector3& a, const Vector3& b)
+/// The facets on the CAD that meet at an edge or (segments) at a vertex.
+struct Meeting
 {
-  return vtkMath::DegreesFromRadians(std::atan2(norm(cross(a, b)), dot(a, b)));
-}
-
-std::vector<double> anglesAtEdges(const ClassifiedBoundary& classified)
-{
-  const auto& ofEdges = classified.classes.facetsAtEdges;
-  std::vector<double> angles(ofEdges.size(), 0.0);
-  for (std::size_t e = 0; e < ofEdges.size(); ++e)
-  {
-    const auto& facets = ofEdges[e];
-    if (facets.size() == 2 && facets[0].onCAD && facets[1].onCAD &&
-        isSmooth(classified.classes.ofEdges[e], classified.projector.model()))
-    {
-      const double angle = degreesBetween(facets[0].normal, facets[1].normal);
-      angles[e] = classified.boundary.ofSurface ? std::min(angle, 180 - angle) : angle;
-    }
-  }
-  return angles;
-}
-
-/// The segments on the CAD that end and start at a vertex.
-struct Passage
-{
-  Vector3 in{};
-  Vector3 out{};
-  int ins = 0;
-  int outs = 0;
+  Vector3 sum{}; ///< Of the unit vectors from there into each facet.
+  int facets = 0;
 };
 
-Passage joined(const Passage& a, const Passage& b)
+Meeting joined(const Meeting& a, const Meeting& b)
 {
-  return { a.in + b.in, a.out + b.out, a.ins + b.ins, a.outs + b.outs };
+  return { a.sum + b.sum, a.facets + b.facets };
 }
 
-std::vector<double> anglesAtVertices(RankExchange& exchange, const DistributedMesh& mesh,
-  const ClassifiedBoundary& classified, const Classification& classification)
+/// The degrees by which the mesh turns there. Two facets in a row add up to zero, whichever way
+/// each of them is turned; unit vectors u, v have |u + v| = 2 sin(angle(u, -v) / 2).
+double angleAt(const Meeting& meeting)
 {
-  const auto& points = mesh.mesh().points;
-  std::vector<Passage> passages(points.size());
-  for (std::size_t f = 0; f < classified.boundary.facets.size(); ++f)
+  return meeting.facets == 2
+           ? vtkMath::DegreesFromRadians(2 * std::asin(std::min(1.0, norm(meeting.sum) / 2)))
+           : 0;
+}
+
+/// A flat triangle has no direction, and does not count.
+Meeting meetingWith(const Vector3& intoFacet)
+{
+  const Vector3 direction = normalized(intoFacet);
+  return { direction, norm(direction) > 0 ? 1 : 0 };
+}
+
+/// Calls `visit` with the place (an edge, of segments a vertex) and the vector into the facet, for
+/// each side of each facet on the CAD.
+template<class Visit>
+void visitSides(
+  const std::vector<Point3>& points, const ClassifiedBoundary& classified, const Visit& visit)
+{
+  const DistributedBoundary& boundary = classified.boundary;
+  for (std::size_t f = 0; f < boundary.facets.size(); ++f)
   {
-    if (classified.classes.facetOnCAD[f])
+    const auto& v = boundary.facets[f].vertices;
+    if (!classified.classes.facetOnCAD[f])
     {
-      const auto& vertices = classified.boundary.facets[f].vertices;
-      const Vector3 along = points[vertices[1]] - points[vertices[0]];
-      Passage& start = passages[vertices[0]];
-      Passage& end = passages[vertices[1]];
-      start = joined(start, { {}, along, 0, 1 });
-      end = joined(end, { along, {}, 1, 0 });
+      continue;
+    }
+    if (boundary.kind == BoundaryKind::Segments)
+    {
+      visit(v[0], points[v[1]] - points[v[0]]);
+      visit(v[1], points[v[0]] - points[v[1]]);
+      continue;
+    }
+    const Vector3 normal = twofoldAreaVector(points[v[0]], points[v[1]], points[v[2]]);
+    for (int k = 0; k < 3; ++k)
+    {
+      visit(boundary.facetEdges[f][k], cross(normal, points[v[(k + 1) % 3]] - points[v[k]]));
     }
   }
-  combineShared(exchange, mesh.shared, passages, joined);
-  std::vector<double> angles(points.size(), 0.0);
-  for (std::size_t v = 0; v < points.size(); ++v)
-  {
-    const Passage& passage = passages[v];
-    if (passage.ins == 1 && passage.outs == 1 && classification.entities[v].dimension != 0)
-    {
-      angles[v] = degreesBetween(passage.in, passage.out);
-    }
-  }
-  return angles;
+}
+
+std::vector<Meeting> findMeetings(
+  RankExchange& exchange, const DistributedMesh& mesh, const ClassifiedBoundary& classified)
+{
+  const DistributedBoundary& boundary = classified.boundary;
+  const bool triangles = boundary.kind == BoundaryKind::Triangles;
+  std::vector<Meeting> meetings(
+    triangles ? boundary.edges.edges().size() : mesh.mesh().points.size());
+  visitSides(mesh.mesh().points, classified,
+    [&](Index place, const Vector3& into)
+    { meetings[place] = joined(meetings[place], meetingWith(into)); });
+  combineShared(exchange, triangles ? boundary.sharedEdges : mesh.shared, meetings, joined);
+  return meetings;
 }
 
 } // namespace
@@ -90,8 +96,12 @@ std::vector<double> neighbourAngles(RankExchange& exchange, const DistributedMes
 {
   const DistributedBoundary& boundary = classified.boundary;
   const bool triangles = boundary.kind == BoundaryKind::Triangles;
-  const auto angles = triangles ? anglesAtEdges(classified)
-                                : anglesAtVertices(exchange, mesh, classified, classification);
+  const auto meetings = findMeetings(exchange, mesh, classified);
+  const auto isSmoothAt = [&](Index place)
+  {
+    return triangles ? isSmooth(classified.classes.ofEdges[place], classified.projector.model())
+                     : classification.entities[place].dimension != 0;
+  };
   std::vector<double> result(boundary.facets.size(), 0.0);
   for (std::size_t f = 0; f < result.size(); ++f)
   {
@@ -100,7 +110,10 @@ std::vector<double> neighbourAngles(RankExchange& exchange, const DistributedMes
       const auto& sides = triangles ? boundary.facetEdges[f] : boundary.facets[f].vertices;
       for (int k = 0; k < boundary.facetCorners(); ++k)
       {
-        result[f] = std::max(result[f], angles[sides[k]]);
+        if (isSmoothAt(sides[k]))
+        {
+          result[f] = std::max(result[f], angleAt(meetings[sides[k]]));
+        }
       }
     }
   }

@@ -11,12 +11,12 @@ namespace cadrefine
 /// Whether the surface may be expected to be smooth across a mesh edge of this class.
 bool isSmooth(const EdgeClass& edgeClass, const CADModel& model);
 
-/// For each facet on the CAD the largest angle, in degrees, between its normal and that of a
-/// neighbour on the CAD, across edges that lie on no crease of the CAD; for segments across
-/// vertices that lie on no CAD vertex. 0 for other facets, and where more than two meet.
+/// For each facet on the CAD the largest angle, in degrees from 0 to 180, by which the mesh turns
+/// from it to a neighbour on the CAD, across edges that lie on no crease of the CAD; for segments
+/// across vertices that lie on no CAD vertex. 0 for other facets, and where more than two meet.
 ///
-/// Of triangles in space, which need not be turned alike, the smaller angle between their planes.
-/// Collective; messages in proportion to the interface between pieces.
+/// Facets need not be turned alike: triangles in space and listed facets inside the mesh are as the
+/// input has them. Collective; messages of 32 bytes for each edge or vertex of the interface.
 std::vector<double> neighbourAngles(RankExchange& exchange, const DistributedMesh& mesh,
   const ClassifiedBoundary& classified, const Classification& classification);
 

@@ -188,14 +188,14 @@ BoundaryClasses classifyBoundary(RankExchange& exchange, const SimplexMesh& mesh
     classes.facetOnCAD[f] = record.onCAD;
   };
   attempt(exchange, [&] { forEachIndex(parallelFor, records.size(), coarseGrain, classifyFacet); });
-  classes.facetsAtEdges = gatherFacetRecords(exchange, boundary, records);
+  const auto ofEdges = gatherFacetRecords(exchange, boundary, records);
   const auto& edges = boundary.edges.edges();
   classes.ofEdges.resize(edges.size());
   const auto classifyEdge = [&](std::size_t e)
   {
     const auto [a, b] = edges[e];
     classes.ofEdges[e] = projector.classify(
-      { mesh.points[a], mesh.points[b] }, { entities[a], entities[b] }, classes.facetsAtEdges[e]);
+      { mesh.points[a], mesh.points[b] }, { entities[a], entities[b] }, ofEdges[e]);
   };
   attempt(exchange, [&] { forEachIndex(parallelFor, edges.size(), coarseGrain, classifyEdge); });
   return classes;

@@ -62,7 +62,6 @@ struct BoundaryClasses
 {
   std::vector<EdgeClass> ofEdges;
   std::vector<unsigned char> facetOnCAD;
-  std::vector<std::vector<FacetRecord>> facetsAtEdges; ///< See gatherFacetRecords.
 };
 
 BoundaryClasses classifyBoundary(RankExchange& exchange, const SimplexMesh& mesh,
