@@ -41,6 +41,8 @@ benchmarks: build ## Measure against other programs: tables of rates and ratios
 	@for ranks in 1 2 4 8; do mpirun --bind-to none -np $$ranks build/release/tests/benchmarks/nose_benchmark \
 	  data/aeroplane.igs data/aeroplane_coarse.vtu 0.05 0.2 -0.25 0.25 -0.2 0.2 || exit; done
 	@/usr/bin/python3 tests/benchmarks/projection.py
+	@/usr/bin/python3 tests/benchmarks/adaptivity.py
+	@/usr/bin/python3 tests/benchmarks/experiments.py
 	@.ci/install-packages python3-dolfin python3-dolfinx
 	@/usr/bin/python3 tests/benchmarks/refinement.py
 

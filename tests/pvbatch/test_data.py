@@ -21,6 +21,7 @@ PROGRAMS = {
     "three_arcs_coarse.vtu": ["three_arcs.py"],
     "part_coarse.vtu": ["solid_mesh.py", "part"],
     "ball_coarse.vtu": ["solid_mesh.py", "ball"],
+    "cylinder_coarse.vtu": ["solid_mesh.py", "cylinder"],
 }
 
 
