@@ -278,8 +278,7 @@ RefinementPlan planLongestEdge(RankExchange& exchange, const DistributedMesh& me
   markLongestEdges(mesh.mesh(), plan.table, cellMarks, plan.marks);
   if (toCut)
   {
-    markFacets(
-      mesh.mesh(), toCut->boundary, toCut->classification, plan.table, cellMarks, plan.marks);
+    markFacets(toCut->boundary, toCut->classification, plan.table, cellMarks, plan.marks);
   }
   combineMarks(exchange, plan);
   MarkClosure closure(plan.table, plan.marks);

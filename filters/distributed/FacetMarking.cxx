@@ -13,10 +13,10 @@ namespace
 class FacetMarking
 {
 public:
-  FacetMarking(const SimplexMesh& mesh, const ClassifiedBoundary& classified,
-    const Classification& classification, const EdgeTable& table, EdgeMarks& marks)
-    : mesh_(mesh), classified_(classified), boundary_(classified.boundary),
-      classification_(classification), table_(table), marks_(marks)
+  FacetMarking(const ClassifiedBoundary& classified, const Classification& classification,
+    const EdgeTable& table, EdgeMarks& marks)
+    : classified_(classified), boundary_(classified.boundary), classification_(classification),
+      table_(table), marks_(marks)
   {
   }
 
@@ -105,7 +105,6 @@ private:
     }
   }
 
-  const SimplexMesh& mesh_;
   const ClassifiedBoundary& classified_;
   const DistributedBoundary& boundary_;
   const Classification& classification_;
@@ -116,11 +115,10 @@ private:
 
 } // namespace
 
-void markFacets(const SimplexMesh& mesh, const ClassifiedBoundary& classified,
-  const Classification& classification, const EdgeTable& table,
-  const std::vector<unsigned char>& cellMarks, EdgeMarks& marks)
+void markFacets(const ClassifiedBoundary& classified, const Classification& classification,
+  const EdgeTable& table, const std::vector<unsigned char>& cellMarks, EdgeMarks& marks)
 {
-  FacetMarking(mesh, classified, classification, table, marks).run(cellMarks);
+  FacetMarking(classified, classification, table, marks).run(cellMarks);
 }
 
 } // namespace cadrefine

@@ -19,8 +19,7 @@ namespace cadrefine
 ///     Otherwise some child would have two such facets again, and become as flat as the CAD is
 ///     between them; the new vertex is inside the mesh, and can move away from the CAD.
 /// Work: linear in the facets.
-void markFacets(const SimplexMesh& mesh, const ClassifiedBoundary& classified,
-  const Classification& classification, const EdgeTable& table,
-  const std::vector<unsigned char>& cellMarks, EdgeMarks& marks);
+void markFacets(const ClassifiedBoundary& classified, const Classification& classification,
+  const EdgeTable& table, const std::vector<unsigned char>& cellMarks, EdgeMarks& marks);
 
 } // namespace cadrefine
