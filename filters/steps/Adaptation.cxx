@@ -74,13 +74,13 @@ private:
   std::string refine()
   {
     const RefinementOutcome refined = refineMesh(context_, mesh_, options_.refinement);
-    if (refined.limited)
-    {
-      return "there would be more cells than allowed (MaximumCells)";
-    }
     if (refined.markedCells == 0)
     {
       return "no cell is marked";
+    }
+    if (refined.limited)
+    {
+      return "there would be more cells than allowed (MaximumCells)";
     }
     ++steps_;
     setMesh(refined.mesh, refined.markedCells);
