@@ -13,9 +13,11 @@
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
+#include <vtkTable.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
+#include <cstring>
 #include <stdexcept>
 
 namespace cadtest
@@ -35,6 +37,28 @@ vtkNew<vtkPoints> pointsOf(const SimplexMesh& mesh)
     points->InsertNextPoint(point.data());
   }
   return points;
+}
+
+/// Whether `b` has the arrays of `a`, and no others, bit for bit.
+testing::AssertionResult compareArrays(vtkFieldData* a, vtkFieldData* b)
+{
+  if (a->GetNumberOfArrays() != b->GetNumberOfArrays())
+  {
+    return testing::AssertionFailure() << "other arrays";
+  }
+  for (int k = 0; k < a->GetNumberOfArrays(); ++k)
+  {
+    vtkDataArray* first = a->GetArray(k);
+    vtkDataArray* second = b->GetArray(first->GetName());
+    const std::size_t bytes = first->GetNumberOfValues() * first->GetDataTypeSize();
+    if (!second || second->GetDataType() != first->GetDataType() ||
+        second->GetNumberOfValues() != first->GetNumberOfValues() ||
+        std::memcmp(first->GetVoidPointer(0), second->GetVoidPointer(0), bytes) != 0)
+    {
+      return testing::AssertionFailure() << "another array " << first->GetName();
+    }
+  }
+  return testing::AssertionSuccess();
 }
 
 template<std::size_t Corners>
@@ -161,6 +185,42 @@ double fieldValue(vtkPointSet* dataSet, const char* name)
     throw std::runtime_error(std::string("no field value ") + name);
   }
   return array->GetTuple1(0);
+}
+
+std::map<std::string, std::vector<double>> columnsOf(vtkDataObject* table)
+{
+  vtkTable* rows = vtkTable::SafeDownCast(table);
+  if (!rows)
+  {
+    throw std::runtime_error("no table");
+  }
+  std::map<std::string, std::vector<double>> columns;
+  for (vtkIdType c = 0; c < rows->GetNumberOfColumns(); ++c)
+  {
+    auto& values = columns[rows->GetColumnName(c)];
+    for (vtkIdType r = 0; r < rows->GetNumberOfRows(); ++r)
+    {
+      values.push_back(rows->GetValue(r, c).ToDouble());
+    }
+  }
+  return columns;
+}
+
+testing::AssertionResult areSame(vtkPointSet* a, vtkPointSet* b)
+{
+  const SimplexMesh first = toMesh(a);
+  const SimplexMesh second = toMesh(b);
+  if (first.points != second.points)
+  {
+    return testing::AssertionFailure() << "other points";
+  }
+  if (first.vertices != second.vertices || first.segments != second.segments ||
+      first.triangles != second.triangles || first.tetrahedra != second.tetrahedra)
+  {
+    return testing::AssertionFailure() << "other cells";
+  }
+  const auto points = compareArrays(a->GetPointData(), b->GetPointData());
+  return points ? compareArrays(a->GetCellData(), b->GetCellData()) : points;
 }
 
 double linearAt(const double point[3])

@@ -5,8 +5,13 @@
 
 #include <vtkSmartPointer.h>
 
-#include <string>
+#include <gtest/gtest.h>
 
+#include <map>
+#include <string>
+#include <vector>
+
+class vtkDataObject;
 class vtkPointSet;
 class vtkPolyData;
 class vtkUnstructuredGrid;
@@ -26,6 +31,12 @@ vtkSmartPointer<vtkUnstructuredGrid> readGrid(const std::string& path);
 
 /// The only value of a field array; throws where there is none.
 double fieldValue(vtkPointSet* dataSet, const char* name);
+
+/// The columns of numbers of a vtkTable, by name; throws where it is none.
+std::map<std::string, std::vector<double>> columnsOf(vtkDataObject* table);
+
+/// Same points, cells and arrays, in the same order, bit for bit.
+testing::AssertionResult areSame(vtkPointSet* a, vtkPointSet* b);
 
 /// Adds arrays that tell whether they were carried over: Linear (point, double: a linear function
 /// of the coordinates), Region (point, int), Tag (cell, int: the number of the cell), Colour (cell,

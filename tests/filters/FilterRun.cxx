@@ -39,6 +39,10 @@ Outcome execute(vtkAlgorithm* filter)
   observe(filter->GetExecutive(), vtkCommand::ErrorEvent, ofExecutive);
   outcome.succeeded = filter->GetExecutive()->Update(0) != 0 && ofExecutive.empty();
   outcome.output = filter->GetOutputDataObject(0);
+  if (filter->GetNumberOfOutputPorts() > 1)
+  {
+    outcome.secondOutput = filter->GetOutputDataObject(1);
+  }
   filter->RemoveAllObservers();
   filter->GetExecutive()->RemoveAllObservers();
   return outcome;

@@ -28,6 +28,7 @@ struct Outcome
   std::vector<std::string> errors;   ///< Of the filter itself.
   std::vector<std::string> warnings; ///< The same.
   vtkSmartPointer<vtkDataObject> output;
+  vtkSmartPointer<vtkDataObject> secondOutput; ///< Null where the filter has one only.
 
   vtkPointSet* pointSet() const { return vtkPointSet::SafeDownCast(output); }
 };

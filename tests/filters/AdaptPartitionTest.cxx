@@ -1,0 +1,309 @@
+// Adapt to CAD on several ranks: the same mesh and table as on one, and one failure on all.
+
+#include "DataSets.h"
+#include "FilterRun.h"
+#include "ParallelTest.h"
+#include "Partition.h"
+#include "TestMeshes.h"
+#include "TestShapes.h"
+
+#include <vtkAdaptToCAD.h>
+#include <vtkCallbackCommand.h>
+#include <vtkCellData.h>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkIdTypeArray.h>
+#include <vtkPolyData.h>
+#include <vtkTable.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <functional>
+#include <limits>
+
+namespace cadrefine
+{
+
+namespace
+{
+
+using Mesh = vtkSmartPointer<vtkPointSet>;
+using Columns = std::map<std::string, std::vector<double>>;
+using Configure = std::function<void(vtkAdaptToCAD*)>;
+
+/// Adapt to CAD with each kind of marking.
+struct Marking
+{
+  const char* name;
+  void (*configure)(vtkAdaptToCAD*);
+};
+
+void byThreshold(vtkAdaptToCAD* filter)
+{
+  filter->SetErrorThreshold(1e-3);
+}
+
+void byBulkAndIndicator(vtkAdaptToCAD* filter)
+{
+  filter->SetErrorMarking(vtkAdaptToCAD::BULK);
+  filter->SetErrorFraction(0.6);
+  filter->SetIndicatorArray("Indicator");
+  filter->SetIndicatorMarking(vtkAdaptToCAD::FRACTION_OF_LARGEST);
+  filter->SetIndicatorFraction(0.95);
+}
+
+void bySize(vtkAdaptToCAD* filter)
+{
+  filter->SetErrorMarking(vtkAdaptToCAD::OFF);
+  filter->SetChordTolerance(0.005);
+  filter->SetNormalAngle(15);
+  filter->BalanceOff();
+}
+
+class AdaptPieces : public ParallelTest
+{
+protected:
+  cadtest::TemporaryFolder folder;
+  std::string sphere = cadtest::writeInto(folder, cadtest::sphere(2), ".step");
+
+  static Mesh prepared(Mesh mesh)
+  {
+    cadtest::addArrays(mesh);
+    vtkNew<vtkDoubleArray> indicator;
+    indicator->SetName("Indicator");
+    for (vtkIdType c = 0; c < mesh->GetNumberOfCells(); ++c)
+    {
+      indicator->InsertNextValue(static_cast<double>(c % 7));
+    }
+    mesh->GetCellData()->AddArray(indicator);
+    cadtest::addGlobalIds(mesh);
+    return mesh;
+  }
+
+  Mesh pieceOf(vtkPointSet* whole, cadtest::Dealing dealing) const
+  {
+    return cadtest::pieceOf(
+      whole, cadtest::deal(dealing, whole, exchange.size()), exchange.rank(), false);
+  }
+
+  /// The whole mesh on rank 0, and the table of all ranks.
+  struct Gathered
+  {
+    cadtest::CanonicalMesh mesh;
+    Columns columns;
+  };
+
+  static Gathered gather(RankExchange& ranks, const cadtest::Outcome& outcome)
+  {
+    EXPECT_TRUE(outcome.succeeded);
+    return { cadtest::gather(ranks, outcome.pointSet()), cadtest::columnsOf(outcome.secondOutput) };
+  }
+
+  void expectSame(const Gathered& pieces, const std::function<Gathered(RankExchange&)>& serial)
+  {
+    if (exchange.rank() > 0)
+    {
+      for (const auto& [name, values] : pieces.columns)
+      {
+        EXPECT_TRUE(values.empty()) << "the rows of " << name << " are on rank 0";
+      }
+      EXPECT_EQ(pieces.columns.count("GlobalGeometricError"), 1u);
+      return;
+    }
+    RankExchange alone(nullptr);
+    const Gathered expected = serial(alone);
+    EXPECT_EQ(pieces.mesh.contradictions, 0);
+    EXPECT_TRUE(pieces.mesh.points == expected.mesh.points);
+    EXPECT_TRUE(pieces.mesh.cells == expected.mesh.cells);
+    EXPECT_EQ(pieces.columns, expected.columns);
+    EXPECT_GT(expected.columns.at("Step").size(), 2u);
+  }
+
+  void expectSameAsOneRank(
+    const std::string& cadFile, Mesh whole, cadtest::Dealing dealing, const Configure& configure)
+  {
+    const cadtest::FilterRun filters(cadFile, worldController());
+    whole = prepared(whole);
+    expectSame(gather(exchange, filters.attempt<vtkAdaptToCAD>(pieceOf(whole, dealing), configure)),
+      [&](RankExchange& alone) {
+        return gather(alone, cadtest::FilterRun(cadFile).attempt<vtkAdaptToCAD>(whole, configure));
+      });
+  }
+
+  void expectFailure(const Mesh& whole, const std::string& reason, const Configure& configure)
+  {
+    const cadtest::FilterRun filters(sphere, worldController());
+    const auto outcome =
+      filters.attempt<vtkAdaptToCAD>(pieceOf(whole, cadtest::Dealing::Blocks), configure);
+    EXPECT_FALSE(outcome.succeeded);
+    EXPECT_EQ(outcome.pointSet()->GetNumberOfPoints(), 0);
+    EXPECT_TRUE(cadtest::columnsOf(outcome.secondOutput).empty());
+    EXPECT_EQ(outcome.errors.size(), exchange.rank() == 0 ? 1u : 0u);
+    if (!outcome.errors.empty())
+    {
+      EXPECT_NE(outcome.errors[0].find(reason), std::string::npos) << outcome.errors[0];
+    }
+  }
+
+  static Mesh ball() { return cadtest::toGrid(cadtest::ballMesh(2, 0.03)); }
+};
+
+class AdaptPiecesBy
+  : public AdaptPieces
+  , public testing::WithParamInterface<Marking>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(Markings, AdaptPiecesBy,
+  testing::Values(Marking{ "Threshold", byThreshold },
+    Marking{ "BulkAndIndicator", byBulkAndIndicator }, Marking{ "Size", bySize }),
+  [](const auto& each) { return std::string(each.param.name); });
+
+TEST_P(AdaptPiecesBy, giveTheSameMeshAndTable)
+{
+  using cadtest::Dealing;
+  const auto configure = [&](vtkAdaptToCAD* filter)
+  {
+    filter->SetMaximumSteps(4);
+    GetParam().configure(filter);
+  };
+  expectSameAsOneRank(sphere, ball(), Dealing::Random, configure);
+  expectSameAsOneRank(
+    sphere, cadtest::toPolyData(cadtest::sphereMesh(2, 0.03)), Dealing::EmptyRank, configure);
+  expectSameAsOneRank(CADREFINE_DATA "/three_arcs.igs",
+    cadtest::readGrid(CADREFINE_DATA "/three_arcs_coarse.vtu"), Dealing::KdTree, configure);
+}
+
+TEST_F(AdaptPieces, giveTheSameWing)
+{
+  expectSameAsOneRank(CADREFINE_DATA "/naca0012_sharp.igs",
+    cadtest::readGrid(CADREFINE_DATA "/naca0012_coarse.vtu"), cadtest::Dealing::EmptyRank,
+    [](vtkAdaptToCAD* filter)
+    {
+      filter->SetErrorThreshold(1e-5);
+      filter->SetMaximumSteps(2);
+    });
+}
+
+/// Listed facets inside the mesh, whose cells are on other ranks.
+TEST_F(AdaptPieces, giveTheSameInteriorBoundary)
+{
+  const Configure configure = [](vtkAdaptToCAD* filter)
+  {
+    filter->SetErrorMarking(vtkAdaptToCAD::OFF);
+    filter->SetNormalAngle(25);
+    filter->SetMaximumSteps(3);
+  };
+  expectSameAsOneRank(sphere, cadtest::toGrid(cadtest::ballInShellMesh(2, 0.03)),
+    cadtest::Dealing::Random, configure);
+}
+
+void abortSecondStep(vtkObject* caller, unsigned long, void*, void*)
+{
+  auto* filter = static_cast<vtkAdaptToCAD*>(caller);
+  if (filter->GetProgressText() && std::string(filter->GetProgressText()) == "Step 2")
+  {
+    filter->SetAbortExecute(1);
+  }
+}
+
+/// One rank is enough.
+TEST_F(AdaptPieces, keepTheStepWhereOneRankIsInterrupted)
+{
+  const cadtest::FilterRun filters(sphere, worldController());
+  const Mesh whole = prepared(ball());
+  vtkNew<vtkCallbackCommand> command;
+  command->SetCallback(abortSecondStep);
+  const auto outcome = filters.attempt<vtkAdaptToCAD>(pieceOf(whole, cadtest::Dealing::Random),
+    [&](vtkAdaptToCAD* filter)
+    {
+      if (exchange.rank() == exchange.size() - 1)
+      {
+        filter->AddObserver(vtkCommand::ProgressEvent, command);
+      }
+    });
+  const std::string reason = outcome.secondOutput->GetFieldData()
+                               ->GetAbstractArray("StopReason")
+                               ->GetVariantValue(0)
+                               .ToString();
+  EXPECT_EQ(reason, "interrupted");
+  expectSame(gather(exchange, outcome),
+    [&](RankExchange& alone)
+    {
+      return gather(alone, cadtest::FilterRun(sphere).attempt<vtkAdaptToCAD>(
+                             whole, [](vtkAdaptToCAD* filter) { filter->SetMaximumSteps(2); }));
+    });
+}
+
+TEST_F(AdaptPieces, failTogether)
+{
+  const Mesh whole = prepared(ball());
+  expectFailure(whole, "region is empty",
+    [](vtkAdaptToCAD* filter)
+    {
+      filter->UseRegionOn();
+      filter->SetRegion(1, -1, 1, -1, 1, -1);
+    });
+  expectFailure(
+    whole, "Nonsense", [](vtkAdaptToCAD* filter) { filter->SetIndicatorArray("Nonsense"); });
+  expectFailure(
+    whole, "3 components", [](vtkAdaptToCAD* filter) { filter->SetIndicatorArray("Colour"); });
+  for (const double fraction : { 0.0, 1.5, std::numeric_limits<double>::quiet_NaN() })
+  {
+    expectFailure(whole, "is not above 0 and at most 1",
+      [&](vtkAdaptToCAD* filter)
+      {
+        filter->SetErrorMarking(vtkAdaptToCAD::FRACTION_OF_LARGEST);
+        filter->SetErrorFraction(fraction);
+      });
+    expectFailure(whole, "is not above 0 and at most 1",
+      [&](vtkAdaptToCAD* filter)
+      {
+        filter->SetIndicatorArray("Indicator");
+        filter->SetIndicatorMarking(vtkAdaptToCAD::BULK);
+        filter->SetIndicatorFraction(fraction);
+      });
+  }
+}
+
+/// On one rank; a threshold takes them.
+TEST_F(AdaptPieces, failWhereOneValueHasNoPart)
+{
+  for (const double bad :
+    { -1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity() })
+  {
+    const Mesh whole = prepared(ball());
+    whole->GetCellData()->GetArray("Indicator")->SetTuple1(19, bad);
+    for (const int strategy : { vtkAdaptToCAD::BULK, vtkAdaptToCAD::FRACTION_OF_LARGEST })
+    {
+      expectFailure(whole, "negative or not finite",
+        [&](vtkAdaptToCAD* filter)
+        {
+          filter->SetIndicatorArray("Indicator");
+          filter->SetIndicatorMarking(strategy);
+        });
+    }
+    const cadtest::FilterRun filters(sphere, worldController());
+    const auto outcome = filters.attempt<vtkAdaptToCAD>(pieceOf(whole, cadtest::Dealing::Blocks),
+      [](vtkAdaptToCAD* filter)
+      {
+        filter->SetIndicatorArray("Indicator");
+        filter->SetMaximumSteps(1);
+      });
+    EXPECT_TRUE(outcome.succeeded);
+  }
+}
+
+TEST_F(AdaptPieces, failWithoutCells)
+{
+  vtkNew<vtkUnstructuredGrid> points;
+  points->SetPoints(ball()->GetPoints());
+  const cadtest::FilterRun filters(sphere, worldController());
+  const auto outcome = filters.attempt<vtkAdaptToCAD>(points, [](vtkAdaptToCAD*) {});
+  EXPECT_FALSE(outcome.succeeded);
+  EXPECT_EQ(outcome.pointSet()->GetNumberOfPoints(), 0);
+  EXPECT_TRUE(cadtest::columnsOf(outcome.secondOutput).empty());
+}
+
+} // namespace
+
+} // namespace cadrefine
