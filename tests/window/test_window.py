@@ -40,7 +40,12 @@ def describe(source):
 def text(source, name):
     return str(source.GetPropertyValue(name)).strip("'") if name not in ("Input", "CAD") else ""
 
-report = {"sources": {key[0]: describe(source) for key, source in simple.GetSources().items()},
+def charts():
+    # Of each line chart: what it draws, and the series that are shown.
+    return [{"type": item.Input.GetXMLName(), "port": item.Input.Port, "series": list(item.SeriesVisibility)}
+            for view in simple.GetViews() if view.GetXMLName() == "XYChartView" for item in view.Representations]
+
+report = {"charts": charts(), "sources": {key[0]: describe(source) for key, source in simple.GetSources().items()},
           "menu": {name: definition("filters", name) for name in FILTERS},
           "functions": [name for name in FUNCTIONS if hasattr(simple, name)]}
 with open(FILE, "w") as file:
@@ -48,7 +53,7 @@ with open(FILE, "w") as file:
 """
 
 FILTERS = {"ProjectOntoCAD": "Project onto CAD", "CADGeometricError": "CAD Geometric Error",
-           "RefineWithCAD": "Refine with CAD", "MeshValidity": "Mesh Validity"}
+           "RefineWithCAD": "Refine with CAD", "MeshValidity": "Mesh Validity", "AdaptToCAD": "Adapt to CAD"}
 FUNCTIONS = ["CADReader"] + [label.replace(" ", "") for label in FILTERS.values()]
 
 
@@ -73,6 +78,12 @@ def choose_cad():
 def panel(*fields):
     """The fields of the panel and what they must hold: (name, Qt property, value)."""
     return [check(PANEL + name, qt_property, value) for name, qt_property, value in fields]
+
+
+def chosen_marking(strategy, threshold, fraction):
+    """Chooses how the error marks cells, and looks whether its threshold and its fraction are shown."""
+    return [event(PANEL + "ErrorMarking/ComboBox", "activated", strategy),
+            *panel(("ErrorThreshold", "visible", threshold), ("ErrorFraction", "visible", fraction))]
 
 
 def use(window, name, *actions):
@@ -112,11 +123,21 @@ def play_all(window, data):
     use(window, "RefineWithCAD",
         *panel(("Method/ComboBox", "currentText", "Longest Edge Bisection"), ("Method/ComboBox", "count", "2"),
                ("Levels/IntRangeWidget/LineEdit", "text", "1"), ("MarkingArray/ComboBox", "currentText", "None"),
-               ("Threshold/DoubleLineEdit0", "text", "0"), ("ProjectNewVertices/CheckBox", "checked", "true"),
+               ("Threshold/DoubleLineEdit0", "text", "0"), ("Fraction", "visible", "false"),
+               ("ProjectNewVertices/CheckBox", "checked", "true"),
                ("Balance/CheckBox", "checked", "true")),
         event(PANEL + "MarkingArray/ComboBox", "activated", "GeometricError"),
         event(PANEL + "Threshold/DoubleLineEdit0", "set_string", "1e-5"))
     use(window, "MeshValidity")
+    window.play(python("from paraview import simple"),
+                python("simple.SetActiveSource(simple.FindSource('naca0012_coarse.vtu'))"))
+    use(window, "AdaptToCAD",
+        *panel(("MaximumSteps/LineEdit0", "text", "5"), ("MaximumCells/LineEdit0", "text", "10000000"),
+               ("ErrorMarking/ComboBox", "currentText", "Threshold"),
+               ("ErrorThreshold", "visible", "true"), ("ErrorFraction", "visible", "false")),
+        *chosen_marking("Bulk", "false", "true"), *chosen_marking("Off", "false", "false"),
+        *chosen_marking("Fraction of Largest", "false", "true"),
+        event(PANEL + "MaximumSteps/LineEdit0", "set_string", "3"))
 
 
 def report_of(window):
@@ -160,6 +181,18 @@ def check_results(report):
     assert validity["fields"]["InvalidCells"] == 0 and validity["cells"] == refine["cells"]
 
 
+def check_adaptation(report):
+    """The mesh that Adapt to CAD made, and the line chart of its steps."""
+    adapt = by_type(report, "AdaptToCAD")
+    assert adapt["properties"]["MaximumSteps"] == "3" and adapt["properties"]["ErrorMarking"] == "Fraction of Largest"
+    assert {"GeometricError", "ChordError", "NormalAngle"} <= set(adapt["cell_arrays"])
+    assert adapt["cells"] > by_type(report, "ProjectOntoCAD")["cells"]
+    assert len(report["charts"]) == 1, report["charts"]
+    chart = report["charts"][0]
+    assert (chart["type"], chart["port"]) == ("AdaptToCAD", 1), chart
+    assert {"Step", "GlobalCells", "GlobalGeometricError", "MaximumChordError"} <= set(chart["series"]), chart
+
+
 def check_pictures(pictures):
     """No picture is empty, and each shows something else than the one before it."""
     expected = {"cad", "mesh", "menu"} | {f"{kind}_{name}" for name in FILTERS for kind in ("panel", "applied")}
@@ -188,6 +221,7 @@ def main():
         report = json.load(file)
     check_registered(report)
     check_results(report)
+    check_adaptation(report)
     check_pictures(pictures)
     print(f"{len(window.events)} events played and {len(pictures)} pictures taken; they are in {output}")
 
