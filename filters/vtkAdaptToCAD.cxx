@@ -14,6 +14,8 @@
 
 #include <string>
 
+using cadrefine::MarkingCriterion;
+
 vtkStandardNewMacro(vtkAdaptToCAD);
 
 vtkAdaptToCAD::vtkAdaptToCAD() : vtkRefinementAlgorithm(true)
@@ -54,16 +56,14 @@ int vtkAdaptToCAD::RequestDataObject(
   return 1;
 }
 
-void vtkAdaptToCAD::Execute(cadrefine::RankExchange& exchange, vtkPointSet* input,
-  const cadrefine::CADModel* model, vtkPointSet* output)
+cadrefine::StepResult vtkAdaptToCAD::Execute(
+  cadrefine::RankExchange& exchange, vtkPointSet* input, const cadrefine::CADModel* model)
 {
   cadrefine::AdaptationOptions options;
   options.projection = cadrefine::makeProjectionOptions(
     this->UseRegion ? this->Region : nullptr, this->MaximumDistance);
   options.recursionDepth = this->RecursionDepth;
-  options.refinement =
-    this->MakeOptions(MakeCriterion(this->ErrorMarking == OFF ? "" : cadrefine::arrays::error,
-      this->ErrorMarking, this->ErrorThreshold, this->ErrorFraction));
+  options.refinement = this->MakeOptions();
   options.refinement.maximumCells = this->MaximumCells;
   options.maximumSteps = this->MaximumSteps;
   options.targetError = this->TargetError;
@@ -75,10 +75,13 @@ void vtkAdaptToCAD::Execute(cadrefine::RankExchange& exchange, vtkPointSet* inpu
     this->UpdateProgress(steps / (1.0 + this->MaximumSteps));
   };
   observer.isInterrupted = [this] { return this->GetAbortExecute() != 0; };
-  const cadrefine::AdaptationResult result =
-    cadrefine::adaptMesh(this->MakeContext(exchange, *model), input, options, observer);
-  output->ShallowCopy(result.mesh);
-  this->GetOutputDataObject(1)->ShallowCopy(result.table);
+  return cadrefine::adaptMesh(this->MakeContext(exchange, *model), input, options, observer);
+}
+
+MarkingCriterion vtkAdaptToCAD::GetOwnCriterion() const
+{
+  return MakeCriterion(this->ErrorMarking == OFF ? "" : cadrefine::arrays::error,
+    this->ErrorMarking, this->ErrorThreshold, this->ErrorFraction);
 }
 
 void vtkAdaptToCAD::PrintSelf(ostream& os, vtkIndent indent)

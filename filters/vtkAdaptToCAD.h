@@ -104,8 +104,9 @@ protected:
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestDataObject(
     vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
-  void Execute(cadrefine::RankExchange& exchange, vtkPointSet* input,
-    const cadrefine::CADModel* model, vtkPointSet* output) override;
+  cadrefine::MarkingCriterion GetOwnCriterion() const override;
+  cadrefine::StepResult Execute(cadrefine::RankExchange& exchange, vtkPointSet* input,
+    const cadrefine::CADModel* model) override;
 
 private:
   vtkAdaptToCAD(const vtkAdaptToCAD&) = delete;

@@ -11,11 +11,10 @@ vtkCADGeometricError::vtkCADGeometricError() : vtkSimplexMeshAlgorithm(true) {}
 
 vtkCADGeometricError::~vtkCADGeometricError() = default;
 
-void vtkCADGeometricError::Execute(cadrefine::RankExchange& exchange, vtkPointSet* input,
-  const cadrefine::CADModel* model, vtkPointSet* output)
+cadrefine::StepResult vtkCADGeometricError::Execute(
+  cadrefine::RankExchange& exchange, vtkPointSet* input, const cadrefine::CADModel* model)
 {
-  output->ShallowCopy(
-    cadrefine::measureMesh(this->MakeContext(exchange, *model), input, this->RecursionDepth));
+  return cadrefine::measureMesh(this->MakeContext(exchange, *model), input, this->RecursionDepth);
 }
 
 void vtkCADGeometricError::PrintSelf(ostream& os, vtkIndent indent)

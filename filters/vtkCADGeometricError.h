@@ -39,8 +39,8 @@ protected:
   vtkCADGeometricError();
   ~vtkCADGeometricError() override;
 
-  void Execute(cadrefine::RankExchange& exchange, vtkPointSet* input,
-    const cadrefine::CADModel* model, vtkPointSet* output) override;
+  cadrefine::StepResult Execute(cadrefine::RankExchange& exchange, vtkPointSet* input,
+    const cadrefine::CADModel* model) override;
 
 private:
   vtkCADGeometricError(const vtkCADGeometricError&) = delete;

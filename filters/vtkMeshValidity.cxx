@@ -2,6 +2,7 @@
 
 #include "ArrayTransfer.h"
 #include "MeshSummary.h"
+#include "StepResult.h"
 
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
@@ -16,13 +17,16 @@ vtkMeshValidity::vtkMeshValidity() : vtkSimplexMeshAlgorithm(false) {}
 
 vtkMeshValidity::~vtkMeshValidity() = default;
 
-void vtkMeshValidity::Execute(cadrefine::RankExchange& exchange, vtkPointSet* input,
-  const cadrefine::CADModel*, vtkPointSet* output)
+cadrefine::StepResult vtkMeshValidity::Execute(
+  cadrefine::RankExchange& exchange, vtkPointSet* input, const cadrefine::CADModel*)
 {
   using namespace cadrefine;
   const DistributedMesh mesh = makeDistributedMesh(exchange, input);
   const CellQualities qualities = measureQuality(exchange, mesh);
-  output->ShallowCopy(makePointSet(input, mesh.mesh()));
+  StepResult result;
+  result.mesh = makePointSet(input, mesh.mesh());
+  result.route.convert(input, mesh.converted);
+  vtkPointSet* output = result.mesh;
   copyArrays(input, mesh.converted, output);
 
   vtkNew<vtkSignedCharArray> validity;
@@ -42,4 +46,5 @@ void vtkMeshValidity::Execute(cadrefine::RankExchange& exchange, vtkPointSet* in
   output->GetCellData()->AddArray(validity);
   output->GetCellData()->AddArray(quality);
   summariseMesh(exchange, mesh, qualities.summary, output);
+  return result;
 }

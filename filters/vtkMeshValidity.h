@@ -26,8 +26,8 @@ protected:
   vtkMeshValidity();
   ~vtkMeshValidity() override;
 
-  void Execute(cadrefine::RankExchange& exchange, vtkPointSet* input,
-    const cadrefine::CADModel* model, vtkPointSet* output) override;
+  cadrefine::StepResult Execute(cadrefine::RankExchange& exchange, vtkPointSet* input,
+    const cadrefine::CADModel* model) override;
 
 private:
   vtkMeshValidity(const vtkMeshValidity&) = delete;

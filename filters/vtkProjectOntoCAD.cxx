@@ -11,12 +11,12 @@ vtkProjectOntoCAD::vtkProjectOntoCAD() : vtkSimplexMeshAlgorithm(true) {}
 
 vtkProjectOntoCAD::~vtkProjectOntoCAD() = default;
 
-void vtkProjectOntoCAD::Execute(cadrefine::RankExchange& exchange, vtkPointSet* input,
-  const cadrefine::CADModel* model, vtkPointSet* output)
+cadrefine::StepResult vtkProjectOntoCAD::Execute(
+  cadrefine::RankExchange& exchange, vtkPointSet* input, const cadrefine::CADModel* model)
 {
-  output->ShallowCopy(cadrefine::projectMesh(this->MakeContext(exchange, *model), input,
+  return cadrefine::projectMesh(this->MakeContext(exchange, *model), input,
     cadrefine::makeProjectionOptions(
-      this->UseRegion ? this->Region : nullptr, this->MaximumDistance)));
+      this->UseRegion ? this->Region : nullptr, this->MaximumDistance));
 }
 
 void vtkProjectOntoCAD::PrintSelf(ostream& os, vtkIndent indent)

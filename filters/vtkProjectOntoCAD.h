@@ -63,8 +63,8 @@ protected:
   vtkProjectOntoCAD();
   ~vtkProjectOntoCAD() override;
 
-  void Execute(cadrefine::RankExchange& exchange, vtkPointSet* input,
-    const cadrefine::CADModel* model, vtkPointSet* output) override;
+  cadrefine::StepResult Execute(cadrefine::RankExchange& exchange, vtkPointSet* input,
+    const cadrefine::CADModel* model) override;
 
 private:
   vtkProjectOntoCAD(const vtkProjectOntoCAD&) = delete;

@@ -11,14 +11,17 @@ vtkRefineWithCAD::vtkRefineWithCAD() : vtkRefinementAlgorithm(false) {}
 
 vtkRefineWithCAD::~vtkRefineWithCAD() = default;
 
-void vtkRefineWithCAD::Execute(cadrefine::RankExchange& exchange, vtkPointSet* input,
-  const cadrefine::CADModel* model, vtkPointSet* output)
+cadrefine::StepResult vtkRefineWithCAD::Execute(
+  cadrefine::RankExchange& exchange, vtkPointSet* input, const cadrefine::CADModel* model)
 {
-  cadrefine::RefinementOptions options = this->MakeOptions(
-    MakeCriterion(this->MarkingArray, this->Marking, this->Threshold, this->Fraction));
+  cadrefine::RefinementOptions options = this->MakeOptions();
   options.levels = this->Levels;
-  output->ShallowCopy(
-    cadrefine::refineMesh(this->MakeContext(exchange, *model), input, options).mesh);
+  return cadrefine::refineMesh(this->MakeContext(exchange, *model), input, options).result;
+}
+
+cadrefine::MarkingCriterion vtkRefineWithCAD::GetOwnCriterion() const
+{
+  return MakeCriterion(this->MarkingArray, this->Marking, this->Threshold, this->Fraction);
 }
 
 void vtkRefineWithCAD::PrintSelf(ostream& os, vtkIndent indent)

@@ -58,8 +58,9 @@ protected:
   vtkRefineWithCAD();
   ~vtkRefineWithCAD() override;
 
-  void Execute(cadrefine::RankExchange& exchange, vtkPointSet* input,
-    const cadrefine::CADModel* model, vtkPointSet* output) override;
+  cadrefine::MarkingCriterion GetOwnCriterion() const override;
+  cadrefine::StepResult Execute(cadrefine::RankExchange& exchange, vtkPointSet* input,
+    const cadrefine::CADModel* model) override;
 
 private:
   vtkRefineWithCAD(const vtkRefineWithCAD&) = delete;

@@ -22,7 +22,7 @@ MarkingCriterion vtkRefinementAlgorithm::MakeCriterion(
   return criterion;
 }
 
-cadrefine::RefinementOptions vtkRefinementAlgorithm::MakeOptions(const MarkingCriterion& own) const
+cadrefine::RefinementOptions vtkRefinementAlgorithm::MakeOptions() const
 {
   cadrefine::RefinementOptions options;
   options.uniform = this->Method == UNIFORM_BISECTION;
@@ -33,7 +33,7 @@ cadrefine::RefinementOptions vtkRefinementAlgorithm::MakeOptions(const MarkingCr
       options.criteria.push_back(criterion);
     }
   };
-  add(own);
+  add(this->GetOwnCriterion());
   add(MakeCriterion(this->IndicatorArray, this->IndicatorMarking, this->IndicatorThreshold,
     this->IndicatorFraction));
   for (const auto& [array, limit] :
@@ -49,6 +49,16 @@ cadrefine::RefinementOptions vtkRefinementAlgorithm::MakeOptions(const MarkingCr
   options.projectNewVertices = this->ProjectNewVertices;
   options.balance = this->Balance;
   return options;
+}
+
+std::vector<std::string> vtkRefinementAlgorithm::GetCellArraysRead() const
+{
+  std::vector<std::string> names;
+  for (const MarkingCriterion& criterion : this->MakeOptions().criteria)
+  {
+    names.push_back(criterion.array);
+  }
+  return names;
 }
 
 void vtkRefinementAlgorithm::PrintSelf(ostream& os, vtkIndent indent)

@@ -112,9 +112,13 @@ protected:
   explicit vtkRefinementAlgorithm(bool cutFacets);
   ~vtkRefinementAlgorithm() override;
 
-  /// The properties of this class, for one level; the criterion `own` of the subclass joins those
-  /// of this class, if it names an array.
-  cadrefine::RefinementOptions MakeOptions(const cadrefine::MarkingCriterion& own) const;
+  /// The criterion of the subclass; used if it names an array.
+  virtual cadrefine::MarkingCriterion GetOwnCriterion() const = 0;
+
+  /// The properties of this class, for one level, with the subclass's criterion.
+  cadrefine::RefinementOptions MakeOptions() const;
+
+  std::vector<std::string> GetCellArraysRead() const override;
 
   /// Criterion on an array ("" and "None", the panel's entry for no array: none).
   static cadrefine::MarkingCriterion MakeCriterion(

@@ -2,6 +2,8 @@
 
 #include "Agreement.h"
 #include "CADModel.h"
+#include "GeometryMemory.h"
+#include "InputParts.h"
 #include "RankExchange.h"
 #include "RunStatistics.h"
 #include "StepContext.h"
@@ -12,11 +14,13 @@
 #include <vtkInformationVector.h>
 #include <vtkMultiProcessController.h>
 #include <vtkPointSet.h>
+#include <vtkTable.h>
 
 vtkCxxSetObjectMacro(vtkSimplexMeshAlgorithm, Controller, vtkMultiProcessController);
 
 vtkSimplexMeshAlgorithm::vtkSimplexMeshAlgorithm(bool needsCAD)
-  : Statistics(std::make_unique<cadrefine::RunStatistics>())
+  : Statistics(std::make_unique<cadrefine::RunStatistics>()),
+    Memory(std::make_unique<cadrefine::GeometryMemory>())
 {
   this->SetNumberOfInputPorts(needsCAD ? 2 : 1);
   this->SetController(vtkMultiProcessController::GetGlobalController());
@@ -55,22 +59,42 @@ cadrefine::StepContext vtkSimplexMeshAlgorithm::MakeContext(
     [this](const std::string& warning) { vtkWarningMacro(<< warning); } };
 }
 
+void vtkSimplexMeshAlgorithm::Run(
+  cadrefine::RankExchange& exchange, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  std::shared_ptr<const cadrefine::CADModel> model;
+  if (this->GetNumberOfInputPorts() == 2)
+  {
+    model = this->FindModel(exchange, inputs[1]);
+  }
+  const cadrefine::InputParts parts =
+    cadrefine::splitInput(vtkPointSet::GetData(inputs[0]), this->GetCellArraysRead());
+  bool isReused = true;
+  const cadrefine::StepResult& result =
+    this->Memory->get(exchange, parts.geometry, model, this->GetMTime(),
+      [&](vtkPointSet* geometry)
+      {
+        isReused = false;
+        return this->Execute(exchange, geometry, model.get());
+      });
+  this->Statistics->set("geometry reused", isReused);
+  const cadrefine::RunStatistics::Stopwatch stopwatch(*this->Statistics, "seconds copying fields");
+  cadrefine::joinOutput(exchange, parts, result, vtkPointSet::GetData(outputs));
+  if (result.table)
+  {
+    vtkTable::GetData(outputs, 1)->ShallowCopy(result.table);
+  }
+}
+
 int vtkSimplexMeshAlgorithm::RequestData(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  vtkPointSet* input = vtkPointSet::GetData(inputs[0]);
-  vtkPointSet* output = vtkPointSet::GetData(outputs);
   this->Statistics->clear();
   this->StatisticsText = "{}";
   try
   {
     cadrefine::RankExchange exchange(this->Controller);
-    std::shared_ptr<const cadrefine::CADModel> model;
-    if (this->GetNumberOfInputPorts() == 2)
-    {
-      model = this->FindModel(exchange, inputs[1]);
-    }
-    this->Execute(exchange, input, model.get(), output);
+    this->Run(exchange, inputs, outputs);
     this->Statistics->gather(exchange);
     this->StatisticsText = this->Statistics->json();
     return 1;

@@ -8,6 +8,14 @@
  * out. Global ids are used if every rank has them, and made from coordinates if not: pieces then
  * meet where coordinates are equal. Output points are in double precision.
  *
+ * Of a time series, the step that is asked for is worked on. Where only fields have changed since
+ * the last run, the geometry is not worked on again: what was made of it is kept, and the fields
+ * are taken along. Points, cells, ids, ghosts, the arrays of the classification, arrays that mark
+ * cells, the CAD model and the properties are compared, by content; if any of them has changed on
+ * any rank, all is done anew. The output then has the same points and cells as before, also by
+ * GetMeshMTime. One mesh is kept, shared with the output while this is there; warnings are given
+ * once for it.
+ *
  * A failure on one rank is an error on all: rank 0 reports the reason, and the output stays empty.
  */
 #ifndef vtkSimplexMeshAlgorithm_h
@@ -18,13 +26,16 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace cadrefine
 {
 class CADModel;
+class GeometryMemory;
 class RankExchange;
 class RunStatistics;
 struct StepContext;
+struct StepResult;
 } // namespace cadrefine
 class vtkMultiProcessController;
 
@@ -60,11 +71,16 @@ protected:
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) final;
 
   /**
-   * The filter's work: fills `output`. Throws cadrefine::Error on all ranks alike. `model` is null
-   * for filters without CAD.
+   * The filter's work, a function of its arguments and of the properties (what changes GetMTime).
+   * Of the arrays of the data set, `geometry` has those alone that the work depends on: ids,
+   * ghosts, the classification and the cell arrays of GetCellArraysRead; no field data. Throws
+   * cadrefine::Error on all ranks alike. `model` is null for filters without CAD.
    */
-  virtual void Execute(cadrefine::RankExchange& exchange, vtkPointSet* input,
-    const cadrefine::CADModel* model, vtkPointSet* output) = 0;
+  virtual cadrefine::StepResult Execute(
+    cadrefine::RankExchange& exchange, vtkPointSet* geometry, const cadrefine::CADModel* model) = 0;
+
+  /// Names of the cell arrays that Execute reads. Default: none.
+  virtual std::vector<std::string> GetCellArraysRead() const { return {}; }
 
   /// What the steps of cadrefine need: warnings become those of this filter.
   cadrefine::StepContext MakeContext(
@@ -79,6 +95,11 @@ private:
   std::shared_ptr<const cadrefine::CADModel> FindModel(
     cadrefine::RankExchange& exchange, vtkInformationVector* input) const;
 
+  /// Makes the output, with the kept result if it can.
+  void Run(cadrefine::RankExchange& exchange, vtkInformationVector** inputs,
+    vtkInformationVector* outputs);
+
+  std::unique_ptr<cadrefine::GeometryMemory> Memory;
   vtkMultiProcessController* Controller = nullptr;
   std::string StatisticsText = "{}";
 };

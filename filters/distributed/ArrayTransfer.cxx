@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <type_traits>
+#include <utility>
 
 namespace cadrefine
 {
@@ -129,13 +130,17 @@ bool areAll(const std::vector<vtkIdType>& places, vtkIdType count)
            places.begin(), places.end(), [&](vtkIdType place) { return place == next++; });
 }
 
-void gatherAll(vtkDataSetAttributes* source, const std::vector<vtkIdType>& places, vtkIdType count,
-  vtkDataSetAttributes* target)
+/// Nothing where all are taken in their order.
+Places placesIn(std::vector<vtkIdType> places, vtkIdType count)
 {
-  const bool same = areAll(places, count);
+  return areAll(places, count) ? Places() : Places(std::move(places));
+}
+
+void selectFrom(vtkDataSetAttributes* source, const Places& places, vtkDataSetAttributes* target)
+{
   carryOver(source, target,
     [&](vtkAbstractArray* array)
-    { return same ? vtkSmartPointer<vtkAbstractArray>(array) : gather(array, places); });
+    { return places ? gather(array, *places) : vtkSmartPointer<vtkAbstractArray>(array); });
 }
 
 template<class Value>
@@ -225,17 +230,42 @@ MeshArrays emptyArrays(const std::string& vertexIdName, const std::string& cellI
 
 } // namespace
 
-MeshArrays readArrays(vtkPointSet* input, const ConvertedMesh& mesh)
+MeshArrays arraysOf(vtkPointSet* input)
 {
   MeshArrays arrays = emptyArrays(nameOfIds(input->GetPointData(), "GlobalPointIds"),
     nameOfIds(input->GetCellData(), "GlobalCellIds"));
-  gatherAll(input->GetPointData(), mesh.pointOf, input->GetNumberOfPoints(), arrays.ofVertices);
+  selectFrom(input->GetPointData(), {}, arrays.ofVertices);
   if (input->GetNumberOfCells() > 0)
   {
-    gatherAll(input->GetCellData(), cellSources(mesh), input->GetNumberOfCells(), arrays.ofCells);
+    selectFrom(input->GetCellData(), {}, arrays.ofCells);
   }
   arrays.ofMesh->PassData(input->GetFieldData());
   return arrays;
+}
+
+ArraySelection selectionOf(vtkPointSet* input, const ConvertedMesh& mesh)
+{
+  ArraySelection selection;
+  selection.points = placesIn(mesh.pointOf, input->GetNumberOfPoints());
+  if (input->GetNumberOfCells() > 0)
+  {
+    selection.cells = placesIn(cellSources(mesh), input->GetNumberOfCells());
+  }
+  return selection;
+}
+
+MeshArrays select(const MeshArrays& arrays, const ArraySelection& selection)
+{
+  MeshArrays result = emptyArrays(arrays.vertexIdName, arrays.cellIdName);
+  selectFrom(arrays.ofVertices, selection.points, result.ofVertices);
+  selectFrom(arrays.ofCells, selection.cells, result.ofCells);
+  result.ofMesh = arrays.ofMesh;
+  return result;
+}
+
+MeshArrays readArrays(vtkPointSet* input, const ConvertedMesh& mesh)
+{
+  return select(arraysOf(input), selectionOf(input, mesh));
 }
 
 MeshArrays refineArrays(const MeshArrays& coarse,

@@ -6,7 +6,9 @@
 
 #include <vtkSmartPointer.h>
 
+#include <optional>
 #include <string>
+#include <vector>
 
 class vtkCellData;
 class vtkFieldData;
@@ -27,8 +29,25 @@ struct MeshArrays
   std::string cellIdName;
 };
 
-/// The arrays of `input`, which `mesh` was converted from. Arrays are shared with `input` where
-/// the mesh has all of its points or cells in their order.
+/// The arrays of a data set, shared with it; cell arrays where it has cells.
+MeshArrays arraysOf(vtkPointSet* input);
+
+/// Tuples to take, in this order; none: all of them as they are.
+using Places = std::optional<std::vector<vtkIdType>>;
+
+struct ArraySelection
+{
+  Places points;
+  Places cells;
+};
+
+/// Where the vertices and cells of `mesh`, which was converted from `input`, have their tuples.
+ArraySelection selectionOf(vtkPointSet* input, const ConvertedMesh& mesh);
+
+/// Arrays of which all is taken are shared.
+MeshArrays select(const MeshArrays& arrays, const ArraySelection& selection);
+
+/// The selection of `mesh` from the arrays of `input`.
 MeshArrays readArrays(vtkPointSet* input, const ConvertedMesh& mesh);
 
 /// The arrays of the mesh that `coarse` was split into: cell arrays are inherited, point arrays

@@ -2,13 +2,11 @@
 
 #include "Agreement.h"
 #include "ArrayTransfer.h"
-#include "Error.h"
+#include "Marshalling.h"
 #include "WeightedPartition.h"
 
 #include <vtkAppendFilter.h>
 #include <vtkCellData.h>
-#include <vtkCharArray.h>
-#include <vtkCommunicator.h>
 #include <vtkFieldData.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -16,6 +14,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace cadrefine
 {
@@ -122,25 +121,7 @@ std::vector<char> pack(const ConvertedMesh& part, vtkPointSet* input)
   grid->ShallowCopy(makePointSet(grid, part.mesh));
   copyArrays(input, part, grid);
   grid->GetFieldData()->Initialize();
-  vtkNew<vtkCharArray> bytes;
-  if (!vtkCommunicator::MarshalDataObject(grid, bytes))
-  {
-    throw Error("a part of the mesh cannot be sent to another rank");
-  }
-  return { bytes->GetPointer(0), bytes->GetPointer(0) + bytes->GetNumberOfValues() };
-}
-
-vtkSmartPointer<vtkDataObject> unpack(const std::vector<char>& bytes)
-{
-  vtkNew<vtkCharArray> array;
-  array->SetNumberOfValues(static_cast<vtkIdType>(bytes.size()));
-  std::copy(bytes.begin(), bytes.end(), array->GetPointer(0));
-  auto part = vtkCommunicator::UnMarshalDataObject(array);
-  if (!vtkUnstructuredGrid::SafeDownCast(part))
-  {
-    throw Error("a part of the mesh from another rank cannot be read");
-  }
-  return part;
+  return marshal(grid);
 }
 
 /// The appended parts lose which arrays are the global ids.
@@ -167,11 +148,12 @@ bool isBalanced(
   return static_cast<double>(largest) <= tolerance * mean && compact * sums[1] <= sums[2];
 }
 
-vtkSmartPointer<vtkPointSet> redistribute(RankExchange& exchange, const DistributedMesh& mesh,
-  vtkPointSet* input, const std::vector<std::int64_t>& weights)
+Redistribution redistribute(RankExchange& exchange, const DistributedMesh& mesh, vtkPointSet* input,
+  const std::vector<std::int64_t>& weights)
 {
   const std::vector<int> ranks = partitionByWeight(exchange, cellCentres(mesh.mesh()), weights);
   std::vector<std::vector<char>> outgoing(exchange.size());
+  Delivery delivery(exchange.size());
   attempt(exchange,
     [&]
     {
@@ -183,9 +165,11 @@ vtkSmartPointer<vtkPointSet> redistribute(RankExchange& exchange, const Distribu
       PartMaker maker(mesh);
       for (int rank = 0; rank < exchange.size(); ++rank)
       {
+        const ConvertedMesh part = maker.make(cellsTo[rank]);
+        delivery[rank] = selectionOf(input, part);
         if (!cellsTo[rank].empty())
         {
-          outgoing[rank] = pack(maker.make(cellsTo[rank]), input);
+          outgoing[rank] = pack(part, input);
         }
       }
     });
@@ -199,7 +183,7 @@ vtkSmartPointer<vtkPointSet> redistribute(RankExchange& exchange, const Distribu
       {
         if (!bytes.empty())
         {
-          append->AddInputData(unpack(bytes));
+          append->AddInputData(unmarshal<vtkUnstructuredGrid>(bytes));
         }
       }
       if (append->GetNumberOfInputConnections(0) > 0)
@@ -211,7 +195,7 @@ vtkSmartPointer<vtkPointSet> redistribute(RankExchange& exchange, const Distribu
       }
     });
   result->GetFieldData()->PassData(input->GetFieldData());
-  return result;
+  return { result, std::move(delivery) };
 }
 
 } // namespace cadrefine

@@ -1,6 +1,7 @@
 // Spreading cells over ranks by the work that they will make.
 #pragma once
 
+#include "ArrayDelivery.h"
 #include "DistributedMesh.h"
 
 #include <vtkSmartPointer.h>
@@ -18,6 +19,12 @@ namespace cadrefine
 bool isBalanced(
   RankExchange& exchange, const DistributedMesh& mesh, const std::vector<std::int64_t>& weights);
 
+struct Redistribution
+{
+  vtkSmartPointer<vtkPointSet> mesh;
+  Delivery delivery; ///< What went where; it takes other arrays there in the same order.
+};
+
 /// Redistributes the cells of `input`, which `mesh` was made from, with their arrays: ranks get
 /// boxes of cells, about equal in weight (see partitionByWeight). One weight, at least 1, for each
 /// cell in the order of makePointSet. The result is an unstructured grid with the same arrays.
@@ -27,7 +34,7 @@ bool isBalanced(
 /// data sets as XML that this library refuses.
 ///
 /// Throws Error on all ranks where a part cannot be sent. Collective.
-vtkSmartPointer<vtkPointSet> redistribute(RankExchange& exchange, const DistributedMesh& mesh,
-  vtkPointSet* input, const std::vector<std::int64_t>& weights);
+Redistribution redistribute(RankExchange& exchange, const DistributedMesh& mesh, vtkPointSet* input,
+  const std::vector<std::int64_t>& weights);
 
 } // namespace cadrefine

@@ -10,6 +10,7 @@
 #include <vtkTable.h>
 
 #include <string>
+#include <utility>
 
 namespace cadrefine
 {
@@ -25,7 +26,7 @@ public:
   {
   }
 
-  AdaptationResult run(vtkPointSet* input)
+  StepResult run(vtkPointSet* input)
   {
     observer_.progress(0);
     setMesh(projectMesh(context_, input, options_.projection), 0);
@@ -40,17 +41,21 @@ public:
       }
     }
     table_.setStopReason(reason);
-    return { mesh_, table_.table() };
+    result_.table = table_.table();
+    return std::move(result_);
   }
 
 private:
   /// Takes the mesh of the next step, and measures it.
-  void setMesh(vtkPointSet* mesh, std::int64_t markedCells)
+  void setMesh(StepResult step, std::int64_t markedCells)
   {
-    mesh_ = measureMesh(context_, mesh, options_.recursionDepth);
+    StepResult measured = measureMesh(context_, step.mesh, options_.recursionDepth);
+    result_.mesh = measured.mesh;
+    result_.route.append(std::move(step.route));
+    result_.route.append(std::move(measured.route));
     if (context_.exchange.rank() == 0)
     {
-      table_.addStep(markedCells, mesh_);
+      table_.addStep(markedCells, result_.mesh);
     }
   }
 
@@ -58,7 +63,7 @@ private:
   std::string reasonToStop() const
   {
     const double error =
-      mesh_->GetFieldData()->GetArray("GlobalGeometricError")->GetComponent(0, 0);
+      result_.mesh->GetFieldData()->GetArray("GlobalGeometricError")->GetComponent(0, 0);
     if (options_.targetError > 0 && error <= options_.targetError)
     {
       return "the global geometric error has reached its target (TargetError)";
@@ -73,7 +78,7 @@ private:
   /// Makes a step, or says why not.
   std::string refine()
   {
-    const RefinementOutcome refined = refineMesh(context_, mesh_, options_.refinement);
+    RefinementOutcome refined = refineMesh(context_, result_.mesh, options_.refinement);
     if (refined.markedCells == 0)
     {
       return "no cell is marked";
@@ -83,21 +88,21 @@ private:
       return "there would be more cells than allowed (MaximumCells)";
     }
     ++steps_;
-    setMesh(refined.mesh, refined.markedCells);
+    setMesh(std::move(refined.result), refined.markedCells);
     return "";
   }
 
   const StepContext& context_;
   const AdaptationOptions& options_;
   const AdaptationObserver& observer_;
-  vtkSmartPointer<vtkPointSet> mesh_;
+  StepResult result_;
   ConvergenceTable table_;
   int steps_ = 0;
 };
 
 } // namespace
 
-AdaptationResult adaptMesh(const StepContext& context, vtkPointSet* input,
+StepResult adaptMesh(const StepContext& context, vtkPointSet* input,
   const AdaptationOptions& options, const AdaptationObserver& observer)
 {
   return Adaptation(context, options, observer).run(input);

@@ -4,13 +4,11 @@
 #include "ProjectionTask.h"
 #include "RefinementStep.h"
 #include "StepContext.h"
-
-#include <vtkSmartPointer.h>
+#include "StepResult.h"
 
 #include <functional>
 
 class vtkPointSet;
-class vtkTable;
 
 namespace cadrefine
 {
@@ -34,19 +32,15 @@ struct AdaptationObserver
   std::function<bool()> isInterrupted;
 };
 
-struct AdaptationResult
-{
-  vtkSmartPointer<vtkPointSet> mesh; ///< Of the last whole step, with its error.
-  /// A row a step, the first for the mesh after projection, on rank 0: Step, MarkedCells (cells
-  /// that were marked to make it), and the field data of the mesh by their names. Its field data
-  /// StopReason says why there was no further step. The other ranks have the columns alone.
-  vtkSmartPointer<vtkTable> table;
-};
-
 /// Projects the mesh; then measures the error, marks and refines, until the error, the steps or the
 /// cells reach their limit, no cell is marked, or the user interrupts. Collective. Memory: that of
 /// a step, and of the mesh before it.
-AdaptationResult adaptMesh(const StepContext& context, vtkPointSet* input,
+///
+/// The mesh is that of the last whole step, with its error. The table has a row a step, the first
+/// for the mesh after projection, on rank 0: Step, MarkedCells (cells that were marked to make it),
+/// and the field data of the mesh by their names. Its field data StopReason says why there was no
+/// further step. The other ranks have the columns alone.
+StepResult adaptMesh(const StepContext& context, vtkPointSet* input,
   const AdaptationOptions& options, const AdaptationObserver& observer);
 
 } // namespace cadrefine

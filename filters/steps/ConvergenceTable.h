@@ -12,7 +12,7 @@ class vtkTable;
 namespace cadrefine
 {
 
-/// A row a step; see AdaptationResult.
+/// A row a step; see adaptMesh.
 class ConvergenceTable
 {
 public:

@@ -48,8 +48,7 @@ void addErrors(vtkPointSet* output, const MeshError& error)
 
 } // namespace
 
-vtkSmartPointer<vtkPointSet> measureMesh(
-  const StepContext& context, vtkPointSet* input, int recursionDepth)
+StepResult measureMesh(const StepContext& context, vtkPointSet* input, int recursionDepth)
 {
   DistributedMesh mesh = makeDistributedMesh(context.exchange, input);
   Classification classification;
@@ -60,10 +59,12 @@ vtkSmartPointer<vtkPointSet> measureMesh(
 
   recordBalance(context.statistics, "facets", error.balance);
 
-  vtkSmartPointer<vtkPointSet> output = makePointSet(input, mesh.mesh());
-  copyArrays(input, mesh.converted, output);
-  addErrors(output, error);
-  return output;
+  StepResult result;
+  result.mesh = makePointSet(input, mesh.mesh());
+  result.route.convert(input, mesh.converted);
+  copyArrays(input, mesh.converted, result.mesh);
+  addErrors(result.mesh, error);
+  return result;
 }
 
 } // namespace cadrefine

@@ -2,8 +2,7 @@
 #pragma once
 
 #include "StepContext.h"
-
-#include <vtkSmartPointer.h>
+#include "StepResult.h"
 
 class vtkPointSet;
 
@@ -11,7 +10,6 @@ namespace cadrefine
 {
 
 /// The projected mesh with its error (see measureError) as cell arrays and field data. Collective.
-vtkSmartPointer<vtkPointSet> measureMesh(
-  const StepContext& context, vtkPointSet* input, int recursionDepth);
+StepResult measureMesh(const StepContext& context, vtkPointSet* input, int recursionDepth);
 
 } // namespace cadrefine

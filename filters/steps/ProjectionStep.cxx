@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 namespace cadrefine
 {
@@ -49,8 +50,7 @@ ProjectionOptions makeProjectionOptions(const double* region, double maximumDist
   return options;
 }
 
-vtkSmartPointer<vtkPointSet> projectMesh(
-  const StepContext& context, vtkPointSet* input, ProjectionOptions options)
+StepResult projectMesh(const StepContext& context, vtkPointSet* input, ProjectionOptions options)
 {
   RankExchange& exchange = context.exchange;
   DistributedMesh mesh = makeDistributedMesh(exchange, input);
@@ -62,13 +62,15 @@ vtkSmartPointer<vtkPointSet> projectMesh(
   context.statistics.set("points that gave up", static_cast<double>(result.slowPoints));
 
   vtkSmartPointer<vtkPointSet> output = makePointSet(input, mesh.mesh());
+  ArrayRoute route;
+  route.convert(input, mesh.converted);
   copyArrays(input, mesh.converted, output);
   writeClassification(output, result.classification);
   writeConflicts(output, result.conflicts);
   summariseMesh(exchange, mesh, summariseQuality(exchange, mesh), output);
   summariseProjection(exchange, mesh, result.classification, result.projectedPoints, output);
   summariseConflicts(exchange, mesh, result.conflicts, output);
-  return output;
+  return { output, std::move(route) };
 }
 
 } // namespace cadrefine

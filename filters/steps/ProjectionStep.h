@@ -3,8 +3,7 @@
 
 #include "ProjectionTask.h"
 #include "StepContext.h"
-
-#include <vtkSmartPointer.h>
+#include "StepResult.h"
 
 class vtkPointSet;
 
@@ -17,7 +16,6 @@ ProjectionOptions makeProjectionOptions(const double* region, double maximumDist
 /// The mesh with its boundary on the CAD (see projectBoundary; points alone: projectPoints), its
 /// classification and conflicts as point arrays, counts as field data. Whether cells are to be
 /// mended is decided here. Collective.
-vtkSmartPointer<vtkPointSet> projectMesh(
-  const StepContext& context, vtkPointSet* input, ProjectionOptions options);
+StepResult projectMesh(const StepContext& context, vtkPointSet* input, ProjectionOptions options);
 
 } // namespace cadrefine

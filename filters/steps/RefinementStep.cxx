@@ -17,6 +17,7 @@
 #include <numeric>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace cadrefine
 {
@@ -39,7 +40,7 @@ public:
     makePlan();
     if (isTooLarge())
     {
-      return { nullptr, markedCells_, true };
+      return { {}, markedCells_, true };
     }
     if (options_.balance && exchange_.size() > 1)
     {
@@ -58,7 +59,7 @@ public:
         refineOnce();
       }
     }
-    return { makeOutput(input), markedCells_, limited };
+    return { { makeOutput(input), std::move(route_) }, markedCells_, limited };
   }
 
 private:
@@ -77,6 +78,7 @@ private:
         throw Error("the mesh has no triangles or tetrahedra to refine");
       }
       arrays_ = readArrays(source, mesh_.converted);
+      route_.convert(source, mesh_.converted);
     }
     boundary_.reset();
     const auto stopwatch = watch("seconds projection");
@@ -166,7 +168,7 @@ private:
   /// Puts the cells where the plan makes equal work, if they are not.
   void balanceCells(vtkPointSet* input)
   {
-    vtkSmartPointer<vtkPointSet> balanced;
+    Redistribution balanced;
     {
       const auto stopwatch = watch("seconds balancing");
       const auto weights = childCounts();
@@ -179,20 +181,23 @@ private:
       }
       balanced = redistribute(exchange_, mesh_, input, weights);
     }
-    load(balanced);
+    route_ = {}; // cells were sent from the input, not from the mesh
+    route_.redistribute(std::move(balanced.delivery));
+    load(balanced.mesh);
     makePlan();
   }
 
   void refineOnce()
   {
-    const RefinementTrace trace = classified_
-                                    ? refineOntoCAD(exchange_, mesh_, plan_, boundary(), positions_,
-                                        whatBecomesOfNewVertices(), context_.statistics)
-                                    : refine(exchange_, mesh_, plan_, context_.statistics);
+    RefinementTrace trace = classified_
+                              ? refineOntoCAD(exchange_, mesh_, plan_, boundary(), positions_,
+                                  whatBecomesOfNewVertices(), context_.statistics)
+                              : refine(exchange_, mesh_, plan_, context_.statistics);
     boundary_.reset();
     projectedPoints_ += trace.projectedPoints;
     const auto stopwatch = watch("seconds copying fields");
     arrays_ = refineArrays(arrays_, trace.parentEdges, trace.firstChildren);
+    route_.refine(std::move(trace));
   }
 
   /// In the class of `prototype`.
@@ -219,6 +224,7 @@ private:
   const RefinementOptions& options_;
   DistributedMesh mesh_;
   MeshArrays arrays_;
+  ArrayRoute route_;
   bool classified_ = false;      ///< The mesh knows its places on the CAD.
   bool hasInvalidCells_ = false; ///< Of the input.
   Classification positions_;

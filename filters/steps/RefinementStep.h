@@ -3,8 +3,7 @@
 
 #include "Marking.h"
 #include "StepContext.h"
-
-#include <vtkSmartPointer.h>
+#include "StepResult.h"
 
 #include <cstdint>
 #include <vector>
@@ -29,9 +28,9 @@ struct RefinementOptions
 
 struct RefinementOutcome
 {
-  vtkSmartPointer<vtkPointSet> mesh; ///< Null where the limit forbade the first level.
-  std::int64_t markedCells = 0;      ///< In the last level, over all ranks.
-  bool limited = false;              ///< Not all levels were made.
+  StepResult result;            ///< No mesh where the limit forbade the first level.
+  std::int64_t markedCells = 0; ///< In the last level, over all ranks.
+  bool limited = false;         ///< Not all levels were made.
 };
 
 /// Refines a mesh (see refine and refineOntoCAD). Collective.

@@ -1,0 +1,128 @@
+#include "ContentHash.h"
+
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkPointData.h>
+#include <vtkPointSet.h>
+#include <vtkPolyData.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtksys/MD5.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace cadrefine
+{
+namespace
+{
+
+class Hasher
+{
+public:
+  Hasher() : md5_(vtksysMD5_New(), vtksysMD5_Delete) { vtksysMD5_Initialize(md5_.get()); }
+
+  /// What stands before the data tells its length, so that no two rows of items look alike.
+  void add(const std::string& text)
+  {
+    add(reinterpret_cast<const unsigned char*>(text.c_str()), text.size() + 1);
+  }
+
+  void add(vtkDataArray* array)
+  {
+    if (!array || array->GetNumberOfValues() == 0)
+    {
+      return add("empty");
+    }
+    const vtkIdType count = array->GetNumberOfValues();
+    std::ostringstream header;
+    header << array->GetDataType() << " " << array->GetNumberOfComponents() << " " << count;
+    add(header.str());
+    const bool isBits = array->GetDataType() == VTK_BIT;
+    const auto bytes =
+      static_cast<std::size_t>(isBits ? (count + 7) / 8 : count * array->GetDataTypeSize());
+    if (array->HasStandardMemoryLayout())
+    {
+      return add(static_cast<const unsigned char*>(array->GetVoidPointer(0)), bytes);
+    }
+    std::vector<unsigned char> copy(bytes);
+    array->ExportToVoidPointer(copy.data());
+    add(copy.data(), bytes);
+  }
+
+  void add(vtkCellArray* cells)
+  {
+    add(cells ? cells->GetOffsetsArray() : nullptr);
+    add(cells ? cells->GetConnectivityArray() : nullptr);
+  }
+
+  void add(vtkDataSetAttributes* attributes)
+  {
+    for (int a = 0; a < attributes->GetNumberOfArrays(); ++a)
+    {
+      if (vtkDataArray* array = attributes->GetArray(a))
+      {
+        add(array->GetName() ? array->GetName() : "");
+        add(std::to_string(attributes->IsArrayAnAttribute(a)));
+        add(array);
+      }
+    }
+    add("end");
+  }
+
+  ContentHash result()
+  {
+    ContentHash hash;
+    vtksysMD5_Finalize(md5_.get(), hash.data());
+    return hash;
+  }
+
+private:
+  void add(const unsigned char* data, std::size_t bytes)
+  {
+    constexpr std::size_t longest = std::size_t{ 1 } << 30; // the library counts in int
+    for (std::size_t done = 0; done < bytes; done += longest)
+    {
+      vtksysMD5_Append(md5_.get(), data + done, static_cast<int>(std::min(longest, bytes - done)));
+    }
+  }
+
+  std::unique_ptr<vtksysMD5, void (*)(vtksysMD5*)> md5_;
+};
+
+void addCells(vtkPointSet* data, Hasher& hasher)
+{
+  if (auto* grid = vtkUnstructuredGrid::SafeDownCast(data))
+  {
+    hasher.add(grid->GetCellTypesArray());
+    hasher.add(grid->GetCells());
+  }
+  else if (auto* surface = vtkPolyData::SafeDownCast(data))
+  {
+    for (vtkCellArray* cells :
+      { surface->GetVerts(), surface->GetLines(), surface->GetPolys(), surface->GetStrips() })
+    {
+      hasher.add(cells);
+    }
+  }
+}
+
+} // namespace
+
+ContentHash hashContent(vtkPointSet* data)
+{
+  Hasher hasher;
+  hasher.add(data->GetClassName());
+  hasher.add(data->GetPoints() ? data->GetPoints()->GetData() : nullptr);
+  addCells(data, hasher);
+  hasher.add(data->GetPointData());
+  hasher.add(data->GetCellData());
+  return hasher.result();
+}
+
+} // namespace cadrefine

@@ -1,0 +1,24 @@
+#include "GeometryMemory.h"
+
+#include <vtkPointSet.h>
+
+#include <utility>
+
+namespace cadrefine
+{
+
+const StepResult& GeometryMemory::get(RankExchange& exchange, vtkPointSet* geometry,
+  std::shared_ptr<const CADModel> model, std::uint64_t properties, const Make& make)
+{
+  const ContentHash hash = hashContent(geometry);
+  const bool isNew =
+    !last_ || last_->hash != hash || last_->model != model || last_->properties != properties;
+  if (exchange.any(isNew))
+  {
+    last_.reset(); // first, so that no two are in memory
+    last_ = Entry{ hash, std::move(model), properties, make(geometry) };
+  }
+  return last_->result;
+}
+
+} // namespace cadrefine
