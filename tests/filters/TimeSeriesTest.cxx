@@ -220,10 +220,13 @@ TEST_F(TimeSeries, takesTheFieldsAlongOnTheSameMesh)
   {
     times.push_back(vtkUnstructuredGrid::SafeDownCast(meshOf(filter))->GetMeshMTime());
   }
+  const auto timeOfCAD = [&] { return pipeline.cad->GetOutputDataObject(0)->GetUpdateTime(); };
+  const vtkMTimeType read = timeOfCAD();
   for (const int step : { 1, 3, 2 })
   {
     EXPECT_EQ(run(pipeline, step), all);
   }
+  EXPECT_EQ(timeOfCAD(), read) << "the CAD file was read again";
   expectAsFresh(pipeline, 2);
   for (std::size_t f = 0; f < times.size(); ++f)
   {
