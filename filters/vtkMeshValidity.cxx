@@ -21,10 +21,10 @@ cadrefine::StepResult vtkMeshValidity::Execute(
   cadrefine::RankExchange& exchange, vtkPointSet* input, const cadrefine::CADModel*)
 {
   using namespace cadrefine;
-  const DistributedMesh mesh = makeDistributedMesh(exchange, input);
+  const DistributedMesh mesh = makeDistributedMesh(exchange, input, CellOrder::FirstOrSecond);
   const CellQualities qualities = measureQuality(exchange, mesh);
   StepResult result;
-  result.mesh = makePointSet(input, mesh.mesh());
+  result.mesh = makePointSet(input, mesh.mesh(), mesh.converted.midNodes);
   result.route.convert(input, mesh.converted);
   vtkPointSet* output = result.mesh;
   copyArrays(input, mesh.converted, output);

@@ -16,6 +16,7 @@ cadrefine::StepResult vtkRefineWithCAD::Execute(
 {
   cadrefine::RefinementOptions options = this->MakeOptions();
   options.levels = this->Levels;
+  options.quadraticCells = this->QuadraticCells;
   return cadrefine::refineMesh(this->MakeContext(exchange, *model), input, options).result;
 }
 
@@ -32,4 +33,5 @@ void vtkRefineWithCAD::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Marking: " << this->Marking << "\n";
   os << indent << "Threshold: " << this->Threshold << "\n";
   os << indent << "Fraction: " << this->Fraction << "\n";
+  os << indent << "QuadraticCells: " << this->QuadraticCells << "\n";
 }

@@ -31,10 +31,10 @@ public:
 
   ///@{
   /**
-   * How often to refine, at least 1. Children inherit the values of the arrays that mark cells.
-   * Default 1.
+   * How often to refine. Children inherit the values of the arrays that mark cells. 0: not at all,
+   * so that QuadraticCells alone has its effect. Default 1.
    */
-  vtkSetClampMacro(Levels, int, 1, 20);
+  vtkSetClampMacro(Levels, int, 0, 20);
   vtkGetMacro(Levels, int);
   ///@}
 
@@ -54,6 +54,18 @@ public:
   vtkGetMacro(Fraction, double);
   ///@}
 
+  ///@{
+  /**
+   * Whether the cells of the output are of second order: VTK_QUADRATIC_TETRA (TRIANGLE, EDGE) whose
+   * mid nodes are put onto the CAD like new vertices, as far as all cells stay valid by Bezier
+   * bounds of their Jacobian. Only for vtkUnstructuredGrid; no filter here refines such a mesh
+   * further. Default off.
+   */
+  vtkSetMacro(QuadraticCells, bool);
+  vtkGetMacro(QuadraticCells, bool);
+  vtkBooleanMacro(QuadraticCells, bool);
+  ///@}
+
 protected:
   vtkRefineWithCAD();
   ~vtkRefineWithCAD() override;
@@ -71,6 +83,7 @@ private:
   int Marking = THRESHOLD;
   double Threshold = 0;
   double Fraction = 0.5;
+  bool QuadraticCells = false;
 };
 
 #endif

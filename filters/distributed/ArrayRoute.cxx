@@ -28,6 +28,10 @@ struct Walk
   {
     return refineArrays(arrays, trace.parentEdges, trace.firstChildren);
   }
+  MeshArrays operator()(const std::vector<std::array<Index, 2>>& edges) const
+  {
+    return withMidNodes(arrays, edges);
+  }
 };
 
 } // namespace
@@ -49,6 +53,11 @@ void ArrayRoute::redistribute(Delivery delivery)
 void ArrayRoute::refine(RefinementTrace trace)
 {
   legs_.emplace_back(std::move(trace));
+}
+
+void ArrayRoute::addMidNodes(std::vector<std::array<Index, 2>> edges)
+{
+  legs_.emplace_back(std::move(edges));
 }
 
 void ArrayRoute::append(ArrayRoute next)

@@ -23,6 +23,8 @@ public:
   void redistribute(Delivery delivery);
   /// The mesh was refined.
   void refine(RefinementTrace trace);
+  /// The mesh became one of second order, with a mid node on each edge.
+  void addMidNodes(std::vector<std::array<Index, 2>> edges);
   /// All that happened on another route, which starts where this one ends.
   void append(ArrayRoute next);
 
@@ -30,7 +32,8 @@ public:
   MeshArrays follow(RankExchange& exchange, MeshArrays arrays) const;
 
 private:
-  using Leg = std::variant<ArraySelection, Delivery, RefinementTrace>;
+  using Edges = std::vector<std::array<Index, 2>>;
+  using Leg = std::variant<ArraySelection, Delivery, RefinementTrace, Edges>;
   std::vector<Leg> legs_;
 };
 

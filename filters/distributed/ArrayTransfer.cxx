@@ -282,13 +282,26 @@ MeshArrays refineArrays(const MeshArrays& coarse,
   return fine;
 }
 
+MeshArrays withMidNodes(
+  const MeshArrays& arrays, const std::vector<std::array<Index, 2>>& parentEdges)
+{
+  MeshArrays result = emptyArrays(arrays.vertexIdName, arrays.cellIdName);
+  carryOver(arrays.ofVertices, result.ofVertices,
+    [&](vtkAbstractArray* array) { return interpolate(array, parentEdges); });
+  result.ofCells = arrays.ofCells;
+  result.ofMesh = arrays.ofMesh;
+  return result;
+}
+
 void setArrays(const MeshArrays& arrays, const ConvertedMesh& mesh, vtkPointSet* output)
 {
   const auto pass = [](vtkAbstractArray* array) { return array; };
   carryOver(arrays.ofVertices, output->GetPointData(), pass);
   carryOver(arrays.ofCells, output->GetCellData(), pass);
   output->GetFieldData()->PassData(arrays.ofMesh);
-  output->GetPointData()->SetGlobalIds(makeIds(arrays.vertexIdName, mesh.mesh.ids));
+  const std::vector<GlobalId> ofNodes =
+    mesh.midNodes ? mesh.midNodes->ids : std::vector<GlobalId>();
+  output->GetPointData()->SetGlobalIds(makeIds(arrays.vertexIdName, mesh.mesh.ids, ofNodes));
   const auto& cells = mesh.cellIds;
   output->GetCellData()->SetGlobalIds(
     makeIds(arrays.cellIdName, cells[0], cells[1], cells[2], cells[3]));

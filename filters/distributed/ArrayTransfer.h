@@ -57,6 +57,10 @@ MeshArrays readArrays(vtkPointSet* input, const ConvertedMesh& mesh);
 MeshArrays refineArrays(const MeshArrays& coarse,
   const std::vector<std::array<Index, 2>>& parentEdges, const ChildRanges& firstChildren);
 
+/// The same with point arrays for mid nodes after the vertices, interpolated likewise.
+MeshArrays withMidNodes(
+  const MeshArrays& arrays, const std::vector<std::array<Index, 2>>& parentEdges);
+
 /// Adds the arrays, and the global ids of `mesh`, to `output`, which was made from it.
 void setArrays(const MeshArrays& arrays, const ConvertedMesh& mesh, vtkPointSet* output);
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 namespace cadrefine
 {
@@ -162,17 +163,41 @@ SharedVertices findShared(RankExchange& exchange, const SimplexMesh& mesh)
   return findSharedVertices(exchange, mesh.ids, candidates(exchange, mesh));
 }
 
-DistributedMesh makeDistributedMesh(RankExchange& exchange, vtkPointSet* input)
+std::size_t DistributedMesh::pointCount() const
+{
+  return mesh().points.size() + (converted.midNodes ? converted.midNodes->points.size() : 0);
+}
+
+std::vector<char> DistributedMesh::ownedPoints() const
+{
+  return (converted.midNodes ? sharedPoints : shared).ownedHere(static_cast<Index>(pointCount()));
+}
+
+SharedVertices findSharedPoints(const DistributedMesh& mesh, const SharedEdges& edges)
+{
+  std::vector<Index> numbers(mesh.pointCount() - mesh.mesh().points.size());
+  std::iota(numbers.begin(), numbers.end(), static_cast<Index>(mesh.mesh().points.size()));
+  return sharedWithMidpoints(mesh.shared, edges, numbers);
+}
+
+DistributedMesh makeDistributedMesh(RankExchange& exchange, vtkPointSet* input, CellOrder order)
 {
   DistributedMesh result;
-  result.converted = convert(exchange, input);
+  result.converted = convert(exchange, input, order);
   result.shared = findShared(exchange, result.mesh());
   if (exchange.any(!haveIds(result.converted)))
   {
     numberCells(exchange, result.shared, result.converted);
   }
   const auto& ids = result.mesh().ids;
-  const GlobalId largest = ids.empty() ? -1 : *std::max_element(ids.begin(), ids.end());
+  GlobalId largest = ids.empty() ? -1 : *std::max_element(ids.begin(), ids.end());
+  if (const auto& midNodes = result.converted.midNodes)
+  {
+    result.sharedPoints = findSharedPoints(
+      result, findSharedEdges(exchange, result.shared, ids, midNodes->table.edges));
+    largest = std::accumulate(midNodes->ids.begin(), midNodes->ids.end(), largest,
+      [](GlobalId a, GlobalId b) { return std::max(a, b); });
+  }
   result.vertexIdBound = exchange.max(largest) + 1;
   return result;
 }
@@ -187,7 +212,7 @@ MeshBounds findBounds(RankExchange& exchange, const SimplexMesh& mesh)
 
 MeshCounts countMesh(RankExchange& exchange, const DistributedMesh& mesh)
 {
-  const auto owned = mesh.shared.ownedHere(static_cast<Index>(mesh.mesh().points.size()));
+  const auto owned = mesh.ownedPoints();
   const auto vertices = std::count(owned.begin(), owned.end(), 1);
   const auto& cellIds = mesh.converted.cellIds[mesh.mesh().dimension];
   const auto sums = exchange.sum(std::vector<std::int64_t>{

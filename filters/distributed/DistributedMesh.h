@@ -3,6 +3,7 @@
 
 #include "PointSetConversion.h"
 #include "RankExchange.h"
+#include "SharedEdges.h"
 #include "SharedVertices.h"
 #include "SimplexMesh.h"
 
@@ -14,14 +15,24 @@ struct DistributedMesh
 {
   ConvertedMesh converted;
   SharedVertices shared;
-  GlobalId vertexIdBound = 0; ///< All vertex ids are smaller.
+  SharedVertices sharedPoints; ///< Of a mesh of second order: vertices and mid nodes.
+  GlobalId vertexIdBound = 0;  ///< All ids of vertices and mid nodes are smaller.
 
   SimplexMesh& mesh() { return converted.mesh; }
   const SimplexMesh& mesh() const { return converted.mesh; }
+  /// Vertices, and mid nodes after them.
+  std::size_t pointCount() const;
+  /// For each of them 1 if this rank owns it, else 0.
+  std::vector<char> ownedPoints() const;
 };
 
 /// Reads a data set (see convert) and finds the shared vertices. Collective.
-DistributedMesh makeDistributedMesh(RankExchange& exchange, vtkPointSet* input);
+DistributedMesh makeDistributedMesh(
+  RankExchange& exchange, vtkPointSet* input, CellOrder order = CellOrder::First);
+
+/// The shared points of a mesh whose edges are shared like this: those of its vertices, and of the
+/// mid nodes that have numbers after them. No communication.
+SharedVertices findSharedPoints(const DistributedMesh& mesh, const SharedEdges& edges);
 
 /// The shared vertices of a mesh. Collective. Ids are sent of the vertices in the boxes round other
 /// ranks' pieces; where these are many and all cells are tetrahedra (which must not overlap), of
@@ -43,8 +54,8 @@ MeshBounds findBounds(RankExchange& exchange, const SimplexMesh& mesh);
 /// Counts of the whole mesh, no vertex or cell twice.
 struct MeshCounts
 {
-  std::int64_t vertices = 0;
-  std::int64_t cells = 0; ///< Of the mesh's own dimension.
+  std::int64_t vertices = 0; ///< And mid nodes.
+  std::int64_t cells = 0;    ///< Of the mesh's own dimension.
 };
 
 /// Collective; one reduction of two numbers, work linear in the vertices of the piece.

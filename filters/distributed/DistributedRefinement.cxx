@@ -3,11 +3,9 @@
 #include "Agreement.h"
 #include "DistributedBoundary.h"
 #include "DistributedMoves.h"
-#include "EvenWork.h"
 #include "FacetMarking.h"
 #include "GlobalNumbering.h"
 #include "LargeMemory.h"
-#include "VertexNumbering.h"
 
 #include <algorithm>
 #include <iterator>
@@ -19,14 +17,6 @@ namespace cadrefine
 {
 namespace
 {
-
-RefinementPlan makePlan(RankExchange& exchange, const DistributedMesh& mesh)
-{
-  RefinementPlan plan;
-  plan.table = buildEdgeTable(mesh.mesh());
-  plan.sharedEdges = findSharedEdges(exchange, mesh.shared, mesh.mesh().ids, plan.table.edges);
-  return plan;
-}
 
 /// Marks the shared edges that any rank has marked. Returns those that are new to this one.
 std::vector<Index> combineMarks(RankExchange& exchange, RefinementPlan& plan)
@@ -41,25 +31,6 @@ std::vector<Index> combineMarks(RankExchange& exchange, RefinementPlan& plan)
     std::remove_if(fresh.begin(), fresh.end(), [&](Index edge) { return !plan.marks[edge]; }),
     fresh.end());
   return fresh;
-}
-
-std::vector<GlobalId> numberNewVertices(RankExchange& exchange, DistributedMesh& mesh,
-  const std::vector<std::array<Index, 2>>& parentEdges)
-{
-  const auto& ids = mesh.mesh().ids;
-  std::vector<VertexKey<1>> keys;
-  resizeLong(keys, parentEdges.size());
-  std::transform(parentEdges.begin(), parentEdges.end(), keys.begin(),
-    [&](const std::array<Index, 2>& ends) {
-      return VertexKey<1>{ ends[0], { ids[ends[1]] } };
-    });
-  Numbering numbering = numberAtVertices(exchange, mesh.shared, ids, keys);
-  for (GlobalId& number : numbering.numbers)
-  {
-    number += mesh.vertexIdBound;
-  }
-  mesh.vertexIdBound += numbering.count;
-  return std::move(numbering.numbers);
 }
 
 /// Ids of the children: parents in the order of their ids, the children of each in a row.
@@ -97,107 +68,6 @@ std::array<std::vector<GlobalId>, 4> numberChildren(RankExchange& exchange,
   return ids;
 }
 
-/// The shared vertices of the refined mesh: those that were, and the midpoints of shared edges.
-/// New ids are larger than old ones, and in the order of their edges.
-SharedVertices sharedAfter(
-  const SharedVertices& before, const RefinementPlan& plan, const Midpoints& midpoints)
-{
-  auto items = before.items;
-  for (std::size_t n = 0; n < plan.sharedEdges.neighbours.size(); ++n)
-  {
-    const auto neighbour = std::lower_bound(
-      before.neighbours.begin(), before.neighbours.end(), plan.sharedEdges.neighbours[n]);
-    auto& vertices = items[neighbour - before.neighbours.begin()];
-    for (const Index edge : plan.sharedEdges.items[n])
-    {
-      if (plan.marks[edge])
-      {
-        vertices.push_back(midpoints.ofEdge[edge]);
-      }
-    }
-  }
-  return makeSharedItems(before.rank, before.neighbours, std::move(items));
-}
-
-/// Class of an edge and whether it lies on the boundary, as one number that ranks can combine by
-/// the maximum: a rank without a facet at the edge has 0.
-std::int64_t encode(const EdgeClass& edgeClass)
-{
-  return 1 + edgeClass.kind + 4 * static_cast<std::int64_t>(edgeClass.edge + 1);
-}
-
-EdgeClass decode(std::int64_t code)
-{
-  return code == 0 ? EdgeClass{}
-                   : EdgeClass{ static_cast<EdgeClass::Kind>((code - 1) % 4),
-                       static_cast<std::int32_t>((code - 1) / 4 - 1) };
-}
-
-/// The code of every edge of the piece, also of edges whose boundary facets are on other ranks.
-std::vector<std::int64_t> edgeCodes(
-  RankExchange& exchange, const RefinementPlan& plan, const ClassifiedBoundary& classified)
-{
-  std::vector<std::int64_t> codes(plan.table.edges.size(), 0);
-  const auto& edges = classified.boundary.edges.edges();
-  for (std::size_t e = 0; e < edges.size(); ++e)
-  {
-    codes[plan.table.find(edges[e][0], edges[e][1])] = encode(classified.classes.ofEdges[e]);
-  }
-  combineShared(exchange, plan.sharedEdges, codes,
-    [](std::int64_t a, std::int64_t b) { return std::max(a, b); });
-  return codes;
-}
-
-/// A new vertex that belongs onto the CAD.
-struct NewOnCAD
-{
-  std::size_t place; ///< Among the new vertices.
-  ClosestPoint where;
-};
-
-/// The middle of an edge, which looks for its place on the CAD.
-struct MidpointQuestion
-{
-  EdgeClass edgeClass;
-  std::array<Point3, 2> points;
-  std::array<EntityId, 2> entities;
-};
-
-std::vector<NewOnCAD> projectMidpoints(RankExchange& exchange, const SimplexMesh& mesh,
-  const RefinementPlan& plan, const std::vector<std::int64_t>& codes,
-  const BoundaryProjector& projector, const Classification& classification,
-  RunStatistics& statistics)
-{
-  std::vector<std::size_t> places;
-  std::vector<MidpointQuestion> questions;
-  std::size_t place = 0;
-  for (std::size_t e = 0; e < codes.size(); ++e)
-  {
-    const EdgeClass edgeClass = decode(codes[e]);
-    if (plan.marks[e] && edgeClass.kind != EdgeClass::Straight)
-    {
-      const auto [a, b] = plan.table.edges[e];
-      places.push_back(place);
-      questions.push_back({ edgeClass, { mesh.points[a], mesh.points[b] },
-        { classification.entities[a], classification.entities[b] } });
-    }
-    place += plan.marks[e];
-  }
-  const auto answers = answerEvenly<ClosestPoint>(exchange, std::move(questions),
-    [&](const MidpointQuestion& question)
-    { return projector.projectMidpoint(question.edgeClass, question.points, question.entities); });
-  recordBalance(statistics, "new points", answers.balance);
-  std::vector<NewOnCAD> hits;
-  for (std::size_t i = 0; i < places.size(); ++i)
-  {
-    if (answers.values[i].entity)
-    {
-      hits.push_back({ places[i], answers.values[i] });
-    }
-  }
-  return hits;
-}
-
 /// `onBoundary` of the vertices that were, and of the new ones.
 std::vector<unsigned char> onRefinedBoundary(const RefinementPlan& plan,
   const std::vector<std::int64_t>& codes, const std::vector<unsigned char>& onBoundary)
@@ -214,21 +84,8 @@ std::vector<unsigned char> onRefinedBoundary(const RefinementPlan& plan,
   return result;
 }
 
-/// Appends the new vertices, at their distance from the CAD; the mesh has `count` vertices now.
-void classifyNewVertices(
-  const std::vector<NewOnCAD>& hits, std::size_t count, Classification& classification)
-{
-  const std::size_t oldCount = classification.entities.size();
-  classification.resize(count);
-  for (const NewOnCAD& hit : hits)
-  {
-    classification.set(static_cast<Index>(oldCount + hit.place), hit.where);
-    classification.distances[oldCount + hit.place] = hit.where.distance;
-  }
-}
-
 /// Moves of all vertices that are not at their places to these.
-Moves movesOntoCAD(const SimplexMesh& mesh, const std::vector<NewOnCAD>& hits,
+Moves movesOntoCAD(const SimplexMesh& mesh, const std::vector<MidpointOnCAD>& hits,
   const BoundaryProjector& projector, Classification& classification)
 {
   Moves moves(mesh);
@@ -243,38 +100,25 @@ Moves movesOntoCAD(const SimplexMesh& mesh, const std::vector<NewOnCAD>& hits,
       moves.add(vertex, where.point);
     }
   }
-  classifyNewVertices(hits, mesh.points.size(), classification);
-  for (const NewOnCAD& hit : hits)
+  classifyMidpoints(hits, mesh.points.size(), classification);
+  for (const MidpointOnCAD& hit : hits)
   {
     moves.add(static_cast<Index>(oldCount + hit.place), hit.where.point);
   }
   return moves;
 }
 
-/// `oldCount`: vertices before the mesh was refined.
-std::int64_t countOwnedHits(RankExchange& exchange, const DistributedMesh& mesh,
-  std::size_t oldCount, const std::vector<NewOnCAD>& hits)
-{
-  return exchange.sum(std::count_if(hits.begin(), hits.end(),
-    [&](const NewOnCAD& hit)
-    { return mesh.shared.owner(static_cast<Index>(oldCount + hit.place)) == exchange.rank(); }));
-}
-
 } // namespace
 
 RefinementPlan planUniform(RankExchange& exchange, const DistributedMesh& mesh)
 {
-  RefinementPlan plan = makePlan(exchange, mesh);
-  plan.uniform = true;
-  plan.marks.assign(plan.table.edges.size(), 1);
-  return plan;
+  return { findEdges(exchange, mesh, 1), true };
 }
 
 RefinementPlan planLongestEdge(RankExchange& exchange, const DistributedMesh& mesh,
   const std::vector<unsigned char>& cellMarks, const FacetsToCut* toCut)
 {
-  RefinementPlan plan = makePlan(exchange, mesh);
-  plan.marks.assign(plan.table.edges.size(), 0);
+  RefinementPlan plan{ findEdges(exchange, mesh, 0), false };
   markLongestEdges(mesh.mesh(), plan.table, cellMarks, plan.marks);
   if (toCut)
   {
@@ -303,7 +147,7 @@ RefinementTrace refine(RankExchange& exchange, DistributedMesh& mesh, const Refi
   std::vector<GlobalId> ids;
   {
     const RunStatistics::Stopwatch watch(statistics, "seconds numbering");
-    ids = numberNewVertices(exchange, mesh, midpoints.parentEdges);
+    ids = numberMidpoints(exchange, mesh, midpoints.parentEdges);
   }
   SplitMesh split;
   {
@@ -316,7 +160,7 @@ RefinementTrace refine(RankExchange& exchange, DistributedMesh& mesh, const Refi
   mesh.mesh() = std::move(split.mesh);
   mesh.converted.pointOf.clear();
   mesh.converted.cellOf = {};
-  mesh.shared = sharedAfter(mesh.shared, plan, midpoints);
+  mesh.shared = sharedWithMidpoints(mesh.shared, plan.sharedEdges, midpoints.ofEdge);
   return { std::move(split.parentEdges), std::move(split.firstChildren), 0 };
 }
 
@@ -335,10 +179,10 @@ RefinementTrace refineOntoCAD(RankExchange& exchange, DistributedMesh& mesh,
   watch.reset();
   RefinementTrace trace = refine(exchange, mesh, plan, statistics);
   watch.emplace(statistics, "seconds moves");
-  trace.projectedPoints = countOwnedHits(exchange, mesh, oldCount, hits);
+  trace.projectedPoints = countHits(exchange, mesh.shared, oldCount, hits);
   if (newVertices == NewVertices::StayStraight)
   {
-    classifyNewVertices(hits, mesh.mesh().points.size(), classification);
+    classifyMidpoints(hits, mesh.mesh().points.size(), classification);
     return trace;
   }
   Moves moves = movesOntoCAD(mesh.mesh(), hits, projector, classification);

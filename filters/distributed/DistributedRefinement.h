@@ -4,10 +4,8 @@
 #include "CADArrays.h"
 #include "DistributedBoundary.h"
 #include "DistributedMesh.h"
-#include "EdgeTable.h"
-#include "LongestEdgeMarking.h"
+#include "EdgeMidpoints.h"
 #include "RunStatistics.h"
-#include "SharedEdges.h"
 #include "Split.h"
 
 #include <vector>
@@ -16,11 +14,8 @@ namespace cadrefine
 {
 
 /// Which edges of a piece are cut.
-struct RefinementPlan
+struct RefinementPlan : MarkedEdges
 {
-  EdgeTable table;
-  SharedEdges sharedEdges;
-  EdgeMarks marks;
   bool uniform = false;
 };
 

@@ -67,16 +67,24 @@ QualitySummary overRanks(RankExchange& exchange, const QualitySummary& mine)
 
 CellQualities measureQuality(RankExchange& exchange, const DistributedMesh& mesh)
 {
-  CellQualities result = measureCells(exchange, mesh.mesh());
-  result.summary = overRanks(
-    exchange, mesh.mesh().dimension == 3 ? summariseTetrahedra(mesh.mesh()) : summaryOf(result));
+  const SimplexMesh& piece = mesh.mesh();
+  CellQualities result = measureCells(exchange, piece);
+  QualitySummary mine = piece.dimension == 3 ? summariseTetrahedra(piece) : summaryOf(result);
+  if (mesh.converted.midNodes)
+  {
+    const Vector3 plane = piece.dimension == 2 ? planeNormal(exchange, piece) : Vector3{};
+    result.valid = findValidCells(piece, *mesh.converted.midNodes, plane);
+    mine.invalidCells = summaryOf(result).invalidCells;
+  }
+  result.summary = overRanks(exchange, mine);
   return result;
 }
 
 QualitySummary summariseQuality(RankExchange& exchange, const DistributedMesh& mesh)
 {
-  return mesh.mesh().dimension == 3 ? overRanks(exchange, summariseTetrahedra(mesh.mesh()))
-                                    : measureQuality(exchange, mesh).summary;
+  return mesh.mesh().dimension == 3 && !mesh.converted.midNodes
+           ? overRanks(exchange, summariseTetrahedra(mesh.mesh()))
+           : measureQuality(exchange, mesh).summary;
 }
 
 std::string warningOfInvalidCells(RankExchange& exchange, const DistributedMesh& mesh)
@@ -130,7 +138,7 @@ void summariseConflicts(RankExchange& exchange, const DistributedMesh& mesh,
 void summariseProjection(RankExchange& exchange, const DistributedMesh& mesh,
   const Classification& classification, std::int64_t projectedPoints, vtkPointSet* output)
 {
-  const auto owned = mesh.shared.ownedHere(static_cast<Index>(mesh.mesh().points.size()));
+  const auto owned = mesh.ownedPoints();
   std::vector<std::int64_t> counts(2, 0);
   for (std::size_t v = 0; v < owned.size(); ++v)
   {

@@ -24,7 +24,8 @@ struct CellQualities
 
 /// Tetrahedra are valid if their volume is positive in VTK's order of vertices. Triangles are valid
 /// if their area is positive and, where all lie in a coordinate plane, they turn the way most do.
-/// Both are decided exactly (see orientation); the mean ratio is a measure in floating point.
+/// Both are decided exactly (see orientation); the mean ratio is a measure in floating point. Cells
+/// of second order are valid by isValid of CurvedCells; the mean ratio is that of their corners.
 /// Collective; two reductions.
 CellQualities measureQuality(RankExchange& exchange, const DistributedMesh& mesh);
 

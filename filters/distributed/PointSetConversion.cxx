@@ -30,21 +30,33 @@ namespace cadrefine
 namespace
 {
 
-/// Dimension of a cell type that CADRefine takes, or -1.
-int dimensionOf(int cellType)
+/// A cell type that CADRefine takes, or with a dimension of -1 one that it does not.
+struct CellKind
+{
+  int dimension = -1;
+  bool secondOrder = false;
+};
+
+CellKind kindOf(int cellType)
 {
   switch (cellType)
   {
     case VTK_VERTEX:
-      return 0;
+      return { 0, false };
     case VTK_LINE:
-      return 1;
+      return { 1, false };
     case VTK_TRIANGLE:
-      return 2;
+      return { 2, false };
     case VTK_TETRA:
-      return 3;
+      return { 3, false };
+    case VTK_QUADRATIC_EDGE:
+      return { 1, true };
+    case VTK_QUADRATIC_TRIANGLE:
+      return { 2, true };
+    case VTK_QUADRATIC_TETRA:
+      return { 3, true };
     default:
-      return -1;
+      return {};
   }
 }
 
@@ -62,14 +74,20 @@ bool isGhost(vtkUnsignedCharArray* ghosts, vtkIdType cell)
   return ghosts && (ghosts->GetValue(cell) & vtkDataSetAttributes::DUPLICATECELL);
 }
 
-void checkCell(int type, int dimension, vtkIdType cell)
+void checkCell(int type, const CellKind& kind, CellOrder order, vtkIdType cell)
 {
-  if (dimension < 0)
+  const auto holds = [&]
+  { return "the mesh holds a " + nameOf(type) + " (cell " + std::to_string(cell) + "); "; };
+  if (kind.dimension < 0)
   {
-    throw Error(
-      "the mesh holds a " + nameOf(type) + " (cell " + std::to_string(cell) +
-      "); CADRefine takes triangles and tetrahedra (the filters Tetrahedralize and Triangulate "
-      "make them)");
+    throw Error(holds() +
+                "CADRefine takes triangles and tetrahedra (the filters Tetrahedralize and "
+                "Triangulate make them)");
+  }
+  if (kind.secondOrder && order == CellOrder::First)
+  {
+    throw Error(holds() + "this filter takes cells of first order: refine the mesh of first order, "
+                          "and choose Quadratic Cells in the last step");
   }
 }
 
@@ -136,11 +154,27 @@ void forEachCell(vtkPointSet* input, const Use& use)
   }
 }
 
+/// The points that the data set's cells of second order name for their mid nodes, by dimension, in
+/// the order of triangleEdges and tetrahedronEdges.
+using NodesOfCells = std::array<std::vector<vtkIdType>, 4>;
+
+/// Appends the mid nodes of a cell; VTK has those of a tetrahedron in another order.
+template<class Point>
+void appendNodes(int dimension, const Point* points, NodesOfCells& nodes)
+{
+  static const std::vector<int> places[4] = { {}, { 2 }, { 3, 4, 5 }, { 4, 6, 7, 5, 8, 9 } };
+  for (const int place : places[dimension])
+  {
+    nodes[dimension].push_back(points[place]);
+  }
+}
+
 /// Reads the cells, with the numbers of the data set's points for vertices.
-void readCells(vtkPointSet* input, ConvertedMesh& result)
+NodesOfCells readCells(vtkPointSet* input, CellOrder order, ConvertedMesh& result)
 {
   vtkUnsignedCharArray* ghosts = input->GetCellGhostArray();
   const vtkIdType total = input->GetNumberOfCells();
+  NodesOfCells nodes;
   forEachCell(input,
     [&](vtkIdType cell, int type, const auto* points, vtkIdType count)
     {
@@ -150,13 +184,39 @@ void readCells(vtkPointSet* input, ConvertedMesh& result)
       }
       const bool isPolyVertex = type == VTK_POLY_VERTEX;
       const bool isSegment = type == VTK_POLY_LINE && count == 2;
-      const int dimension = isPolyVertex ? 0 : isSegment ? 1 : dimensionOf(type);
-      checkCell(type, dimension, cell);
+      const CellKind kind = kindOf(isPolyVertex ? VTK_VERTEX : isSegment ? VTK_LINE : type);
+      checkCell(type, kind, order, cell);
       for (vtkIdType part = 0; part < (isPolyVertex ? count : 1); ++part)
       {
-        appendCell(dimension, points + part, cell, total - cell, result);
+        appendCell(kind.dimension, points + part, cell, total - cell, result);
+      }
+      if (kind.secondOrder)
+      {
+        appendNodes(kind.dimension, points, nodes);
       }
     });
+  return nodes;
+}
+
+/// Whether the cells are of second order. Collective.
+bool isOfSecondOrder(
+  RankExchange& exchange, const ConvertedMesh& converted, const NodesOfCells& nodes)
+{
+  constexpr int edges[4] = { 0, 1, 3, 6 };
+  bool first = false;
+  bool second = false;
+  for (int d = 1; d < 4; ++d)
+  {
+    first = first || edges[d] * converted.cellOf[d].size() > nodes[d].size();
+    second = second || !nodes[d].empty();
+  }
+  first = exchange.any(first);
+  second = exchange.any(second);
+  if (first && second)
+  {
+    throw Error("the mesh has cells of first and of second order; they do not meet in their nodes");
+  }
+  return second;
 }
 
 /// Points alone: a cell of dimension 0 each, without a cell in the data set.
@@ -322,6 +382,70 @@ void makeVertices(
   checkCells(result.mesh.tetrahedra, result.cellOf[3]);
 }
 
+/// The mid nodes of all edges, and their points after those of the vertices.
+class MidNodeReader
+{
+public:
+  MidNodeReader(
+    const std::vector<Point3>& points, const std::vector<GlobalId>& ids, ConvertedMesh& result)
+    : points_(points), ids_(ids), result_(result)
+  {
+  }
+
+  void read(const NodesOfCells& nodes)
+  {
+    EdgeTable table = buildEdgeTable(result_.mesh);
+    pointOf_.assign(table.edges.size(), -1);
+    auto node = nodes[1].begin();
+    for (const Index edge : table.ofSegments)
+    {
+      take(edge, *node++);
+    }
+    takeAll(table.ofTriangles, nodes[2]);
+    takeAll(table.ofTetrahedra, nodes[3]);
+    MidNodes& result = result_.midNodes.emplace();
+    result.table = std::move(table);
+    for (const vtkIdType point : pointOf_)
+    {
+      checkFinite(points_[point], point);
+      result_.pointOf.push_back(point);
+      result.points.push_back(points_[point]);
+      result.ids.push_back(ids_[point]);
+    }
+  }
+
+private:
+  template<std::size_t Edges>
+  void takeAll(
+    const std::vector<std::array<Index, Edges>>& cells, const std::vector<vtkIdType>& nodes)
+  {
+    auto node = nodes.begin();
+    for (const auto& edges : cells)
+    {
+      for (const Index edge : edges)
+      {
+        take(edge, *node++);
+      }
+    }
+  }
+
+  void take(Index edge, vtkIdType point)
+  {
+    vtkIdType& known = pointOf_[edge];
+    if (known >= 0 && points_[known] != points_[point])
+    {
+      throw Error("cells of the mesh have different mid nodes on an edge that they share (points " +
+                  std::to_string(known) + " and " + std::to_string(point) + ")");
+    }
+    known = known < 0 ? point : known;
+  }
+
+  const std::vector<Point3>& points_;
+  const std::vector<GlobalId>& ids_;
+  ConvertedMesh& result_;
+  std::vector<vtkIdType> pointOf_; ///< Of each edge's node.
+};
+
 /// The data set's cell ids where every rank with cells has them, otherwise none.
 void readCellIds(RankExchange& exchange, vtkPointSet* input, ConvertedMesh& result)
 {
@@ -341,10 +465,11 @@ void readCellIds(RankExchange& exchange, vtkPointSet* input, ConvertedMesh& resu
 
 } // namespace
 
-ConvertedMesh convert(RankExchange& exchange, vtkPointSet* input)
+ConvertedMesh convert(RankExchange& exchange, vtkPointSet* input, CellOrder order)
 {
   ConvertedMesh result;
-  attempt(exchange, [&] { readCells(input, result); });
+  NodesOfCells nodes;
+  attempt(exchange, [&] { nodes = readCells(input, order, result); });
   if (exchange.sum(input->GetNumberOfPoints()) == 0)
   {
     throw Error("the mesh has no points");
@@ -361,6 +486,10 @@ ConvertedMesh convert(RankExchange& exchange, vtkPointSet* input)
   const std::vector<Point3> points = readPoints(input);
   const auto ids = pointIds(exchange, input, points);
   attempt(exchange, [&] { makeVertices(points, ids, result); });
+  if (order == CellOrder::FirstOrSecond && isOfSecondOrder(exchange, result, nodes))
+  {
+    attempt(exchange, [&] { MidNodeReader(points, ids, result).read(nodes); });
+  }
   readCellIds(exchange, input, result);
   return result;
 }

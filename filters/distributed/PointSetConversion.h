@@ -1,6 +1,7 @@
 // Between VTK's data sets and the core's meshes.
 #pragma once
 
+#include "MidNodes.h"
 #include "RankExchange.h"
 #include "SimplexMesh.h"
 
@@ -8,6 +9,7 @@
 #include <vtkType.h>
 
 #include <array>
+#include <optional>
 #include <vector>
 
 class vtkDataSetAttributes;
@@ -20,11 +22,20 @@ namespace cadrefine
 struct ConvertedMesh
 {
   SimplexMesh mesh;
-  std::vector<vtkIdType> pointOf;
+  std::vector<vtkIdType> pointOf; ///< Of vertices, and mid nodes after them.
   /// By the dimension of the cells; cells of each dimension in the order of the data set.
   std::array<std::vector<vtkIdType>, 4> cellOf;
   /// Global ids of the cells, likewise; none, on all ranks, if the data set has none on one.
   std::array<std::vector<GlobalId>, 4> cellIds;
+  /// Of a mesh of second order, on all ranks; none of one of first order.
+  std::optional<MidNodes> midNodes;
+};
+
+/// Which cells a filter takes.
+enum class CellOrder
+{
+  First,        ///< Those with corners alone.
+  FirstOrSecond ///< Also those with mid nodes, if all cells of the mesh are.
 };
 
 /// Reads tetrahedra, triangles, lines and vertices from a vtkUnstructuredGrid or vtkPolyData on
@@ -32,18 +43,24 @@ struct ConvertedMesh
 /// on a rank become one vertex. Vertices come in the order of the points. Ids come from the data
 /// set's global ids if every rank has them, and otherwise from coordinates (vertices) and vertices
 /// (cells): they then do not depend on the partition, and points that coincide are one vertex.
-/// Collective.
+/// Collective. Of cells of second order the corners make the mesh; of their other points one for
+/// each edge is taken, that of the first cell that has the edge.
 ///
 /// Without cells, every point becomes a cell of dimension 0. The mesh's dimension is that of its
 /// cells of highest dimension on any rank, and 0 for points alone.
 ///
 /// Throws Error on all ranks for any other cell (named), for a mesh without points, for a mesh of
-/// lines, for coordinates that are not finite, for a cell that names a vertex twice.
-ConvertedMesh convert(RankExchange& exchange, vtkPointSet* input);
+/// lines, for coordinates that are not finite, for a cell that names a vertex twice, for cells of
+/// both orders in one mesh, for cells of second order that do not meet in their mid nodes.
+ConvertedMesh convert(
+  RankExchange& exchange, vtkPointSet* input, CellOrder order = CellOrder::First);
 
 /// An empty data set of the class of `input` with the mesh's points (double precision) and cells:
-/// vertices, lines, triangles, tetrahedra. No arrays.
-vtkSmartPointer<vtkPointSet> makePointSet(vtkPointSet* input, const SimplexMesh& mesh);
+/// vertices, lines, triangles, tetrahedra. No arrays. With mid nodes, cells are of second order,
+/// and the nodes' points follow those of the vertices; throws Error where `input` is vtkPolyData,
+/// which has no such cells.
+vtkSmartPointer<vtkPointSet> makePointSet(vtkPointSet* input, const SimplexMesh& mesh,
+  const std::optional<MidNodes>& midNodes = std::nullopt);
 
 /// Cell numbers of a data set made by makePointSet are those of dimension 0 first, then 1, 2, 3.
 vtkIdType firstCellOfDimension(const SimplexMesh& mesh, int dimension);

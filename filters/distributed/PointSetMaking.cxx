@@ -1,5 +1,6 @@
 #include "PointSetConversion.h"
 
+#include "Error.h"
 #include "LargeMemory.h"
 
 #include <vtkCellArray.h>
@@ -13,6 +14,7 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
+#include <iterator>
 
 namespace cadrefine
 {
@@ -63,20 +65,55 @@ vtkSmartPointer<vtkPointSet> makePolyData(const SimplexMesh& mesh)
   return output;
 }
 
-vtkSmartPointer<vtkPointSet> makeUnstructuredGrid(const SimplexMesh& mesh)
+/// Each cell with the points of its mid nodes after its corners, in VTK's order: `order` gives the
+/// edge of each.
+template<std::size_t Corners, std::size_t Edges>
+Simplices<Corners + Edges> withNodes(const Simplices<Corners>& cells,
+  const std::vector<std::array<Index, Edges>>& edgesOf, const int (&order)[Edges], Index firstNode)
+{
+  Simplices<Corners + Edges> result(cells.size());
+  for (std::size_t c = 0; c < cells.size(); ++c)
+  {
+    const auto node = std::copy(cells[c].begin(), cells[c].end(), result[c].begin());
+    std::transform(std::begin(order), std::end(order), node,
+      [&](int edge) { return firstNode + edgesOf[c][edge]; });
+  }
+  return result;
+}
+
+vtkSmartPointer<vtkCellArray> makeCellArray(const SimplexMesh& mesh, const MidNodes& midNodes)
+{
+  const auto firstNode = static_cast<Index>(mesh.points.size());
+  Simplices<3> segments(mesh.segments.size());
+  std::transform(mesh.segments.begin(), mesh.segments.end(), midNodes.table.ofSegments.begin(),
+    segments.begin(),
+    [&](const std::array<Index, 2>& ends, Index edge) {
+      return std::array<Index, 3>{ ends[0], ends[1], firstNode + edge };
+    });
+  return makeCellArray(mesh.vertices, segments,
+    withNodes(mesh.triangles, midNodes.table.ofTriangles, { 0, 1, 2 }, firstNode),
+    withNodes(mesh.tetrahedra, midNodes.table.ofTetrahedra, { 0, 3, 1, 2, 4, 5 }, firstNode));
+}
+
+vtkSmartPointer<vtkPointSet> makeUnstructuredGrid(
+  const SimplexMesh& mesh, const std::optional<MidNodes>& midNodes)
 {
   vtkNew<vtkUnsignedCharArray> types;
   const auto count = static_cast<vtkIdType>(mesh.cellCount());
   setLength(types.Get(), mesh.cellCount());
-  constexpr unsigned char typeOf[4] = { VTK_VERTEX, VTK_LINE, VTK_TRIANGLE, VTK_TETRA };
+  constexpr unsigned char firstOrder[4] = { VTK_VERTEX, VTK_LINE, VTK_TRIANGLE, VTK_TETRA };
+  constexpr unsigned char secondOrder[4] = { VTK_VERTEX, VTK_QUADRATIC_EDGE, VTK_QUADRATIC_TRIANGLE,
+    VTK_QUADRATIC_TETRA };
   for (int d = 0; d < 4; ++d)
   {
     const vtkIdType end = d < 3 ? firstCellOfDimension(mesh, d + 1) : count;
-    std::fill(types->GetPointer(firstCellOfDimension(mesh, d)), types->GetPointer(end), typeOf[d]);
+    std::fill(types->GetPointer(firstCellOfDimension(mesh, d)), types->GetPointer(end),
+      midNodes ? secondOrder[d] : firstOrder[d]);
   }
   auto output = vtkSmartPointer<vtkUnstructuredGrid>::New();
   output->SetCells(
-    types, makeCellArray(mesh.vertices, mesh.segments, mesh.triangles, mesh.tetrahedra));
+    types, midNodes ? makeCellArray(mesh, *midNodes)
+                    : makeCellArray(mesh.vertices, mesh.segments, mesh.triangles, mesh.tetrahedra));
   return output;
 }
 
@@ -94,15 +131,28 @@ vtkIdType firstCellOfDimension(const SimplexMesh& mesh, int dimension)
   return first;
 }
 
-vtkSmartPointer<vtkPointSet> makePointSet(vtkPointSet* input, const SimplexMesh& mesh)
+vtkSmartPointer<vtkPointSet> makePointSet(
+  vtkPointSet* input, const SimplexMesh& mesh, const std::optional<MidNodes>& midNodes)
 {
-  auto output = vtkPolyData::SafeDownCast(input) ? makePolyData(mesh) : makeUnstructuredGrid(mesh);
+  const bool isPolyData = vtkPolyData::SafeDownCast(input) != nullptr;
+  if (isPolyData && midNodes)
+  {
+    throw Error("poly data cannot hold quadratic cells; make the mesh an unstructured grid first "
+                "(the filter Append Datasets does)");
+  }
+  auto output = isPolyData ? makePolyData(mesh) : makeUnstructuredGrid(mesh, midNodes);
+  const std::size_t nodeCount = midNodes ? midNodes->points.size() : 0;
   vtkNew<vtkDoubleArray> coordinates;
   coordinates->SetNumberOfComponents(3);
-  setLength(coordinates.Get(), 3 * mesh.points.size());
+  setLength(coordinates.Get(), 3 * (mesh.points.size() + nodeCount));
+  double* next = coordinates->GetPointer(0);
   if (!mesh.points.empty())
   {
-    std::copy_n(mesh.points.front().data(), 3 * mesh.points.size(), coordinates->GetPointer(0));
+    next = std::copy_n(mesh.points.front().data(), 3 * mesh.points.size(), next);
+  }
+  if (nodeCount > 0)
+  {
+    std::copy_n(midNodes->points.front().data(), 3 * nodeCount, next);
   }
   vtkNew<vtkPoints> points;
   points->SetData(coordinates);

@@ -164,4 +164,24 @@ template SharedItems findSharedSimplices<2>(RankExchange&, const SharedVertices&
 template SharedItems findSharedSimplices<3>(RankExchange&, const SharedVertices&,
   const std::vector<GlobalId>&, const std::vector<std::array<Index, 3>>&);
 
+SharedVertices sharedWithMidpoints(
+  const SharedVertices& vertices, const SharedEdges& edges, const std::vector<Index>& midpointOf)
+{
+  auto items = vertices.items;
+  for (std::size_t n = 0; n < edges.neighbours.size(); ++n)
+  {
+    const auto neighbour =
+      std::lower_bound(vertices.neighbours.begin(), vertices.neighbours.end(), edges.neighbours[n]);
+    auto& points = items[neighbour - vertices.neighbours.begin()];
+    for (const Index edge : edges.items[n])
+    {
+      if (midpointOf[edge] >= 0)
+      {
+        points.push_back(midpointOf[edge]);
+      }
+    }
+  }
+  return makeSharedItems(vertices.rank, vertices.neighbours, std::move(items));
+}
+
 } // namespace cadrefine

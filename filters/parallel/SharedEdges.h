@@ -37,6 +37,12 @@ extern template SharedItems findSharedSimplices<2>(RankExchange&, const SharedVe
 extern template SharedItems findSharedSimplices<3>(RankExchange&, const SharedVertices&,
   const std::vector<GlobalId>&, const std::vector<std::array<Index, 3>>&);
 
+/// The shared points among the vertices and the midpoints of edges: the shared vertices, and the
+/// midpoints of shared edges. `midpointOf` gives the number of the midpoint of each edge, larger
+/// for larger edges, or -1. No communication.
+SharedVertices sharedWithMidpoints(
+  const SharedVertices& vertices, const SharedEdges& edges, const std::vector<Index>& midpointOf);
+
 /// findSharedSimplices for edges.
 inline SharedEdges findSharedEdges(RankExchange& exchange, const SharedVertices& vertices,
   const std::vector<GlobalId>& ids, const std::vector<std::array<Index, 2>>& edges)

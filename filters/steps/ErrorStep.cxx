@@ -50,7 +50,7 @@ void addErrors(vtkPointSet* output, const MeshError& error)
 
 StepResult measureMesh(const StepContext& context, vtkPointSet* input, int recursionDepth)
 {
-  DistributedMesh mesh = makeDistributedMesh(context.exchange, input);
+  DistributedMesh mesh = makeDistributedMesh(context.exchange, input, CellOrder::FirstOrSecond);
   Classification classification;
   attempt(context.exchange,
     [&] { classification = readClassification(input, mesh.converted.pointOf, context.model); });
@@ -60,7 +60,7 @@ StepResult measureMesh(const StepContext& context, vtkPointSet* input, int recur
   recordBalance(context.statistics, "facets", error.balance);
 
   StepResult result;
-  result.mesh = makePointSet(input, mesh.mesh());
+  result.mesh = makePointSet(input, mesh.mesh(), mesh.converted.midNodes);
   result.route.convert(input, mesh.converted);
   copyArrays(input, mesh.converted, result.mesh);
   addErrors(result.mesh, error);

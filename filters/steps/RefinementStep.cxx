@@ -6,11 +6,13 @@
 #include "Error.h"
 #include "EvenWork.h"
 #include "MeshSummary.h"
+#include "MidNodePlacing.h"
 
 #include <vtkCellData.h>
 #include <vtkFieldData.h>
 #include <vtkPointData.h>
 #include <vtkPointSet.h>
+#include <vtkPolyData.h>
 
 #include <algorithm>
 #include <iterator>
@@ -35,8 +37,13 @@ public:
 
   RefinementOutcome run(vtkPointSet* input)
   {
+    checkOutput(input);
     load(input);
     lookForInvalidCells();
+    if (options_.levels == 0)
+    {
+      return { makeOutput(input), 0, false };
+    }
     makePlan();
     if (isTooLarge())
     {
@@ -63,6 +70,15 @@ public:
   }
 
 private:
+  void checkOutput(vtkPointSet* input) const
+  {
+    if (options_.quadraticCells && vtkPolyData::SafeDownCast(input))
+    {
+      throw Error("poly data cannot hold quadratic cells; make the mesh an unstructured grid first "
+                  "(the filter Append Datasets does), or switch Quadratic Cells off");
+    }
+  }
+
   RunStatistics::Stopwatch watch(const char* name) const
   {
     return RunStatistics::Stopwatch(context_.statistics, name);
@@ -200,13 +216,34 @@ private:
     route_.refine(std::move(trace));
   }
 
+  void makeQuadratic()
+  {
+    if (classified_)
+    {
+      projectedPoints_ += placeMidNodes(
+        exchange_, mesh_, boundary(), positions_, options_.projectNewVertices, context_.statistics);
+    }
+    else
+    {
+      addMidNodes(exchange_, mesh_);
+    }
+    const auto stopwatch = watch("seconds copying fields");
+    const auto& edges = mesh_.converted.midNodes->table.edges;
+    arrays_ = withMidNodes(arrays_, edges);
+    route_.addMidNodes(edges);
+  }
+
   /// In the class of `prototype`.
   vtkSmartPointer<vtkPointSet> makeOutput(vtkPointSet* prototype)
   {
+    if (options_.quadraticCells)
+    {
+      makeQuadratic();
+    }
     vtkSmartPointer<vtkPointSet> output;
     {
       const auto stopwatch = watch("seconds writing cells");
-      output = makePointSet(prototype, mesh_.mesh());
+      output = makePointSet(prototype, mesh_.mesh(), mesh_.converted.midNodes);
       setArrays(arrays_, mesh_.converted, output);
     }
     const auto stopwatch = watch("seconds summary");

@@ -16,12 +16,14 @@ namespace cadrefine
 struct RefinementOptions
 {
   bool uniform = false; ///< Cut all edges; else the longest of marked cells.
-  int levels = 1;
+  int levels = 1; ///< 0: the mesh as it is, for quadraticCells.
   std::vector<MarkingCriterion> criteria; ///< None: all cells are marked.
   /// Bisect further until the facets on the CAD of each marked cell are cut.
   bool cutFacets = false;
   bool projectNewVertices = true;
   bool balance = true;
+  /// Put out cells of second order (see placeMidNodes); not for vtkPolyData, which has none.
+  bool quadraticCells = false;
   /// No level is made that would have more cells of the mesh's own dimension; 0: no limit.
   std::int64_t maximumCells = 0;
 };

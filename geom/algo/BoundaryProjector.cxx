@@ -203,13 +203,18 @@ ClosestPoint BoundaryProjector::projectSmoothly(
 ClosestPoint BoundaryProjector::projectMidpoint(const EdgeClass& edgeClass,
   const std::array<Point3, 2>& points, const std::array<EntityId, 2>& entities) const
 {
-  const Point3 middle = 0.5 * (points[0] + points[1]);
+  return project(edgeClass, 0.5 * (points[0] + points[1]), entities);
+}
+
+ClosestPoint BoundaryProjector::project(const EdgeClass& edgeClass, const Point3& point,
+  const std::array<EntityId, 2>& entities) const
+{
   switch (edgeClass.kind)
   {
     case EdgeClass::OnEdge:
-      return projectOnEdge(edgeClass.edge, middle);
+      return projectOnEdge(edgeClass.edge, point);
     case EdgeClass::Smooth:
-      return projectSmoothly(entities, middle);
+      return projectSmoothly(entities, point);
     default:
       return {};
   }

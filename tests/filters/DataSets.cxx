@@ -87,10 +87,13 @@ void readCell(int type, vtkIdList* points, SimplexMesh& mesh)
   switch (type)
   {
     case VTK_TETRA:
+    case VTK_QUADRATIC_TETRA:
       return readCell(points, mesh.tetrahedra);
     case VTK_TRIANGLE:
+    case VTK_QUADRATIC_TRIANGLE:
       return readCell(points, mesh.triangles);
     case VTK_LINE:
+    case VTK_QUADRATIC_EDGE:
       return readCell(points, mesh.segments);
     case VTK_VERTEX:
       return readCell(points, mesh.vertices);

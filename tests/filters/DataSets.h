@@ -23,7 +23,8 @@ namespace cadtest
 vtkSmartPointer<vtkUnstructuredGrid> toGrid(const cadrefine::SimplexMesh& mesh);
 /// The triangles of the mesh. No arrays.
 vtkSmartPointer<vtkPolyData> toPolyData(const cadrefine::SimplexMesh& mesh);
-/// Points and cells of a data set; the points' numbers are the ids.
+/// Points and cells of a data set (of cells of second order the corners); the points' numbers are
+/// the ids.
 cadrefine::SimplexMesh toMesh(vtkPointSet* dataSet);
 
 /// Reads a .vtu file; throws where it cannot be read or is empty.
