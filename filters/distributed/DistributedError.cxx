@@ -1,6 +1,7 @@
 #include "DistributedError.h"
 
 #include "BoundaryAngles.h"
+#include "CurvedError.h"
 #include "Error.h"
 #include "EvenWork.h"
 #include "GeometricError.h"
@@ -27,6 +28,52 @@ ErrorFacet makeErrorFacet(const SimplexMesh& mesh, const DistributedBoundary& bo
   return facet;
 }
 
+CurvedErrorFacet makeCurvedFacet(const DistributedMesh& mesh, const DistributedBoundary& boundary,
+  const BoundaryClasses& classes, const Classification& classification, std::size_t f)
+{
+  CurvedErrorFacet facet{ makeErrorFacet(mesh.mesh(), boundary, classes, classification, f), {},
+    {} };
+  const MidNodes& midNodes = *mesh.converted.midNodes;
+  const int corners = boundary.facetCorners();
+  for (int k = 0; k < (corners == 3 ? 3 : 1); ++k)
+  {
+    const auto& vertices = boundary.facets[f].vertices;
+    const Index edge = midNodes.table.find(vertices[k], vertices[(k + 1) % corners]);
+    const std::size_t point = mesh.mesh().points.size() + edge;
+    facet.nodes[k] = midNodes.points[edge];
+    facet.entities[k] = classification.entities[point];
+    facet.offCAD[k] = classification.distances[point] > 0;
+  }
+  return facet;
+}
+
+/// Errors of these facets, in their order.
+Answers<FacetError> measureFacets(RankExchange& exchange, const DistributedMesh& mesh,
+  const ClassifiedBoundary& classified, const Classification& classification,
+  const std::vector<std::size_t>& facets, int depth)
+{
+  if (mesh.converted.midNodes)
+  {
+    std::vector<CurvedErrorFacet> questions;
+    for (const std::size_t f : facets)
+    {
+      questions.push_back(
+        makeCurvedFacet(mesh, classified.boundary, classified.classes, classification, f));
+    }
+    return answerEvenly<FacetError>(exchange, std::move(questions),
+      [&](const CurvedErrorFacet& facet)
+      { return curvedError(classified.projector, facet, depth); });
+  }
+  std::vector<ErrorFacet> questions;
+  for (const std::size_t f : facets)
+  {
+    questions.push_back(
+      makeErrorFacet(mesh.mesh(), classified.boundary, classified.classes, classification, f));
+  }
+  return answerEvenly<FacetError>(exchange, std::move(questions),
+    [&](const ErrorFacet& facet) { return geometricError(classified.projector, facet, depth); });
+}
+
 } // namespace
 
 void Deviation::add(const Deviation& other)
@@ -48,17 +95,14 @@ MeshError measureError(RankExchange& exchange, const DistributedMesh& mesh, cons
     findClassifiedBoundary(exchange, mesh, model, classification);
   const DistributedBoundary& boundary = classified.boundary;
   std::vector<std::size_t> facets;
-  std::vector<ErrorFacet> questions;
   for (std::size_t f = 0; f < boundary.facets.size(); ++f)
   {
     if (classified.classes.facetOnCAD[f])
     {
       facets.push_back(f);
-      questions.push_back(makeErrorFacet(piece, boundary, classified.classes, classification, f));
     }
   }
-  const auto answers = answerEvenly<FacetError>(exchange, std::move(questions),
-    [&](const ErrorFacet& facet) { return geometricError(classified.projector, facet, depth); });
+  const auto answers = measureFacets(exchange, mesh, classified, classification, facets, depth);
   const auto angles = neighbourAngles(exchange, mesh, classified, classification);
 
   MeshError result;

@@ -35,8 +35,9 @@ struct MeshError
   WorkBalance balance;            ///< Of the facets over the ranks.
 };
 
-/// Error of every facet on the CAD, added up for its cell (see geometricError). The global sum is
-/// bit for bit the same for every partition. Throws Error for points alone.
+/// Error of every facet on the CAD, added up for its cell (see geometricError; of a mesh of second
+/// order curvedError, and the classification has entries for mid nodes after those of vertices).
+/// The global sum is bit for bit the same for every partition. Throws Error for points alone.
 ///
 /// Collective. Work: that of findBoundary and classifyBoundary, and the projections of
 /// geometricError, at most 3 (1 + 4 + ... + 4^(depth-1)) a facet on the CAD, shared out evenly over

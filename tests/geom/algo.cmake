@@ -6,6 +6,7 @@ cadrefine_geom_test(algo_tests
   SOURCES
     algo/BisectionTest.cxx
     algo/BoundaryProjectorTest.cxx
+    algo/CurvedErrorTest.cxx
     algo/FaceFinderTest.cxx
     algo/GeometricErrorTest.cxx
     algo/LongestEdgeMarkingTest.cxx
