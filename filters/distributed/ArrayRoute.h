@@ -4,6 +4,7 @@
 #include "ArrayDelivery.h"
 #include "DistributedRefinement.h"
 
+#include <array>
 #include <variant>
 #include <vector>
 

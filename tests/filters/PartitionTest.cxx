@@ -11,6 +11,7 @@
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
+#include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkUnstructuredGrid.h>
 
@@ -364,6 +365,63 @@ TEST_P(Partition, givesTheSameMeshAsOneRank)
   expectFieldValuesAgree(pieces.back());
 }
 
+/// Cells of second order, of the meshes that a vtkUnstructuredGrid can hold.
+class QuadraticPartition : public Partition
+{
+protected:
+  Steps runToQuadratic(vtkPointSet* mesh, vtkMultiProcessController* controller) const
+  {
+    const cadtest::FilterRun filters(cadFile(), controller);
+    Steps steps{ filters.run<vtkRefineWithCAD>(filters.project(mesh),
+      [&](vtkRefineWithCAD* filter)
+      {
+        filter->SetMethod(vtkRefineWithCAD::UNIFORM_BISECTION);
+        filter->SetBalance(GetParam().balance);
+        filter->QuadraticCellsOn();
+      }) };
+    steps.push_back(filters.measure(steps.back(), 2));
+    steps.push_back(filters.run<vtkMeshValidity>(steps.back(), [](vtkMeshValidity*) {}));
+    return steps;
+  }
+};
+
+std::vector<Case> quadraticCases()
+{
+  std::vector<Case> result;
+  for (const Case& each : cases())
+  {
+    const std::string& name = problems[each.problem].name;
+    const bool holds = name != "Surface" && name != "Sheets"; // poly data
+    const bool kdTree = each.dealing == cadtest::Dealing::KdTree && each.ids;
+    const bool emptyRank = (name == "Ball" || name == "Arcs") &&
+                           each.dealing == cadtest::Dealing::EmptyRank && !each.ids;
+    if (holds && (kdTree || emptyRank))
+    {
+      result.push_back(each);
+    }
+  }
+  return result;
+}
+
+INSTANTIATE_TEST_SUITE_P(Problems, QuadraticPartition, testing::ValuesIn(quadraticCases()),
+  [](const auto& each) { return nameOf(each.param); });
+
+TEST_P(QuadraticPartition, givesTheSameMeshAsOneRank)
+{
+  const auto whole = wholeMesh();
+  const auto rankOfCell = cadtest::deal(GetParam().dealing, whole, exchange.size());
+  const auto piece = cadtest::pieceOf(whole, rankOfCell, exchange.rank(), GetParam().ghosts);
+  const Steps pieces = runToQuadratic(piece, worldController());
+  const Steps serial = exchange.rank() == 0 ? runToQuadratic(whole, nullptr) : Steps(pieces.size());
+  for (std::size_t step = 0; step < pieces.size(); ++step)
+  {
+    expectSame(pieces[step], serial[step], step);
+  }
+  EXPECT_EQ(cadtest::fieldValue(pieces.back(), "InvalidCells"), 0);
+  EXPECT_GT(cadtest::fieldValue(pieces.back(), "CADVertices"), 0);
+  expectFieldValuesAgree(pieces.back());
+}
+
 /// Points alone, and filters that the pipeline above does not use.
 class SinglePieces : public ParallelTest
 {
@@ -413,6 +471,18 @@ TEST_F(SinglePieces, measureValidity)
   SimplexMesh mesh = cadtest::cubeMesh(3, 0.1, 1);
   std::swap(mesh.tetrahedra[7][0], mesh.tetrahedra[7][1]);
   expectSame<vtkMeshValidity>(cadtest::toGrid(mesh), [](vtkMeshValidity*) {});
+}
+
+/// Numbers for points and cells, also of second order, come from coordinates.
+TEST_F(SinglePieces, measureCellsOfSecondOrderWithoutIds)
+{
+  const cadtest::FilterRun filters(cadFile);
+  const auto mesh = filters.run<vtkRefineWithCAD>(
+    filters.project(taggedBall()), [](vtkRefineWithCAD* filter) { filter->QuadraticCellsOn(); });
+  mesh->GetPointData()->SetGlobalIds(nullptr);
+  mesh->GetCellData()->SetGlobalIds(nullptr);
+  expectSame<vtkMeshValidity>(mesh, [](vtkMeshValidity*) {});
+  expectSame<vtkCADGeometricError>(mesh, [](vtkCADGeometricError*) {});
 }
 
 TEST_F(SinglePieces, refineStraight)
