@@ -38,7 +38,7 @@ def reason_to_stop(options, method, last, pipeline):
 
 
 def run(options, started):
-    """Project once; then error, mark, refine. Returns the report."""
+    """Project once; then error, mark, refine; quadratic cells at the end. Returns the report."""
     report = reporting.Report(options)
     pipeline = Pipeline()
     pipeline.read_mesh(options.mesh)
@@ -58,6 +58,10 @@ def run(options, started):
         pipeline.refine(options, method)
         pipeline.measure(options)
         report.add_step(method, pipeline)
+    if options.quadratic:
+        pipeline.make_quadratic(options)
+        pipeline.measure(options)
+        report.add_step("quadratic", pipeline)
     report.finish(pipeline, time.perf_counter() - started)
 
     if options.output:

@@ -34,6 +34,8 @@ def option_parser(description):
     steps.add_argument("--method", choices=list(METHODS), default="longest-edge",
                        help="of --steps: bisect the marked cells at their longest edge (default), or all cells")
     steps.add_argument("--maximum-cells", type=natural, metavar="N", help="stop before there are more cells")
+    steps.add_argument("--quadratic", action="store_true",
+                       help="make the last mesh one of quadratic cells, their mid-edge nodes on the CAD")
     steps.add_argument("--target-error", type=number, metavar="E", help="stop at this global geometric error")
 
     marking = parser.add_argument_group("marking (longest-edge; a cell that any of these marks; default: all cells)")

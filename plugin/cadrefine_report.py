@@ -207,7 +207,7 @@ def draw_run(axes, steps, color, label):
     """The run's line, its steps marked by their method."""
     shown = [step for step in steps if step["global_error"] and step["global_error"] > 0]
     axes.plot([s["vertices"] for s in shown], [s["global_error"] for s in shown], color=color, label=label)
-    for method, marker in (("projection", "D"), ("uniform", "s"), ("longest-edge", "o")):
+    for method, marker in (("projection", "D"), ("uniform", "s"), ("longest-edge", "o"), ("quadratic", "^")):
         chosen = [s for s in shown if s.get("method") == method]
         axes.plot([s["vertices"] for s in chosen], [s["global_error"] for s in chosen], marker, color=color,
                   markersize=5, label=None)

@@ -5,6 +5,7 @@
 #include "Error.h"
 #include "GlobalNumbering.h"
 #include "LargeMemory.h"
+#include "MidNodeReading.h"
 #include "RadixOrder.h"
 
 #include <vtkCellArray.h>
@@ -20,7 +21,6 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <string>
 #include <utility>
@@ -154,21 +154,6 @@ void forEachCell(vtkPointSet* input, const Use& use)
   }
 }
 
-/// The points that the data set's cells of second order name for their mid nodes, by dimension, in
-/// the order of triangleEdges and tetrahedronEdges.
-using NodesOfCells = std::array<std::vector<vtkIdType>, 4>;
-
-/// Appends the mid nodes of a cell; VTK has those of a tetrahedron in another order.
-template<class Point>
-void appendNodes(int dimension, const Point* points, NodesOfCells& nodes)
-{
-  static const std::vector<int> places[4] = { {}, { 2 }, { 3, 4, 5 }, { 4, 6, 7, 5, 8, 9 } };
-  for (const int place : places[dimension])
-  {
-    nodes[dimension].push_back(points[place]);
-  }
-}
-
 /// Reads the cells, with the numbers of the data set's points for vertices.
 NodesOfCells readCells(vtkPointSet* input, CellOrder order, ConvertedMesh& result)
 {
@@ -196,27 +181,6 @@ NodesOfCells readCells(vtkPointSet* input, CellOrder order, ConvertedMesh& resul
       }
     });
   return nodes;
-}
-
-/// Whether the cells are of second order. Collective.
-bool isOfSecondOrder(
-  RankExchange& exchange, const ConvertedMesh& converted, const NodesOfCells& nodes)
-{
-  constexpr int edges[4] = { 0, 1, 3, 6 };
-  bool first = false;
-  bool second = false;
-  for (int d = 1; d < 4; ++d)
-  {
-    first = first || edges[d] * converted.cellOf[d].size() > nodes[d].size();
-    second = second || !nodes[d].empty();
-  }
-  first = exchange.any(first);
-  second = exchange.any(second);
-  if (first && second)
-  {
-    throw Error("the mesh has cells of first and of second order; they do not meet in their nodes");
-  }
-  return second;
 }
 
 /// Points alone: a cell of dimension 0 each, without a cell in the data set.
@@ -326,18 +290,6 @@ std::vector<Index> numberVertices(
   return vertexOf;
 }
 
-void checkFinite(const Point3& point, std::size_t number)
-{
-  for (const double x : point)
-  {
-    if (!std::isfinite(x))
-    {
-      throw Error(
-        "the mesh has a coordinate that is not finite (point " + std::to_string(number) + ")");
-    }
-  }
-}
-
 template<std::size_t Corners>
 void checkCells(const Simplices<Corners>& cells, const std::vector<vtkIdType>& cellOf)
 {
@@ -370,7 +322,7 @@ void makeVertices(
   {
     if (vertexOf[p] == static_cast<Index>(result.pointOf.size()))
     {
-      checkFinite(points[p], p);
+      checkFinite(points[p], static_cast<vtkIdType>(p));
       result.pointOf.push_back(static_cast<vtkIdType>(p));
       result.mesh.points.push_back(points[p]);
       result.mesh.ids.push_back(ids[p]);
@@ -381,70 +333,6 @@ void makeVertices(
   checkCells(result.mesh.triangles, result.cellOf[2]);
   checkCells(result.mesh.tetrahedra, result.cellOf[3]);
 }
-
-/// The mid nodes of all edges, and their points after those of the vertices.
-class MidNodeReader
-{
-public:
-  MidNodeReader(
-    const std::vector<Point3>& points, const std::vector<GlobalId>& ids, ConvertedMesh& result)
-    : points_(points), ids_(ids), result_(result)
-  {
-  }
-
-  void read(const NodesOfCells& nodes)
-  {
-    EdgeTable table = buildEdgeTable(result_.mesh);
-    pointOf_.assign(table.edges.size(), -1);
-    auto node = nodes[1].begin();
-    for (const Index edge : table.ofSegments)
-    {
-      take(edge, *node++);
-    }
-    takeAll(table.ofTriangles, nodes[2]);
-    takeAll(table.ofTetrahedra, nodes[3]);
-    MidNodes& result = result_.midNodes.emplace();
-    result.table = std::move(table);
-    for (const vtkIdType point : pointOf_)
-    {
-      checkFinite(points_[point], point);
-      result_.pointOf.push_back(point);
-      result.points.push_back(points_[point]);
-      result.ids.push_back(ids_[point]);
-    }
-  }
-
-private:
-  template<std::size_t Edges>
-  void takeAll(
-    const std::vector<std::array<Index, Edges>>& cells, const std::vector<vtkIdType>& nodes)
-  {
-    auto node = nodes.begin();
-    for (const auto& edges : cells)
-    {
-      for (const Index edge : edges)
-      {
-        take(edge, *node++);
-      }
-    }
-  }
-
-  void take(Index edge, vtkIdType point)
-  {
-    vtkIdType& known = pointOf_[edge];
-    if (known >= 0 && points_[known] != points_[point])
-    {
-      throw Error("cells of the mesh have different mid nodes on an edge that they share (points " +
-                  std::to_string(known) + " and " + std::to_string(point) + ")");
-    }
-    known = known < 0 ? point : known;
-  }
-
-  const std::vector<Point3>& points_;
-  const std::vector<GlobalId>& ids_;
-  ConvertedMesh& result_;
-  std::vector<vtkIdType> pointOf_; ///< Of each edge's node.
-};
 
 /// The data set's cell ids where every rank with cells has them, otherwise none.
 void readCellIds(RankExchange& exchange, vtkPointSet* input, ConvertedMesh& result)
@@ -488,7 +376,7 @@ ConvertedMesh convert(RankExchange& exchange, vtkPointSet* input, CellOrder orde
   attempt(exchange, [&] { makeVertices(points, ids, result); });
   if (order == CellOrder::FirstOrSecond && isOfSecondOrder(exchange, result, nodes))
   {
-    attempt(exchange, [&] { MidNodeReader(points, ids, result).read(nodes); });
+    attempt(exchange, [&] { readMidNodes(points, ids, nodes, result); });
   }
   readCellIds(exchange, input, result);
   return result;

@@ -66,6 +66,26 @@ class Driver(unittest.TestCase):
         self.assertEqual((second["vertices"], second["cells"]), (510, 8 * 228))
         self.assertLess(second["global_error"], first["global_error"])
 
+    @unittest.skipUnless(RANKS == 2, "the same on any number of ranks: see the tests of the filters")
+    def test_quadratic_cells(self):
+        """The last mesh with mid-edge nodes: a row of its own."""
+        output = self.path("quadratic.vtu")
+        report = driver.report_of(RANKS, *WING, "--method", "uniform", "--steps", "1", "--quadratic",
+                                  "--recursion-depth", "2", "--output", output)
+        self.assertEqual([step["method"] for step in report["steps"]], ["projection", "uniform", "quadratic"])
+        straight, curved = report["steps"][1:]
+        self.assertLess(curved["global_error"], straight["global_error"] / 2)
+        self.assertEqual(curved["invalid_cells"], 0)
+        mesh = meshio.read(output)
+        tetrahedra = mesh.cells_dict["tetra10"]
+        self.assertEqual((len(tetrahedra), curved["cells"]), (8 * 228, 8 * 228))
+        self.assertEqual(len(mesh.points), curved["vertices"])
+        # Nodes inside the mesh are the middles of their edges, in the order of VTK.
+        middles = mesh.points[tetrahedra[:, [[0, 1], [1, 2], [2, 0], [0, 3], [1, 3], [2, 3]]]].mean(axis=2)
+        inside = mesh.point_data["CADDimension"][tetrahedra[:, 4:]] < 0
+        self.assertGreater(inside.sum(), 0)
+        self.assertLess(np.abs(mesh.points[tetrahedra[:, 4:]] - middles)[inside].max(), 1e-14)
+
     def test_output_agrees_with_report(self):
         output = self.path("out.vtu")
         report = driver.report_of(RANKS, *WING, "--uniform-steps", "1", "--steps", "1", "--threshold", "1e-5",
