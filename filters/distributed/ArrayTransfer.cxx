@@ -34,7 +34,8 @@ vtkNew<vtkIdTypeArray> makeIds(const std::string& name, const Lists&... lists)
 {
   vtkNew<vtkIdTypeArray> array;
   array->SetName(name.c_str());
-  array->SetNumberOfValues(static_cast<vtkIdType>((lists.size() + ...)));
+  const std::size_t count = (lists.size() + ...);
+  array->SetNumberOfValues(static_cast<vtkIdType>(count));
   preferHugePages(array->GetPointer(0), array->GetNumberOfValues() * sizeof(vtkIdType));
   vtkIdType* next = array->GetPointer(0);
   ((next = std::copy(lists.begin(), lists.end(), next)), ...);

@@ -55,6 +55,7 @@ Answers<FacetError> measureFacets(RankExchange& exchange, const DistributedMesh&
   if (mesh.converted.midNodes)
   {
     std::vector<CurvedErrorFacet> questions;
+    questions.reserve(facets.size());
     for (const std::size_t f : facets)
     {
       questions.push_back(
@@ -65,6 +66,7 @@ Answers<FacetError> measureFacets(RankExchange& exchange, const DistributedMesh&
       { return curvedError(classified.projector, facet, depth); });
   }
   std::vector<ErrorFacet> questions;
+  questions.reserve(facets.size());
   for (const std::size_t f : facets)
   {
     questions.push_back(

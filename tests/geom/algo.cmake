@@ -10,6 +10,7 @@ cadrefine_geom_test(algo_tests
     algo/FaceFinderTest.cxx
     algo/GeometricErrorTest.cxx
     algo/LongestEdgeMarkingTest.cxx
+    algo/MidNodeGuardTest.cxx
     algo/MoveGuardTest.cxx
     algo/PatchOptimiserTest.cxx
     algo/ShapeEnergyTest.cxx
