@@ -42,7 +42,7 @@ public:
     lookForInvalidCells();
     if (options_.levels == 0)
     {
-      return { makeOutput(input), 0, false };
+      return { { makeOutput(input), std::move(route_) }, 0, false };
     }
     makePlan();
     if (isTooLarge())
