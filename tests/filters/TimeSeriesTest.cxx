@@ -273,6 +273,22 @@ TEST_F(TimeSeries, takesTextAlong)
   }
 }
 
+TEST_F(TimeSeries, takesTheFieldsAlongToMidNodes)
+{
+  for (const int levels : { 0, 1 })
+  {
+    const Setup quadratic = [&](Pipeline& pipeline)
+    {
+      pipeline.refine->SetLevels(levels);
+      pipeline.refine->SetQuadraticCells(true);
+    };
+    const Pipeline pipeline = makePipeline(quadratic);
+    EXPECT_EQ(run(pipeline, 0), none);
+    EXPECT_EQ(run(pipeline, 1), all);
+    expectAsFresh(pipeline, 1, quadratic);
+  }
+}
+
 TEST_F(TimeSeries, leavesGhostsOutAgain)
 {
   const Setup withGhosts = [&](Pipeline& pipeline) { pipeline.series->setMesh(piece(true)); };
