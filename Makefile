@@ -43,7 +43,7 @@ benchmarks: build ## Measure against other programs: tables of rates and ratios
 	@/usr/bin/python3 tests/benchmarks/projection.py
 	@/usr/bin/python3 tests/benchmarks/adaptivity.py
 	@/usr/bin/python3 tests/benchmarks/experiments.py
-	@.ci/install-packages python3-dolfin python3-dolfinx
+	@.ci/install-packages python3-dolfinx
 	@/usr/bin/python3 tests/benchmarks/refinement.py
 
 .PHONY: sanitizers

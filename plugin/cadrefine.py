@@ -38,15 +38,18 @@ def reason_to_stop(options, method, last, pipeline):
 
 
 def run(options, started):
-    """Project once; then error, mark, refine; quadratic cells at the end. Returns the report."""
+    """Project once, unless an earlier run did; then error, mark, refine; quadratic cells at the end."""
     report = reporting.Report(options)
     pipeline = Pipeline()
     pipeline.read_mesh(options.mesh)
     pipeline.read_cad(options.cad)
     report.describe_input(pipeline)
-    pipeline.project(options)
+    if options.projected:
+        pipeline.take_projected()
+    else:
+        pipeline.project(options)
     pipeline.measure(options)
-    report.add_step("projection", pipeline)
+    report.add_step("input" if options.projected else "projection", pipeline)
     largest = pictures.largest_error(pipeline.mesh)  # Both pictures have the same colours.
     if options.screenshot_start:
         pictures.screenshot(pipeline.mesh, options.screenshot_start, options.focus, largest)

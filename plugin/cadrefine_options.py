@@ -61,6 +61,9 @@ def option_parser(description):
                           help="leave vertices that are farther from the CAD, 0 or more (default 0: automatic)")
     geometry.add_argument("--recursion-depth", type=depth, default=1, metavar="K",
                           help=f"of the error, 1 to {DEEPEST} (default 1)")
+    geometry.add_argument("--projected", action="store_true",
+                          help="go on with a mesh that an earlier run wrote: keep its places on the CAD (point arrays "
+                          "CADDimension, ...), do not project it again")
     geometry.add_argument("--no-cad", action="store_true",
                           help="project the mesh, then refine straight: new vertices stay off the CAD, to compare")
 
@@ -125,6 +128,8 @@ def check(options):
         raise Failure(f"--marking {options.marking} needs a --threshold")
     check_fraction("--threshold", options.marking, options.threshold)
     check_fraction("--indicator-threshold", options.indicator_marking, options.indicator_threshold)
+    if options.projected and options.region:
+        raise Failure("--region is for projecting, which --projected leaves out")
     check_box("--region", options.region)
     check_box("--focus", options.focus)
     for path in (options.mesh, options.cad, options.compare_report):

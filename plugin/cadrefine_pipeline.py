@@ -48,6 +48,16 @@ class Pipeline:
             self.mesh.Region = options.region
         self.run("project")
 
+    def take_projected(self):
+        """Takes the mesh as an earlier run left it, with its places on the CAD."""
+        self.start_step()
+        if self.mesh.PointData["CADDimension"] is None:
+            raise Failure(f"{self.mesh_path}: there is no point array CADDimension: the mesh was not projected")
+        validity = simple.MeshValidity(Input=self.mesh)
+        session.update(validity, self.mesh_path)
+        self.values.update(field_values(local_output(validity)))
+        simple.Delete(validity)
+
     def measure(self, options):
         self.mesh = simple.CADGeometricError(Input=self.mesh, CAD=self.cad, RecursionDepth=options.recursion_depth)
         self.run("error")

@@ -69,14 +69,13 @@ class Report:
         step = {"step": len(self.steps), "method": method}
         wanted = {**STEP_VALUES, **PROJECTION_VALUES} if method == "projection" else STEP_VALUES
         for key, array in wanted.items():
-            if array not in pipeline.values:
+            if array not in pipeline.values and method != "input":
                 raise Failure(f"{self.options.mesh}: the filters left no field data {array}")
-            step[key] = pipeline.values[array]
+            step[key] = pipeline.values.get(array)  # None: not known of a mesh that an earlier run projected.
         step["costs"] = pipeline.costs
         step["seconds"] = {name: pipeline.seconds[name] for name in ("project", "error", "refine")}
         self.steps.append(step)
-        cells = "".join(f"{step[key]:{column_width(head, style)}{style.lstrip('0123456789')}}"
-                        for head, key, style in COLUMNS)
+        cells = "".join(table_entry(step[key], head, style) for head, key, style in COLUMNS)
         self.say(f"{cells}{sum(step['seconds'].values()):9.2f}  {method}")
         if step.get("conflicts"):
             self.say(f"Vertices in conflict (CADConflict is 1): {step['conflicts']}")
@@ -102,6 +101,11 @@ class Report:
             write_whole(self.options.report, json.dumps(finite(report), indent=2) + "\n")
         if self.options.plot:
             plot(report, self.options)
+
+
+def table_entry(value, heading, style):
+    width = column_width(heading, style)
+    return f"{'-':>{width}}" if value is None else f"{value:{width}{style.lstrip('0123456789')}}"
 
 
 def column_width(heading, style):

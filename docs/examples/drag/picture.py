@@ -1,0 +1,50 @@
+"""Draws the pressure beside the wing and the mesh: xvfb-run -a pvpython picture.py FLOW.vtu FILE.png"""
+
+import sys
+
+from paraview.simple import *
+
+SIZE = (900, 520)
+CENTRE = (1.4, 0.75, 0.0)  # Between the ends of the wing.
+HALF_HEIGHT = 1.05
+RANGE = (-0.4, 0.5)  # Of the pressure, where 0.5 is that of the stagnation point.
+
+
+def cells_of_section(flow):
+    """The tetrahedra that the plane in the middle of the span cuts, cut."""
+    section = Slice(Input=flow, SliceType="Plane")
+    section.SliceType.Origin = CENTRE
+    section.SliceType.Normal = (0.0, 1.0, 0.0)
+    section.Triangulatetheslice = 0
+    return section
+
+
+def main():
+    flow, picture = sys.argv[1:]
+    view = CreateView("RenderView")
+    view.ViewSize = SIZE
+    view.OrientationAxesVisibility = 0
+    view.UseColorPaletteForBackground = 0
+    view.Background = (1.0, 1.0, 1.0)
+    display = Show(cells_of_section(OpenDataFile(flow)), view)
+    display.SetRepresentationType("Surface With Edges")
+    display.EdgeColor = (0.2, 0.2, 0.2)
+    display.LineWidth = 0.5
+    display.Ambient, display.Diffuse = 1.0, 0.0
+    ColorBy(display, ("POINTS", "pressure"))
+    colours = GetColorTransferFunction("pressure")
+    colours.RescaleTransferFunction(*RANGE)
+    bar = GetScalarBar(colours, view)
+    bar.Title, bar.ComponentTitle = "pressure", ""
+    bar.TitleColor = bar.LabelColor = (0.0, 0.0, 0.0)
+    display.SetScalarBarVisibility(view, True)
+    view.CameraParallelProjection = 1
+    view.CameraFocalPoint = CENTRE
+    view.CameraPosition = (CENTRE[0], CENTRE[1] - 10.0, CENTRE[2])
+    view.CameraViewUp = (0.0, 0.0, 1.0)
+    view.CameraParallelScale = HALF_HEIGHT
+    SaveScreenshot(picture, view, ImageResolution=SIZE)
+
+
+if __name__ == "__main__":
+    main()
