@@ -109,6 +109,10 @@ class BadInput(unittest.TestCase):
             with self.subTest(option, values=values):
                 self.assert_fails("none.vtu", "none.igs", option, *values, names=option + ": ")
 
+    def test_mesh_that_was_not_projected(self):
+        self.assert_fails(self.mesh, self.cad, "--projected",
+                          names="naca0012_coarse.vtu: there is no point array CADDimension")
+
     def test_folder_of_output_is_missing(self):
         path = os.path.join(self.folder, "none", "out.vtu")
         self.assert_fails(self.mesh, self.cad, "--output", path, names="out.vtu: there is no folder")

@@ -139,6 +139,17 @@ class Driver(unittest.TestCase):
         self.assertLessEqual(report["steps"][-1]["maximum_chord_error"], 4e-3)
         self.assertLessEqual(report["steps"][-1]["maximum_normal_angle"], 40)
 
+    def test_projected(self):
+        """Two straight runs after each other: the second does not put the first one's vertices onto the CAD."""
+        middle, options = self.path("middle.vtu"), ("--no-cad", "--method", "uniform")
+        whole = driver.report_of(RANKS, *WING, *options, "--steps", "2")["steps"]
+        driver.report_of(RANKS, *WING, *options, "--steps", "1", "--output", middle)
+        first, second = driver.report_of(RANKS, middle, WING[1], *options, "--steps", "1", "--projected")["steps"]
+        self.assertEqual(first["method"], "input")
+        for key in ("vertices", "cells", "global_error", "maximum_distance", "invalid_cells"):
+            self.assertEqual((first[key], second[key]), (whole[1][key], whole[2][key]), key)
+        self.assertEqual(second["cad_vertices"], whole[2]["cad_vertices"])
+
     def test_conflicts(self):
         path = self.path("report.json")
         case = driver.data("naca0012_blunt_coarse.vtu"), WING[1]  # The mesh has an edge more than the CAD.

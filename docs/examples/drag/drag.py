@@ -89,7 +89,7 @@ def main():
     parser.add_argument("--fraction", type=float, default=0.7,
                         help="part of the indicator and of the error that marked cells carry (default %(default)g)")
     parser.add_argument("--reynolds", type=float, default=1000.0, help="of the chord (default %(default)g)")
-    parser.add_argument("--time-steps", type=int, default=60, help="of each round (default %(default)s)")
+    parser.add_argument("--time-steps", type=int, default=40, help="of each round (default %(default)s)")
     parser.add_argument("--ranks", type=int, default=2, help="of solver and refinement (default %(default)s)")
     options = parser.parse_args()
     for name, cad in (("without_cad", False), ("with_cad", True)):

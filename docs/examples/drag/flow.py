@@ -6,9 +6,9 @@ Turbulent Incompressible Flow, Springer, 2007. A time step of length k finds the
     ((u - u0) / k + b.grad m, v) + (nu grad m, grad v) - (p, div v) + (div m, q)
         + (delta1 (b.grad m + grad p), b.grad v + grad q) + (delta2 div m, div v) = 0
 
-for all v, q, where u0 is the velocity before, m = (u + u0) / 2 that in the middle of the step, and b the same
-extrapolated from the two steps before: so a step is one linear system. The four unknowns of a vertex are one function
-w = (u, p).
+for all v, q, where u0 is the velocity before, m = (u + u0) / 2 that in the middle of the step, and b that in the middle
+of the step before: so a step is one linear system. This lag is of first order in time; in a steady flow there is none.
+The four unknowns of a vertex are one function w = (u, p).
 """
 
 import dolfin as df
@@ -97,7 +97,7 @@ class Flow:
     def step_form(self, old, older, time_step):
         """Of a time step from `old`, with `older` the step before it; linear in the trial function."""
         w, test = df.TrialFunction(self.space), df.TestFunction(self.space)
-        b = 1.5 * velocity(old) - 0.5 * velocity(older)
+        b = 0.5 * (velocity(old) + velocity(older))
         middle = 0.5 * (velocity(w) + velocity(old))
         return (df.dot(velocity(w) - velocity(old), velocity(test)) / df.Constant(time_step)
                 * df.dx(metadata=QUADRATURE)
