@@ -89,10 +89,13 @@ def from_function(function, file):
     return gathered(mesh.topology().global_indices(0), values, len(file.points))
 
 
-def from_cells(vector, mesh, file):
-    """Values of `vector`, one a cell of `mesh` in the order of its own cells: (tetrahedra,) on rank 0."""
-    own = mesh.topology().ghost_offset(3)
-    return gathered(mesh.topology().global_indices(3)[:own], vector.get_local(), len(tetrahedra(file)))
+def from_cells(function, file):
+    """Values of `function`, constant in each cell, in the file's tetrahedra: (tetrahedra,) on rank 0."""
+    space = function.function_space()
+    mesh = space.mesh()
+    own = mesh.topology().ghost_offset(3)  # Cells of this rank come before those of others.
+    values = function.vector().get_local()[space.dofmap().dofs(mesh, 3)[:own]]
+    return gathered(mesh.topology().global_indices(3)[:own], values, len(tetrahedra(file)))
 
 
 def gathered(numbers, values, count):

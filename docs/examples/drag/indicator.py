@@ -12,7 +12,7 @@ from flow import QUADRATURE, convection, mesh_size, velocity
 
 
 def dual_weighted_residual(flow, dual):
-    """The indicator of each cell, in the order of the mesh's own cells: a df.GenericVector.
+    """The indicator, constant in each cell: a df.Function.
 
     flow: flow.Flow with its mean computed; dual: df.Function (phi, theta). It is the integral over the cell of
 
@@ -22,14 +22,15 @@ def dual_weighted_residual(flow, dual):
     stabilisation, and all constants, are left out: it is for comparing cells, not a bound.
     """
     mesh, u, p = flow.mesh, velocity(flow.mean), flow.mean[3]
-    h, of_cell = mesh_size(mesh), df.TestFunction(df.FunctionSpace(mesh, "DG", 0))
+    space = df.FunctionSpace(mesh, "DG", 0)
+    h, of_cell = mesh_size(mesh), df.TestFunction(space)
     momentum_weight = h * size(df.grad(velocity(dual)))
     momentum, continuity = size(convection(u, u) + df.grad(p)), abs(df.div(u))
     jump = 0.5 * flow.nu * size(df.jump(df.grad(u), df.FacetNormal(mesh)))
     form = (of_cell * (momentum * momentum_weight + continuity * h * size(df.grad(dual[3])))
             * df.dx(metadata=QUADRATURE)
             + jump * 2.0 * df.avg(of_cell * momentum_weight) * df.dS(metadata=QUADRATURE))
-    return df.assemble(form)
+    return df.Function(space, df.assemble(form))
 
 
 def size(a):

@@ -10,8 +10,8 @@ HALF_HEIGHT = 1.05
 RANGE = (-0.4, 0.5)  # Of the pressure, where 0.5 is that of the stagnation point.
 
 
-def cells_of_section(flow):
-    """The tetrahedra that the plane in the middle of the span cuts, cut."""
+def section_of(flow):
+    """The plane in the middle of the span, with the outlines of the tetrahedra that it cuts."""
     section = Slice(Input=flow, SliceType="Plane")
     section.SliceType.Origin = CENTRE
     section.SliceType.Normal = (0.0, 1.0, 0.0)
@@ -26,7 +26,7 @@ def main():
     view.OrientationAxesVisibility = 0
     view.UseColorPaletteForBackground = 0
     view.Background = (1.0, 1.0, 1.0)
-    display = Show(cells_of_section(OpenDataFile(flow)), view)
+    display = Show(section_of(OpenDataFile(flow)), view)
     display.SetRepresentationType("Surface With Edges")
     display.EdgeColor = (0.2, 0.2, 0.2)
     display.LineWidth = 0.5

@@ -43,11 +43,11 @@ def start(flow, file):
     return True
 
 
-def wing_area(file):
-    """Chord times span."""
+def wing_size(file):
+    """Chord and span."""
     wing = file.points[file.cells_dict["triangle"][file.cell_data_dict[exchange.TAGS]["triangle"] == WING].ravel()]
     extent = wing.max(axis=0) - wing.min(axis=0)
-    return float(extent[0] * extent[1]), float(extent[0])
+    return float(extent[0]), float(extent[1])
 
 
 def main():
@@ -63,19 +63,19 @@ def main():
     df.set_log_level(df.LogLevel.ERROR)
 
     file = exchange.read_file(options.mesh)
-    area, chord = wing_area(file)
+    chord, span = wing_size(file)
     mesh = exchange.distributed_mesh(file, options.output + ".xdmf")
     flow = flows.Flow(mesh, exchange.facet_tags(mesh, file, boundary_parts(file)), nu=chord / options.reynolds)
     carried_over = start(flow, file)
     first = exchange.from_function(flow.state, file)
     change = flow.run(options.time_step, options.steps, options.averaged)
     drag = flow.drag()
-    indicator = exchange.from_cells(dual_weighted_residual(flow, flow.dual()), mesh, file)
+    indicator = exchange.from_cells(dual_weighted_residual(flow, flow.dual()), file)
     mean = exchange.from_function(flow.mean, file)
     if COMM.rank == 0:
         exchange.write_file(options.output, file, {"velocity": mean[:, :3], "pressure": mean[:, 3]}, indicator)
         report = {"cells": len(exchange.tetrahedra(file)), "vertices": len(file.points), "ranks": COMM.size,
-                  "drag": drag, "drag_coefficient": drag / (0.5 * area), "change": change,
+                  "drag": drag, "drag_coefficient": drag / (0.5 * chord * span), "change": change,
                   "carried_over": carried_over, "first_state": float(np.linalg.norm(first)),
                   "indicator_sum": float(indicator.sum())}
         print(json.dumps(report))
