@@ -15,8 +15,8 @@ namespace cadrefine
 
 struct RefinementOptions
 {
-  bool uniform = false; ///< Cut all edges; else the longest of marked cells.
-  int levels = 1; ///< 0: the mesh as it is, for quadraticCells.
+  bool uniform = false;                   ///< Cut all edges; else the longest of marked cells.
+  int levels = 1;                         ///< 0: the mesh as it is, for quadraticCells.
   std::vector<MarkingCriterion> criteria; ///< None: all cells are marked.
   /// Bisect further until the facets on the CAD of each marked cell are cut.
   bool cutFacets = false;

@@ -206,8 +206,8 @@ ClosestPoint BoundaryProjector::projectMidpoint(const EdgeClass& edgeClass,
   return project(edgeClass, 0.5 * (points[0] + points[1]), entities);
 }
 
-ClosestPoint BoundaryProjector::project(const EdgeClass& edgeClass, const Point3& point,
-  const std::array<EntityId, 2>& entities) const
+ClosestPoint BoundaryProjector::project(
+  const EdgeClass& edgeClass, const Point3& point, const std::array<EntityId, 2>& entities) const
 {
   switch (edgeClass.kind)
   {

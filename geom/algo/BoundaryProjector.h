@@ -75,8 +75,8 @@ public:
   ClosestPoint projectMidpoint(const EdgeClass& edgeClass, const std::array<Point3, 2>& points,
     const std::array<EntityId, 2>& entities) const;
   /// The same for another point that stands for the edge, such as one of a curved edge.
-  ClosestPoint project(const EdgeClass& edgeClass, const Point3& point,
-    const std::array<EntityId, 2>& entities) const;
+  ClosestPoint project(
+    const EdgeClass& edgeClass, const Point3& point, const std::array<EntityId, 2>& entities) const;
 
   /// CAD vertices that want a mesh vertex of their own: see findCorners.
   const std::vector<std::int32_t>& corners() const { return corners_; }
