@@ -59,19 +59,21 @@ int vtkAdaptToCAD::RequestDataObject(
 cadrefine::StepResult vtkAdaptToCAD::Execute(
   cadrefine::RankExchange& exchange, vtkPointSet* input, const cadrefine::CADModel* model)
 {
+  this->AbortExecute = 0; // of an earlier run; SetAbortExecute would modify the filter
   cadrefine::AdaptationOptions options;
   options.projection = cadrefine::makeProjectionOptions(
     this->UseRegion ? this->Region : nullptr, this->MaximumDistance);
   options.recursionDepth = this->RecursionDepth;
   options.refinement = this->MakeOptions();
   options.refinement.maximumCells = this->MaximumCells;
+  options.refinement.onlyIfMarked = true;
   options.maximumSteps = this->MaximumSteps;
   options.targetError = this->TargetError;
 
   cadrefine::AdaptationObserver observer;
   observer.progress = [this](int steps)
   {
-    this->SetProgressText(("Step " + std::to_string(steps + 1)).c_str());
+    this->SetProgressText(steps == 0 ? "Projection" : ("Step " + std::to_string(steps)).c_str());
     this->UpdateProgress(steps / (1.0 + this->MaximumSteps));
   };
   observer.isInterrupted = [this] { return this->GetAbortExecute() != 0; };

@@ -9,8 +9,8 @@
  * MaximumCells or TargetError is reached or no cell is marked. Cells are marked by their geometric
  * error, by a solver's indicator, by their chord error and by the angle between facets; any of them
  * is enough. An adaptation that is aborted (AbortExecute on any rank, looked at between steps)
- * keeps its last whole step, and is not repeated until the filter is modified. VTK does not reset
- * AbortExecute: set it to 0 before the next run, or that makes no step.
+ * keeps its last whole step, and is not repeated until the filter is modified. A run resets
+ * AbortExecute when it starts.
  *
  * Output port 0: the mesh of the last step, with its error. Port 1: a table with a row for each
  * step, on rank 0: Step, MarkedCells, and the field data of the mesh by their names; its field

@@ -33,7 +33,7 @@ public:
     std::string reason = reasonToStop();
     while (reason.empty())
     {
-      observer_.progress(steps_);
+      observer_.progress(steps_ + 1);
       reason = refine();
       if (reason.empty())
       {

@@ -26,7 +26,7 @@ struct AdaptationOptions
 /// How an adaptation talks while it runs.
 struct AdaptationObserver
 {
-  /// Called before each step, with the number of steps done.
+  /// Called before each step, with its number; 0 is the projection.
   std::function<void(int)> progress;
   /// Whether the user wants no further steps. Asked on every rank; one that does is enough.
   std::function<bool()> isInterrupted;

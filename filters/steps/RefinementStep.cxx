@@ -45,9 +45,10 @@ public:
       return { { makeOutput(input), std::move(route_) }, 0, false };
     }
     makePlan();
-    if (isTooLarge())
+    const bool limited = isTooLarge();
+    if (limited || (options_.onlyIfMarked && markedCells_ == 0))
     {
-      return { {}, markedCells_, true };
+      return { {}, markedCells_, limited };
     }
     if (options_.balance && exchange_.size() > 1)
     {
@@ -56,17 +57,16 @@ public:
     refineOnce();
     context_.statistics.set("new cells imbalance after",
       findImbalance(exchange_, static_cast<std::int64_t>(mesh_.mesh().cellCount())));
-    bool limited = false;
-    for (int level = 1; level < options_.levels && !limited; ++level)
+    for (int level = 1; level < options_.levels; ++level)
     {
       makePlan();
-      limited = isTooLarge();
-      if (!limited)
+      if (isTooLarge())
       {
-        refineOnce();
+        return { { makeOutput(input), std::move(route_) }, markedCells_, true };
       }
+      refineOnce();
     }
-    return { { makeOutput(input), std::move(route_) }, markedCells_, limited };
+    return { { makeOutput(input), std::move(route_) }, markedCells_, false };
   }
 
 private:

@@ -349,7 +349,7 @@ TEST_F(Adapt, keepsTheStepWhereItIsInterrupted)
   EXPECT_TRUE(cadtest::areSame(interrupted.mesh, steps(2).mesh));
 
   EXPECT_EQ(resultOf(cadtest::execute(filter)).reason, "interrupted") << "nothing has changed";
-  filter->SetAbortExecute(0);
+  filter->Modified();
   const Adapted whole = resultOf(cadtest::execute(filter));
   EXPECT_EQ(whole.steps(), 4u);
   EXPECT_TRUE(cadtest::areSame(whole.mesh, steps(4).mesh));

@@ -399,7 +399,7 @@ TEST_F(TimeSeries, keepsNothingOfAnAdaptationThatWasInterrupted)
     pipeline.adapt->AddObserver(vtkCommand::ProgressEvent, abort);
   }
   ASSERT_TRUE(update(pipeline.adapt, 0));
-  EXPECT_EQ(tableOf(pipeline.adapt)->GetNumberOfRows(), exchange.rank() == 0 ? 3 : 0);
+  EXPECT_EQ(tableOf(pipeline.adapt)->GetNumberOfRows(), exchange.rank() == 0 ? 2 : 0);
   pipeline.adapt->RemoveAllObservers();
   pipeline.adapt->SetAbortExecute(0);
   EXPECT_EQ(run(pipeline, 1), none);
