@@ -21,10 +21,16 @@ COLUMNS = (("round", "5d"), ("vertices", "9d"), ("cells", "9d"), ("drag_coeffici
 
 
 def run(*command):
-    """Runs a program that must succeed."""
-    result = subprocess.run(list(map(str, command)), capture_output=True, text=True, check=False)
+    """Runs a program that must succeed. Ranks have one thread each, and give way while they wait."""
+    environment = {**os.environ, "OMP_NUM_THREADS": "1", "OMPI_MCA_mpi_yield_when_idle": "1"}
+    command = [str(part) for part in command]
+    result = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
     if result.returncode != 0:
-        sys.exit(f"{' '.join(map(str, command))}: exit status {result.returncode}\n{result.stdout}{result.stderr}")
+        sys.exit(f"{' '.join(command)}: exit status {result.returncode}\n{result.stdout}{result.stderr}")
+
+
+def mpirun(ranks):
+    return "mpirun", "--bind-to", "none", "-np", ranks
 
 
 def load(path):
@@ -35,7 +41,7 @@ def load(path):
 def refine(ranks, mesh, output, *options):
     """Runs CADRefine. Returns the last step of its report."""
     report = output + ".json"
-    run("mpirun", "-np", ranks, "pvbatch", os.path.join(ROOT, "plugin", "cadrefine.py"), mesh, CAD, "--quiet",
+    run(*mpirun(ranks), "pvbatch", os.path.join(ROOT, "plugin", "cadrefine.py"), mesh, CAD, "--quiet",
         "--output", output, "--report", report, *options)
     return load(report)["steps"][-1]
 
@@ -43,7 +49,7 @@ def refine(ranks, mesh, output, *options):
 def solve(ranks, mesh, output, *options):
     """Runs the solver. Returns its report."""
     report = output + ".json"
-    run("mpirun", "-np", ranks, "/usr/bin/python3", "-m", "mpi4py", os.path.join(HERE, "solve.py"), mesh, output,
+    run(*mpirun(ranks), "/usr/bin/python3", "-m", "mpi4py", os.path.join(HERE, "solve.py"), mesh, output,
         "--report", report, *options)
     return load(report)
 

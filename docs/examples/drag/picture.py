@@ -4,10 +4,10 @@ import sys
 
 from paraview.simple import *
 
-SIZE = (900, 520)
+SIZE = (720, 400)
 CENTRE = (1.4, 0.75, 0.0)  # Between the ends of the wing.
-HALF_HEIGHT = 1.05
-RANGE = (-0.4, 0.5)  # Of the pressure, where 0.5 is that of the stagnation point.
+HALF_HEIGHT = 1.0
+RANGE = (-0.4, 0.4)  # Of the pressure; in an unbounded flow it is 0.5 in the stagnation point.
 
 
 def section_of(flow):
@@ -28,7 +28,7 @@ def main():
     view.Background = (1.0, 1.0, 1.0)
     display = Show(section_of(OpenDataFile(flow)), view)
     display.SetRepresentationType("Surface With Edges")
-    display.EdgeColor = (0.2, 0.2, 0.2)
+    display.EdgeColor = (0.45, 0.45, 0.45)
     display.LineWidth = 0.5
     display.Ambient, display.Diffuse = 1.0, 0.0
     ColorBy(display, ("POINTS", "pressure"))
