@@ -24,6 +24,10 @@ def planned_methods(options):
     return ["uniform"] * options.uniform_steps + [options.method] * options.steps
 
 
+def too_many_cells(options):
+    return f"there would be more than {options.maximum_cells} cells"
+
+
 def reason_to_stop(options, method, last, pipeline):
     """Why the next step must not be taken, or None."""
     if options.target_error is not None and last["global_error"] <= options.target_error:
@@ -31,7 +35,7 @@ def reason_to_stop(options, method, last, pipeline):
     if options.maximum_cells is not None:
         growth = pipeline.children_per_cell() if method == "uniform" else 1
         if last["cells"] * growth > options.maximum_cells or last["cells"] == options.maximum_cells:
-            return f"there would be more than {options.maximum_cells} cells"
+            return too_many_cells(options)
     if method == "longest-edge" and not pipeline.marks_anything(options):
         return "no cell is marked"
     return None
@@ -58,7 +62,9 @@ def run(options, started):
         report.stopped = reason_to_stop(options, method, report.steps[-1], pipeline)
         if report.stopped:
             break
-        pipeline.refine(options, method)
+        if not pipeline.refine(options, method):
+            report.stopped = too_many_cells(options)
+            break
         pipeline.measure(options)
         report.add_step(method, pipeline)
     if options.quadratic:

@@ -124,6 +124,8 @@ def check(options):
     """Finds what is wrong before any work is done."""
     if (options.indicator is None) != (options.indicator_threshold is None):
         raise Failure("--indicator and --indicator-threshold go together")
+    if options.indicator_marking != "threshold" and options.indicator is None:
+        raise Failure(f"--indicator-marking {options.indicator_marking} needs an --indicator")
     if options.marking != "threshold" and options.threshold is None:
         raise Failure(f"--marking {options.marking} needs a --threshold")
     check_fraction("--threshold", options.marking, options.threshold)

@@ -63,6 +63,8 @@ class Pipeline:
         self.run("error")
 
     def refine(self, options, method):
+        """Returns False, and leaves the mesh as it was, where that makes more than --maximum-cells."""
+        before, values = self.mesh, dict(self.values)
         self.start_step()
         self.mesh = simple.RefinewithCAD(Input=self.mesh, CAD=self.cad, MarkingArray="None", IndicatorArray="None")
         self.mesh.Method = METHODS[method]
@@ -70,6 +72,11 @@ class Pipeline:
         if method == "longest-edge":
             self.mark(options)
         self.run("refine")
+        if options.maximum_cells is None or self.values["GlobalCells"] <= options.maximum_cells:
+            return True
+        simple.Delete(self.mesh)
+        self.mesh, self.values = before, values
+        return False
 
     def make_quadratic(self, options):
         """Gives the last mesh its mid-edge nodes; it is not refined further."""

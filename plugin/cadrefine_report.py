@@ -86,7 +86,8 @@ class Report:
                          "error_measure": ERROR_MEASURES[pipeline.values["GeometricErrorDimension"]],
                          "recursion_depth": self.options.recursion_depth}
         if self.stopped:
-            self.say(f"Stopped after step {self.steps[-1]['step']}: {self.stopped}")
+            last = [step["step"] for step in self.steps if step["method"] != "quadratic"][-1]
+            self.say(f"Stopped after step {last}: {self.stopped}")
 
     def say(self, line):
         if not self.options.quiet and session.speaks():

@@ -99,6 +99,7 @@ class BadInput(unittest.TestCase):
     def test_options(self):
         self.assert_fails(self.mesh, self.cad, "--steps", "many", names="--steps")
         self.assert_fails(self.mesh, self.cad, "--indicator", "error", names="--indicator-threshold")
+        self.assert_fails(self.mesh, self.cad, "--indicator-marking", "bulk", names="--indicator")
         self.assert_fails(self.mesh, self.cad, "--no-such-option", names="--no-such-option")
 
     def test_values_out_of_range(self):

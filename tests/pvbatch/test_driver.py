@@ -189,6 +189,13 @@ class Driver(unittest.TestCase):
         self.assertEqual(tagged["steps"][-1]["cells"], 8 * 228)
         pieces = driver.report_of(RANKS, self.wing_after_an_empty_piece(), WING[1], *options)
         self.assertEqual(pieces["steps"][-1]["cells"], 8 * 228)
+        bisected = driver.report_of(RANKS, *WING, "--maximum-cells", "3000", "--steps", "9", "--output",
+                                    self.path("bisected.vtu"))
+        self.assertIn("3000 cells", bisected["stopped"])
+        self.assertGreater(bisected["steps"][-1]["cells"], 228)
+        self.assertLessEqual(bisected["steps"][-1]["cells"], 3000)
+        written = meshio.read(self.path("bisected.vtu"))
+        self.assertEqual(len(written.cells_dict["tetra"]), bisected["steps"][-1]["cells"])
         marked = driver.report_of(RANKS, *WING, "--threshold", "1e9")
         self.assertEqual(len(marked["steps"]), 1)
         target = driver.report_of(RANKS, *WING, "--target-error", "1e9")
