@@ -46,6 +46,7 @@ def run(options, started):
     report = reporting.Report(options)
     pipeline = Pipeline()
     pipeline.read_mesh(options.mesh)
+    pipeline.check(options)
     pipeline.read_cad(options.cad)
     report.describe_input(pipeline)
     if options.projected:

@@ -36,6 +36,13 @@ class Pipeline:
         self.mesh_path = path
         self.mesh = self.timed("read_mesh", lambda: open_mesh(path))
 
+    def check(self, options):
+        """Finds what cannot be done with the mesh before any work is."""
+        if options.indicator is not None:
+            self.largest(options.indicator)
+        if options.quadratic and local_output(self.mesh).IsA("vtkPolyData"):
+            raise Failure(f"{self.mesh_path}: poly data cannot hold quadratic cells (--quadratic); use a .vtu file")
+
     def read_cad(self, path):
         self.cad = simple.CADReader(FileName=path)
         self.timed("read_cad", lambda: session.update(self.cad, path))

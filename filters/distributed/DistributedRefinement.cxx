@@ -3,6 +3,7 @@
 #include "Agreement.h"
 #include "DistributedBoundary.h"
 #include "DistributedMoves.h"
+#include "Error.h"
 #include "FacetMarking.h"
 #include "GlobalNumbering.h"
 #include "LargeMemory.h"
@@ -33,6 +34,20 @@ std::vector<Index> combineMarks(RankExchange& exchange, RefinementPlan& plan)
   return fresh;
 }
 
+std::vector<GlobalId> firstIdsOfChildren(RankExchange& exchange,
+  const std::vector<GlobalId>& parents, const std::vector<std::int64_t>& weights)
+{
+  try
+  {
+    return denseOffsets(exchange, parents, weights).numbers;
+  }
+  catch (const Error&) // on all ranks
+  {
+    throw Error("the mesh lists a cell twice: two cells have the same vertices, or the same global "
+                "id (the filter Clean Cells to Grid merges cells)");
+  }
+}
+
 /// Ids of the children: parents in the order of their ids, the children of each in a row.
 std::array<std::vector<GlobalId>, 4> numberChildren(RankExchange& exchange,
   const std::array<std::vector<GlobalId>, 4>& parentIds, const ChildRanges& firstChildren)
@@ -52,7 +67,7 @@ std::array<std::vector<GlobalId>, 4> numberChildren(RankExchange& exchange,
       weights.push_back(firsts[c + 1] - firsts[c]);
     }
   }
-  const auto firstIds = denseOffsets(exchange, parents, weights).numbers;
+  const auto firstIds = firstIdsOfChildren(exchange, parents, weights);
   std::array<std::vector<GlobalId>, 4> ids;
   auto parent = firstIds.begin();
   for (int d = 0; d < 4; ++d)

@@ -18,7 +18,8 @@ namespace cadrefine
 ///   - between two facets that meet where the CAD is smooth, the edge opposite to where they meet.
 ///     Otherwise some child would have two such facets again, and become as flat as the CAD is
 ///     between them; the new vertex is inside the mesh, and can move away from the CAD.
-/// Work: linear in the facets.
+/// A facet between two cells (see findBoundaryFacets) counts for the cell that its error is counted
+/// in. Work: linear in the facets.
 void markFacets(const ClassifiedBoundary& classified, const Classification& classification,
   const EdgeTable& table, const std::vector<unsigned char>& cellMarks, EdgeMarks& marks);
 

@@ -34,6 +34,10 @@ std::vector<double> valuesOf(
   std::vector<double> values(array->GetNumberOfTuples());
   copyValues(array, values.data());
   values.erase(values.begin(), values.begin() + firstCellOfDimension(mesh, mesh.dimension));
+  if (std::any_of(values.begin(), values.end(), [](double x) { return std::isnan(x); }))
+  {
+    throw Error("the marking array " + criterion.array + " has a value that is no number (NaN)");
+  }
   if (criterion.strategy != Strategy::Threshold &&
       !std::all_of(
         values.begin(), values.end(), [](double x) { return std::isfinite(x) && x >= 0; }))

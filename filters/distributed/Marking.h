@@ -28,9 +28,9 @@ struct MarkingCriterion
 
 /// 1 for the cells of the mesh's own dimension that any of the criteria marks; all cells if there
 /// are no criteria. Throws Error, on all ranks, where an array is missing or has several
-/// components, and for other strategies than Threshold where a value is negative or no number, or
-/// the fraction is not in (0, 1]. Collective. Work: a look at each cell a criterion, and that of
-/// markBulk.
+/// components, where a value is no number, and for other strategies than Threshold where one is
+/// negative or infinite, or the fraction is not in (0, 1]. Collective. Work: a look at each cell a
+/// criterion, and that of markBulk.
 std::vector<unsigned char> markCells(RankExchange& exchange, const DistributedMesh& mesh,
   const MeshArrays& arrays, const std::vector<MarkingCriterion>& criteria);
 

@@ -60,10 +60,6 @@ public:
     for (int level = 1; level < options_.levels; ++level)
     {
       makePlan();
-      if (isTooLarge())
-      {
-        return { { makeOutput(input), std::move(route_) }, markedCells_, true };
-      }
       refineOnce();
     }
     return { { makeOutput(input), std::move(route_) }, markedCells_, false };

@@ -25,7 +25,8 @@ struct RefinementOptions
   /// Put out cells of second order (see placeMidNodes); not for vtkPolyData, which has none.
   bool quadraticCells = false;
   bool onlyIfMarked = false; ///< Make no mesh where no cell is marked in the first level.
-  /// No level is made that would have more cells of the mesh's own dimension; 0: no limit.
+  /// The first level is not made where it would have more cells of the mesh's own dimension; 0: no
+  /// limit.
   std::int64_t maximumCells = 0;
 };
 
@@ -33,7 +34,7 @@ struct RefinementOutcome
 {
   StepResult result;            ///< No mesh where the first level was not made.
   std::int64_t markedCells = 0; ///< In the last level, over all ranks.
-  bool limited = false;         ///< Not all levels were made.
+  bool limited = false;         ///< The first level would have had too many cells.
 };
 
 /// Refines a mesh (see refine and refineOntoCAD). Collective.

@@ -268,8 +268,7 @@ TEST_F(AdaptPieces, failTogether)
 /// On one rank; a threshold takes them.
 TEST_F(AdaptPieces, failWhereOneValueHasNoPart)
 {
-  for (const double bad :
-    { -1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity() })
+  for (const double bad : { -1.0, std::numeric_limits<double>::infinity() })
   {
     const Mesh whole = prepared(ball());
     whole->GetCellData()->GetArray("Indicator")->SetTuple1(19, bad);
@@ -290,6 +289,24 @@ TEST_F(AdaptPieces, failWhereOneValueHasNoPart)
         filter->SetMaximumSteps(1);
       });
     EXPECT_TRUE(outcome.succeeded);
+  }
+}
+
+TEST_F(AdaptPieces, failWhereOneValueIsNoNumber)
+{
+  const Mesh whole = prepared(ball());
+  whole->GetCellData()
+    ->GetArray("Indicator")
+    ->SetTuple1(19, std::numeric_limits<double>::quiet_NaN());
+  for (const int strategy :
+    { vtkAdaptToCAD::THRESHOLD, vtkAdaptToCAD::FRACTION_OF_LARGEST, vtkAdaptToCAD::BULK })
+  {
+    expectFailure(whole, "no number",
+      [&](vtkAdaptToCAD* filter)
+      {
+        filter->SetIndicatorArray("Indicator");
+        filter->SetIndicatorMarking(strategy);
+      });
   }
 }
 

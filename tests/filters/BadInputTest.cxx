@@ -236,6 +236,18 @@ TEST_F(BadInput, markingArrayWithThreeComponents)
     [](vtkRefineWithCAD* filter) { filter->SetMarkingArray("Colour"); });
 }
 
+TEST_F(BadInput, cellThatIsListedTwice)
+{
+  Grid grid = goodMesh();
+  if (isLast())
+  {
+    vtkNew<vtkIdList> points;
+    grid->GetCellPoints(0, points);
+    grid->InsertNextCell(VTK_TETRA, points);
+  }
+  expectProjectedMeshFails<vtkRefineWithCAD>(filters.project(grid), "lists a cell twice");
+}
+
 TEST_F(BadInput, pointsAloneCannotBeRefined)
 {
   vtkNew<vtkUnstructuredGrid> points;

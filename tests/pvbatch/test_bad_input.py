@@ -7,6 +7,7 @@ import tempfile
 import unittest
 
 import driver
+import meshio
 
 RANKS = int(sys.argv.pop()) if sys.argv[-1].isdigit() else 1
 
@@ -113,6 +114,12 @@ class BadInput(unittest.TestCase):
     def test_mesh_that_was_not_projected(self):
         self.assert_fails(self.mesh, self.cad, "--projected",
                           names="naca0012_coarse.vtu: there is no point array CADDimension")
+
+    def test_quadratic_poly_data(self):
+        mesh, path = meshio.read(driver.data("three_arcs_coarse.vtu")), os.path.join(self.folder, "arcs.ply")
+        meshio.write(path, meshio.Mesh(mesh.points, {"triangle": mesh.cells_dict["triangle"].astype("int32")}),
+                     binary=False)
+        self.assert_fails(path, driver.data("three_arcs.igs"), "--quadratic", names="arcs.ply: poly data cannot hold")
 
     def test_folder_of_output_is_missing(self):
         path = os.path.join(self.folder, "none", "out.vtu")
