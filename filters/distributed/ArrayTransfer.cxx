@@ -272,14 +272,12 @@ MeshArrays readArrays(vtkPointSet* input, const ConvertedMesh& mesh)
 MeshArrays refineArrays(const MeshArrays& coarse,
   const std::vector<std::array<Index, 2>>& parentEdges, const ChildRanges& firstChildren)
 {
-  MeshArrays fine = emptyArrays(coarse.vertexIdName, coarse.cellIdName);
-  carryOver(coarse.ofVertices, fine.ofVertices,
-    [&](vtkAbstractArray* array) { return interpolate(array, parentEdges); });
+  MeshArrays fine = withMidNodes(coarse, parentEdges);
+  fine.ofCells = vtkSmartPointer<vtkCellData>::New();
   const auto parents =
     coarse.ofCells->GetNumberOfArrays() > 0 ? parentCells(firstChildren) : std::vector<Index>{};
   carryOver(
     coarse.ofCells, fine.ofCells, [&](vtkAbstractArray* array) { return gather(array, parents); });
-  fine.ofMesh = coarse.ofMesh;
   return fine;
 }
 

@@ -56,18 +56,16 @@ private:
 
   void markLongest(std::size_t f)
   {
-    const EdgeOrder order(table_);
-    Index longest = -1;
+    std::vector<Index> edges;
     for (const Index e : boundary_.facetEdges[f])
     {
       if (e >= 0)
       {
         const auto [a, b] = boundary_.edges.edges()[e];
-        const Index edge = table_.find(a, b);
-        longest = longest < 0 || order.longer(edge, longest) ? edge : longest;
+        edges.push_back(table_.find(a, b));
       }
     }
-    marks_[longest] = 1;
+    marks_[EdgeOrder(table_).longest(edges)] = 1;
   }
 
   /// The corner of a facet that is not one of another facet of its cell.

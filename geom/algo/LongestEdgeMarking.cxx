@@ -8,13 +8,6 @@ namespace
 {
 
 template<std::size_t Edges>
-Index longest(const EdgeOrder& order, const std::array<Index, Edges>& edges)
-{
-  return *std::max_element(
-    edges.begin(), edges.end(), [&](Index a, Index b) { return order.longer(b, a); });
-}
-
-template<std::size_t Edges>
 bool isPartlyMarked(const EdgeMarks& marks, const std::array<Index, Edges>& edges)
 {
   std::size_t marked = 0;
@@ -35,8 +28,8 @@ void markLongestEdges(const SimplexMesh& mesh, const EdgeTable& table,
   {
     if (cellMarks[c])
     {
-      marks[mesh.dimension == 3 ? longest(order, table.ofTetrahedra[c])
-                                : longest(order, table.ofTriangles[c])] = 1;
+      marks[mesh.dimension == 3 ? order.longest(table.ofTetrahedra[c])
+                                : order.longest(table.ofTriangles[c])] = 1;
     }
   }
 }
@@ -155,7 +148,7 @@ void MarkClosure::lookAt(const Edges& edges)
 /// Of the tetrahedron, and of its faces.
 void MarkClosure::markLongest(const std::array<Index, 6>& edges)
 {
-  mark(longest(order_, edges));
+  mark(order_.longest(edges));
   for (const auto& face : tetrahedronFaceEdges)
   {
     lookAt(std::array<Index, 3>{ edges[face[0]], edges[face[1]], edges[face[2]] });
@@ -164,7 +157,7 @@ void MarkClosure::markLongest(const std::array<Index, 6>& edges)
 
 void MarkClosure::markLongest(const std::array<Index, 3>& edges)
 {
-  mark(longest(order_, edges));
+  mark(order_.longest(edges));
 }
 
 void MarkClosure::mark(Index edge)

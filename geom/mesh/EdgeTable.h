@@ -3,6 +3,7 @@
 
 #include "SimplexMesh.h"
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -67,6 +68,14 @@ public:
   bool longer(Index a, Index b) const
   {
     return lengths_[a] != lengths_[b] ? lengths_[a] > lengths_[b] : a > b;
+  }
+
+  /// The longest of some edges; there must be one.
+  template<class Edges>
+  Index longest(const Edges& edges) const
+  {
+    return *std::max_element(
+      edges.begin(), edges.end(), [&](Index a, Index b) { return longer(b, a); });
   }
 
 private:
