@@ -1,5 +1,7 @@
 #include "DataSets.h"
 
+#include "TestMeshes.h"
+
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkCellType.h>
@@ -257,6 +259,15 @@ void addGlobalIds(vtkPointSet* dataSet)
 {
   dataSet->GetPointData()->SetGlobalIds(scatteredIds("PointIds", dataSet->GetNumberOfPoints()));
   dataSet->GetCellData()->SetGlobalIds(scatteredIds("CellIds", dataSet->GetNumberOfCells()));
+}
+
+vtkSmartPointer<vtkPointSet> taggedBall()
+{
+  SimplexMesh mesh = ballMesh(2, 0.03);
+  mesh.triangles = sphereMesh(2, 0.03).triangles;
+  mesh.segments = { { mesh.triangles[0][0], mesh.triangles[0][1] } };
+  mesh.vertices = { { 3 }, { 7 } };
+  return toGrid(mesh);
 }
 
 } // namespace cadtest

@@ -49,4 +49,7 @@ double linearAt(const double point[3]);
 /// Sets global ids of points and cells, in an order that is not that of the points and cells.
 void addGlobalIds(vtkPointSet* dataSet);
 
+/// A ball of radius 2, coarse, with its boundary triangles, a line and two vertices as tags.
+vtkSmartPointer<vtkPointSet> taggedBall();
+
 } // namespace cadtest

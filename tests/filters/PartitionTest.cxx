@@ -8,7 +8,6 @@
 #include "TestMeshes.h"
 #include "TestShapes.h"
 
-#include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
 #include <vtkPointData.h>
@@ -44,15 +43,6 @@ struct Problem
   bool (*onBoundary)(const std::vector<Point3>& side);
   TopoDS_Shape (*shape)() = sphere;
 };
-
-vtkSmartPointer<vtkPointSet> taggedBall()
-{
-  SimplexMesh mesh = cadtest::ballMesh(2, 0.03);
-  mesh.triangles = cadtest::sphereMesh(2, 0.03).triangles;
-  mesh.segments = { { mesh.triangles[0][0], mesh.triangles[0][1] } };
-  mesh.vertices = { { 3 }, { 7 } };
-  return cadtest::toGrid(mesh);
-}
 
 /// Its boundary on the CAD is inside.
 vtkSmartPointer<vtkPointSet> ballInShell()
@@ -196,7 +186,7 @@ bool roundBoxWithHole(const std::vector<Point3>& side)
          onPlane(1, size[1]) || onPlane(2, size[2]);
 }
 
-const std::array<Problem, 11> problems{ { { "Ball", "", taggedBall, 0.01, onSphere },
+const std::array<Problem, 11> problems{ { { "Ball", "", cadtest::taggedBall, 0.01, onSphere },
   { "Surface", "", surface, 0.01, nowhere },
   { "Wing", CADREFINE_DATA "/naca0012_sharp.igs", wing, 1e-4, roundWing },
   { "Arcs", CADREFINE_DATA "/three_arcs.igs", arcs, 1e-3, roundArcs },
@@ -321,6 +311,22 @@ protected:
     EXPECT_EQ(fieldValues(piece), fieldValues(serial)) << "after step " << step;
   }
 
+  /// Of each step that `runSteps` makes of a mesh. Returns the steps of this rank's piece.
+  template<class RunSteps>
+  Steps expectSameAsOnOneRank(const RunSteps& runSteps)
+  {
+    const auto whole = wholeMesh();
+    const auto rankOfCell = cadtest::deal(GetParam().dealing, whole, exchange.size());
+    const auto piece = cadtest::pieceOf(whole, rankOfCell, exchange.rank(), GetParam().ghosts);
+    const Steps pieces = runSteps(piece, worldController());
+    const Steps serial = exchange.rank() == 0 ? runSteps(whole, nullptr) : Steps(pieces.size());
+    for (std::size_t step = 0; step < pieces.size(); ++step)
+    {
+      expectSame(pieces[step], serial[step], step);
+    }
+    return pieces;
+  }
+
   /// Of the mesh put together from all ranks.
   void expectSound(vtkPointSet* piece)
   {
@@ -352,15 +358,9 @@ INSTANTIATE_TEST_SUITE_P(Problems, Partition, testing::ValuesIn(cases()),
 
 TEST_P(Partition, givesTheSameMeshAsOneRank)
 {
-  const auto whole = wholeMesh();
-  const auto rankOfCell = cadtest::deal(GetParam().dealing, whole, exchange.size());
-  const auto piece = cadtest::pieceOf(whole, rankOfCell, exchange.rank(), GetParam().ghosts);
-  const Steps pieces = run(piece, worldController());
-  const Steps serial = exchange.rank() == 0 ? run(whole, nullptr) : Steps(pieces.size());
-  for (std::size_t step = 0; step < pieces.size(); ++step)
-  {
-    expectSame(pieces[step], serial[step], step);
-  }
+  const Steps pieces =
+    expectSameAsOnOneRank([&](vtkPointSet* mesh, vtkMultiProcessController* controller)
+      { return run(mesh, controller); });
   expectSound(pieces.back());
   expectFieldValuesAgree(pieces.back());
 }
@@ -408,93 +408,12 @@ INSTANTIATE_TEST_SUITE_P(Problems, QuadraticPartition, testing::ValuesIn(quadrat
 
 TEST_P(QuadraticPartition, givesTheSameMeshAsOneRank)
 {
-  const auto whole = wholeMesh();
-  const auto rankOfCell = cadtest::deal(GetParam().dealing, whole, exchange.size());
-  const auto piece = cadtest::pieceOf(whole, rankOfCell, exchange.rank(), GetParam().ghosts);
-  const Steps pieces = runToQuadratic(piece, worldController());
-  const Steps serial = exchange.rank() == 0 ? runToQuadratic(whole, nullptr) : Steps(pieces.size());
-  for (std::size_t step = 0; step < pieces.size(); ++step)
-  {
-    expectSame(pieces[step], serial[step], step);
-  }
+  const Steps pieces =
+    expectSameAsOnOneRank([&](vtkPointSet* mesh, vtkMultiProcessController* controller)
+      { return runToQuadratic(mesh, controller); });
   EXPECT_EQ(cadtest::fieldValue(pieces.back(), "InvalidCells"), 0);
   EXPECT_GT(cadtest::fieldValue(pieces.back(), "CADVertices"), 0);
   expectFieldValuesAgree(pieces.back());
-}
-
-/// Points alone, and filters that the pipeline above does not use.
-class SinglePieces : public ParallelTest
-{
-protected:
-  cadtest::TemporaryFolder folder;
-  std::string cadFile = cadtest::writeInto(folder, cadtest::sphere(2), ".step");
-
-  vtkSmartPointer<vtkPointSet> ownPieceOf(vtkPointSet* whole) const
-  {
-    return cadtest::pieceOf(whole, cadtest::deal(cadtest::Dealing::Random, whole, exchange.size()),
-      exchange.rank(), false);
-  }
-
-  /// Runs a filter on the pieces and on the whole, and compares.
-  template<class Filter, class Configure>
-  void expectSame(vtkPointSet* whole, const Configure& configure)
-  {
-    const cadtest::FilterRun filters(cadFile, worldController());
-    const auto pieces =
-      cadtest::gather(exchange, filters.run<Filter>(ownPieceOf(whole), configure));
-    if (exchange.rank() == 0)
-    {
-      RankExchange alone(nullptr);
-      const auto serial =
-        cadtest::gather(alone, cadtest::FilterRun(cadFile).run<Filter>(whole, configure));
-      EXPECT_EQ(pieces.contradictions, 0);
-      EXPECT_TRUE(pieces.points == serial.points);
-      EXPECT_TRUE(pieces.cells == serial.cells);
-      EXPECT_FALSE(serial.points.empty());
-    }
-  }
-};
-
-TEST_F(SinglePieces, projectAPointCloud)
-{
-  SimplexMesh cloud = cadtest::cubeMesh(4, 0.2, 1);
-  cloud.tetrahedra.clear();
-  for (Index v = 0; v < static_cast<Index>(cloud.points.size()); ++v)
-  {
-    cloud.vertices.push_back({ v });
-  }
-  expectSame<vtkProjectOntoCAD>(cadtest::toGrid(cloud), [](vtkProjectOntoCAD*) {});
-}
-
-TEST_F(SinglePieces, measureValidity)
-{
-  SimplexMesh mesh = cadtest::cubeMesh(3, 0.1, 1);
-  std::swap(mesh.tetrahedra[7][0], mesh.tetrahedra[7][1]);
-  expectSame<vtkMeshValidity>(cadtest::toGrid(mesh), [](vtkMeshValidity*) {});
-}
-
-/// Numbers for points and cells, also of second order, come from coordinates.
-TEST_F(SinglePieces, measureCellsOfSecondOrderWithoutIds)
-{
-  const cadtest::FilterRun filters(cadFile);
-  const auto mesh = filters.run<vtkRefineWithCAD>(
-    filters.project(taggedBall()), [](vtkRefineWithCAD* filter) { filter->QuadraticCellsOn(); });
-  mesh->GetPointData()->SetGlobalIds(nullptr);
-  mesh->GetCellData()->SetGlobalIds(nullptr);
-  expectSame<vtkMeshValidity>(mesh, [](vtkMeshValidity*) {});
-  expectSame<vtkCADGeometricError>(mesh, [](vtkCADGeometricError*) {});
-}
-
-TEST_F(SinglePieces, refineStraight)
-{
-  auto mesh = taggedBall();
-  cadtest::addArrays(mesh);
-  expectSame<vtkRefineWithCAD>(mesh,
-    [](vtkRefineWithCAD* filter)
-    {
-      filter->ProjectNewVerticesOff();
-      filter->SetLevels(4);
-    });
 }
 
 } // namespace
