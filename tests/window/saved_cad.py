@@ -33,7 +33,7 @@ def main():
     assert direct[0][0] > 0, "nothing was projected"
 
     saved = os.path.join(folder, "model.vtpc")
-    # Appended data, the default, cannot be read back where libexpat has the corrections of 2024 (see docs/filters.md).
+    # Appended data, the default, cannot be read back where libexpat has the corrections of 2024 (see docs/filters/README.md).
     simple.SaveData(saved, cad, DataMode="Binary")
     again = projected(mesh, simple.OpenDataFile(saved))
     assert again == direct, f"with the saved model {again} instead of {direct}"

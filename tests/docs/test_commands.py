@@ -1,0 +1,94 @@
+#!/usr/bin/python3
+"""Runs the commands of the documentation: the blocks ```bash and ```python of all pages.
+
+The blocks of a page run in order in a folder of the page's own, where `build`, `data`, `docs`, `plugin` and `tests` are
+those of the repository. Blocks of one language that follow each other run as one program, which has the page's line
+numbers. Blocks ```console are for people: they need a window, a cluster, or minutes.
+
+usage: test_commands.py BUILD [PAGE...]
+"""
+
+import itertools
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import time
+
+import pages
+
+sys.path.insert(0, os.path.join(pages.ROOT, "tests", "pvbatch"))
+from driver import ENVIRONMENT
+
+PROGRAMS = {"bash": ["bash", "-euo", "pipefail"], "python": ["pvpython"]}
+LINKED = ("data", "docs", "plugin", "tests")
+TIMEOUT = 240  # Seconds of one program.
+ERRORS = re.compile(r"ERR\||^ERROR|^Traceback", re.MULTILINE)
+
+
+def programs(page):
+    """Language and blocks of each program of a page."""
+    runnable = [block for block in page.blocks if block.language in PROGRAMS]
+    return [(language, list(blocks)) for language, blocks in itertools.groupby(runnable, lambda b: b.language)]
+
+
+def make_folder(folder, build):
+    os.mkdir(os.path.join(folder, "build"))
+    os.symlink(build, os.path.join(folder, "build", "release"))
+    for name in LINKED:
+        os.symlink(os.path.join(pages.ROOT, name), os.path.join(folder, name))
+
+
+def text_of(blocks):
+    """The program, each line at its number in the page."""
+    lines = []
+    for block in blocks:
+        lines += [""] * (block.first - len(lines)) + block.lines
+    return "\n".join(lines) + "\n"
+
+
+def run(page, language, blocks, folder, scripts):
+    """What went wrong, or None."""
+    script = os.path.join(scripts, page.name.replace(os.sep, "_") + {"bash": ".sh", "python": ".py"}[language])
+    with open(script, "w", encoding="utf-8") as file:
+        file.write(text_of(blocks))
+    environment = {**os.environ, **ENVIRONMENT}
+    environment.pop("CADREFINE_PLUGIN", None)  # People do not have it either.
+    try:
+        result = subprocess.run(PROGRAMS[language] + [script], cwd=folder, env=environment, stdout=subprocess.PIPE,
+                                stderr=subprocess.STDOUT, text=True, errors="replace", timeout=TIMEOUT,
+                                stdin=subprocess.DEVNULL, check=False)
+    except subprocess.TimeoutExpired as error:
+        return f"still ran after {TIMEOUT} s: {error.output}"
+    if result.returncode != 0 or ERRORS.search(result.stdout):
+        return f"ended with status {result.returncode}:\n{result.stdout}"
+    return None
+
+
+def run_page(page, build):
+    """Failures of a page: the first one ends it."""
+    with tempfile.TemporaryDirectory() as folder, tempfile.TemporaryDirectory() as scripts:
+        make_folder(folder, build)
+        for language, blocks in programs(page):
+            started = time.monotonic()
+            failure = run(page, language, blocks, folder, scripts)
+            lines = ", ".join(str(block.first) for block in blocks)
+            print(f"{page.name}: {language}, lines {lines}: {time.monotonic() - started:.1f} s", flush=True)
+            if failure:
+                return [f"{page.name}, {language}, lines {lines}: {failure}"]
+    return []
+
+
+def main():
+    build = os.path.abspath(sys.argv[1])
+    wanted = {os.path.abspath(path) for path in sys.argv[2:]}
+    chosen = [page for page in pages.all_pages() if programs(page) and (not wanted or page.path in wanted)]
+    failures = [failure for page in chosen for failure in run_page(page, build)]
+    print(*failures, sep="\n")
+    if failures or not chosen:
+        sys.exit(f"{len(failures)} of {len(chosen)} pages failed")
+
+
+if __name__ == "__main__":
+    main()

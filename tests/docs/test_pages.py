@@ -1,0 +1,89 @@
+#!/usr/bin/python3
+"""Links lead somewhere, pictures exist, are small and are used, lines are not longer than 120 columns, code is fenced."""
+
+import os
+import unittest
+
+import pages
+
+PAGES = pages.all_pages()
+ANCHORS = {page.path: page.anchors() for page in PAGES}
+LANGUAGES = {"bash", "python", "console", "text", "json", "xml", "cmake", "cpp", "c", "yaml", "make"}
+PICTURES = (".png", ".svg", ".jpg", ".gif")
+LARGEST_PICTURE = 80_000  # Bytes.
+WIDTH = 120
+
+
+def pictures_of_the_repository():
+    for folder, _, names in os.walk(pages.DOCS):
+        yield from (os.path.join(folder, name) for name in names if name.endswith(PICTURES))
+
+
+class Pages(unittest.TestCase):
+    def every(self, found):
+        self.assertEqual(list(found), [])
+
+    def targets(self):
+        """Page, line, whether it is a picture, file and anchor of each link inside the repository."""
+        for page in PAGES:
+            for line, picture, target in page.links():
+                if "://" in target or target.startswith("mailto:"):
+                    continue
+                path, _, anchor = target.partition("#")
+                file = os.path.normpath(os.path.join(os.path.dirname(page.path), path)) if path else page.path
+                yield f"{page.name}:{line}", picture, file, anchor
+
+    def test_links_lead_somewhere(self):
+        self.assertGreater(sum(1 for _ in self.targets()), 50)
+        self.every(f"{where}: there is no {os.path.relpath(file, pages.ROOT)}"
+                   for where, _, file, _ in self.targets() if not os.path.exists(file))
+
+    def test_anchors_are_headings(self):
+        self.every(f"{where}: {os.path.relpath(file, pages.ROOT)} has no heading {anchor}"
+                   for where, _, file, anchor in self.targets()
+                   if anchor and file in ANCHORS and anchor not in ANCHORS[file])
+
+    def test_pictures_are_used(self):
+        used = {file for _, picture, file, _ in self.targets() if picture}
+        found = set(pictures_of_the_repository())
+        self.assertTrue(found)
+        self.every(sorted(os.path.relpath(path, pages.ROOT) for path in found - used))
+
+    def test_pictures_are_small(self):
+        sizes = {path: os.path.getsize(path) for path in pictures_of_the_repository()}
+        self.every(f"{os.path.relpath(path, pages.ROOT)}: {size} bytes" for path, size in sorted(sizes.items())
+                   if size > LARGEST_PICTURE)
+
+    def test_every_page_is_reached_from_the_list(self):
+        """By links from docs/README.md."""
+        reached, new = set(), {os.path.join(pages.DOCS, "README.md")}
+        links = {page.path: set() for page in PAGES}
+        for where, _, file, _ in self.targets():
+            links[os.path.join(pages.ROOT, where.rpartition(":")[0])].add(file)
+        while new:
+            reached |= new
+            new = {file for path in new for file in links.get(path, ())} - reached
+        self.every(page.name for page in PAGES if page.path.startswith(pages.DOCS) and page.path not in reached)
+
+    def test_code_is_fenced(self):
+        for page in PAGES:
+            previous, in_list = "", False
+            for number, line in page.prose:
+                if line and not line.startswith(" "):
+                    in_list = line.startswith(("* ", "- ")) or line[0].isdigit()
+                if line.startswith("    ") and not previous.strip() and not in_list:
+                    self.fail(f"{page.name}:{number}: indented code; put it into a fence")
+                previous = line
+
+    def test_languages_are_known(self):
+        self.every(f"{page.name}:{block.first}: {block.language or 'no language'}" for page in PAGES
+                   for block in page.blocks if block.language not in LANGUAGES)
+
+    def test_lines_are_short(self):
+        self.every(f"{page.name}:{number}: {len(line)} columns" for page in PAGES
+                   for number, line in enumerate(page.lines, 1)
+                   if len(line) > WIDTH and not line.startswith("|") and "://" not in line)
+
+
+if __name__ == "__main__":
+    unittest.main()
