@@ -64,6 +64,17 @@ format-check: packages ## Fail where make format would change something
 tidy: build ## Run clang-tidy on the sources
 	@run-clang-tidy -quiet -j $(JOBS) -p build/release '/(filters|geom)/.*\.cxx$$'
 
+.PHONY: pictures
+pictures: build ## Make the pictures of the documentation anew (docs/images)
+	@xvfb-run --auto-servernum pvpython docs/pictures.py
+	@/usr/bin/python3 -B docs/window_pictures.py
+	@dot -Tsvg docs/images/architecture.dot -o docs/images/architecture.svg
+
+.PHONY: doxygen
+doxygen: packages ## Make the reference of the C++ code: build/doxygen/html/index.html
+	@mkdir -p build/doxygen
+	@CADREFINE_DOXYGEN=build/doxygen doxygen docs/Doxyfile
+
 .PHONY: clean
 clean: ## Remove everything that was built
 	@rm -rf build

@@ -15,6 +15,7 @@ namespace cadrefine
 /// largest value (see FixedPointSum), and are then rounded to double, so that values which together
 /// are below 2^-53 of the sum are left out even for the fraction 1.
 ///
+/// @param exchange the ranks.
 /// @param values finite, not negative.
 /// @param ids one a value, 0 or more, none twice on any ranks.
 /// @param fraction in (0, 1].

@@ -18,6 +18,8 @@ using SharedFacets = SharedItems;
 /// Finds the simplices, given by N local vertices each (edges: 2, facets: 3), that other ranks hold
 /// too. Collective.
 ///
+/// @param exchange the ranks.
+/// @param vertices the local vertices that several ranks hold.
 /// @param ids the global id of each local vertex.
 /// @param simplices each simplex once, its vertices in any order. A simplex that is in several
 ///   ranks' lists is shared by these ranks; the others' lists need not have it, though they may

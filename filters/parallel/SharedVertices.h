@@ -13,6 +13,7 @@ using SharedVertices = SharedItems;
 
 /// Finds the ranks that hold the same vertices as this one. Collective.
 ///
+/// @param exchange the ranks.
 /// @param ids the global id of each local vertex; a vertex has the same id wherever it is held, and
 ///   no two vertices of a rank have the same.
 /// @param candidates the local vertices that other ranks may hold (all, or those on the surface of

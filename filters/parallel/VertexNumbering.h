@@ -26,8 +26,10 @@ struct VertexKey
 /// back; otherwise each vertex with keys takes part in a parallel sort, which is one for some seven
 /// edges or six tetrahedra. Collective.
 ///
+/// @param exchange the ranks.
 /// @param vertices all vertices that several ranks hold; a vertex has keys on its holders only.
 /// @param ids of the local vertices.
+/// @param keys of this rank.
 template<std::size_t K>
 Numbering numberAtVertices(RankExchange& exchange, const SharedVertices& vertices,
   const std::vector<GlobalId>& ids, const std::vector<VertexKey<K>>& keys);

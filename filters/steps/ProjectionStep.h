@@ -10,7 +10,7 @@ class vtkPointSet;
 namespace cadrefine
 {
 
-/// @param region xmin xmax ymin ymax zmin zmax, or null: everywhere. Throws Error if it is empty.
+/// `region`: xmin xmax ymin ymax zmin zmax, or null: everywhere. Throws Error if it is empty.
 ProjectionOptions makeProjectionOptions(const double* region, double maximumDistance);
 
 /// The mesh with its boundary on the CAD (see projectBoundary; points alone: projectPoints), its
