@@ -236,8 +236,28 @@ def quadratic_ball():
         save("quadratic_ball", *images)
 
 
+def tutorial_meshes():
+    """The rod as the tutorial meshes it (its first block), projected and after six steps."""
+    sys.path.insert(0, os.path.join(ROOT, "tests", "docs"))
+    import pages
+
+    block = next(b for b in pages.Page(os.path.join(ROOT, "docs", "tutorial.md")).blocks if b.language == "bash")
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run(["bash", "-e", "-c", "\n".join(block.lines)], cwd=folder, check=True)
+        mesh, cad, images, top = OpenDataFile(os.path.join(folder, "rod.vtk")), CADReader(FileName=ROD), [], None
+        for steps in (0, 6):
+            adapted = AdapttoCAD(Input=mesh, CAD=cad, ErrorMarking="Bulk", MaximumSteps=steps)
+            top = top or largest(adapted)
+            scene = Scene((470, 360), (0.5, -0.6, 0.75))
+            shown = scene.show(ExtractSurface(Input=adapted), "Surface With Edges")
+            scene.color(shown, "CELLS", "GeometricError", heat=(top * 10.0**-DECADES, top), logarithmic=True,
+                        bar=not images)
+            images.append(scene.image(1.3))
+        save("tutorial_meshes", *images)
+
+
 PICTURES = (cad_reader, project_onto_cad, cad_geometric_error, refine_with_cad, adapt_to_cad, mesh_validity,
-            quadratic_ball)
+            quadratic_ball, tutorial_meshes)
 
 
 def main():
