@@ -45,6 +45,8 @@ cadrefine::StepResult vtkMeshValidity::Execute(
   }
   output->GetCellData()->AddArray(validity);
   output->GetCellData()->AddArray(quality);
+  const bool isValid = qualities.summary.invalidCells == 0; // over all ranks
+  output->GetCellData()->SetActiveScalars(isValid ? "CellQuality" : "CellValidity");
   summariseMesh(exchange, mesh, qualities.summary, output);
   return result;
 }

@@ -91,7 +91,7 @@ public:
     (dimension == 0)   ? result->SetVerts(cells_)
     : (dimension == 1) ? result->SetLines(cells_)
                        : result->SetPolys(cells_);
-    result->GetCellData()->AddArray(entities_);
+    result->GetCellData()->SetScalars(entities_);
     addLooks(dimension, *result->GetCellData());
     if (model_.count(2) > 0)
     {

@@ -39,6 +39,7 @@ void addErrors(vtkPointSet* output, const MeshError& error)
   add(arrays::errorDistance, [](const CellError& cell) { return cell.largest.distance; });
   add(arrays::chordError, [](const CellError& cell) { return cell.largest.chord; });
   add(arrays::normalAngle, [](const CellError& cell) { return cell.largest.angle; });
+  output->GetCellData()->SetActiveScalars(arrays::error);
   setFieldValue(output, "GlobalGeometricError", error.global);
   setFieldValue(output, "GeometricErrorDimension", std::int64_t(error.dimension));
   setFieldValue(output, "MaximumGeometricDistance", error.largest.distance);

@@ -67,6 +67,11 @@ void joinOutput(
   output->GetPointData()->PassData(result.mesh->GetPointData());
   output->GetCellData()->PassData(result.mesh->GetCellData());
   output->GetFieldData()->PassData(result.mesh->GetFieldData());
+  if (result.mesh->GetCellData()->GetScalars())
+  {
+    // ParaView colours by the active scalars, those of points first.
+    output->GetPointData()->SetActiveScalars(nullptr);
+  }
 }
 
 } // namespace cadrefine

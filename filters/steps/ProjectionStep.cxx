@@ -5,6 +5,7 @@
 #include "InitialProjection.h"
 #include "MeshSummary.h"
 
+#include <vtkPointData.h>
 #include <vtkPointSet.h>
 
 #include <algorithm>
@@ -67,6 +68,7 @@ StepResult projectMesh(const StepContext& context, vtkPointSet* input, Projectio
   copyArrays(input, mesh.converted, output);
   writeClassification(output, result.classification);
   writeConflicts(output, result.conflicts);
+  output->GetPointData()->SetActiveScalars(arrays::entity);
   summariseMesh(exchange, mesh, summariseQuality(exchange, mesh), output);
   summariseProjection(exchange, mesh, result.classification, result.projectedPoints, output);
   summariseConflicts(exchange, mesh, result.conflicts, output);

@@ -113,10 +113,9 @@ def play_all(window, data):
     use(window, "ProjectOntoCAD",
         *panel(("UseRegion/CheckBox", "checked", "false"), ("MaximumDistance/DoubleLineEdit0", "text", "0")),
         event(PANEL + "UseRegion/CheckBox", "set_boolean", "true"),
-        event(PANEL + "Region/DoubleLineEdit1", "set_string", "6.5"),
-        event(PANEL + "Region/DoubleLineEdit5", "set_string", "4.25"),
-        *panel(("Region", "visible", "true"), ("Region/DoubleLineEdit1", "text", "6.5"),
-               ("Region/DoubleLineEdit5", "text", "4.25")))
+        event(PANEL + "CADRegion/Bound1", "set_string", "6.5"),
+        event(PANEL + "CADRegion/Bound5", "set_string", "4.25"),
+        *panel(("CADRegion", "visible", "true"), ("CADRegion/Bound1", "text", "6.5"), ("CADRegion/Bound5", "text", "4.25")))
     use(window, "CADGeometricError",
         *panel(("RecursionDepth/IntRangeWidget/LineEdit", "text", "1")),
         event(PANEL + "RecursionDepth/IntRangeWidget/LineEdit", "set_string", "2"))

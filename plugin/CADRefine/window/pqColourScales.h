@@ -1,0 +1,38 @@
+#ifndef pqColourScales_h
+#define pqColourScales_h
+
+#include <QObject>
+#include <QSet>
+
+#include <vtkType.h>
+
+class pqPipelineSource;
+class pqRepresentation;
+class vtkSMProxy;
+
+/// Colours errors and distances on a logarithmic scale of four decades that ends at their largest
+/// value, when an array is coloured by for the first time, and keeps the scale to
+/// the data while the user leaves it like that. ParaView's own logarithmic scale warns at each
+/// rescaling where some values are 0, as those of all cells away from the CAD are.
+///
+/// Hides the legend of CAD entities, which would have a line for each of them. What a state file or
+/// the user's saved defaults say is kept.
+class pqColourScales : public QObject
+{
+  Q_OBJECT
+
+public:
+  explicit pqColourScales(QObject* parent = nullptr);
+
+  void startup();
+  void shutdown();
+
+private:
+  void onAdded(pqRepresentation* added);
+  void onDataUpdated();
+  void colour(pqRepresentation* representation);
+
+  QSet<vtkTypeUInt32> seen_; ///< Look-up tables that have their scale.
+};
+
+#endif
