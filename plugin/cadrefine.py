@@ -57,7 +57,7 @@ def run(options, started):
     report.add_step("input" if options.projected else "projection", pipeline)
     largest = pictures.largest_error(pipeline.mesh)  # Both pictures have the same colours.
     if options.screenshot_start:
-        pictures.screenshot(pipeline.mesh, options.screenshot_start, options.focus, largest)
+        pictures.screenshot(pipeline.mesh, options.screenshot_start, options, largest)
 
     for method in planned_methods(options):
         report.stopped = reason_to_stop(options, method, report.steps[-1], pipeline)
@@ -77,7 +77,7 @@ def run(options, started):
     if options.output:
         pipeline.write(options.output)
     if options.screenshot:
-        pictures.screenshot(pipeline.mesh, options.screenshot, options.focus, largest)
+        pictures.screenshot(pipeline.mesh, options.screenshot, options, largest)
     report.write()
     return report
 

@@ -75,6 +75,9 @@ def option_parser(description):
     results.add_argument("--screenshot-start", metavar="FILE.png", help="the same of the projected mesh")
     results.add_argument("--focus", type=number, nargs=6, metavar=("X0", "X1", "Y0", "Y1", "Z0", "Z1"),
                          help="box that the pictures show (default: all that lies on the CAD)")
+    results.add_argument("--view", type=number, nargs=3, metavar=("X", "Y", "Z"),
+                         help="direction from the mesh to the eye in the pictures; z is up (default -0.6 -0.64 0.48, in "
+                         "the plane 0 0 1)")
     results.add_argument("--quiet", action="store_true", help="print nothing but errors")
     return parser
 
@@ -134,6 +137,8 @@ def check(options):
         raise Failure("--region is for projecting, which --projected leaves out")
     check_box("--region", options.region)
     check_box("--focus", options.focus)
+    if options.view and not any(options.view):
+        raise Failure("--view: 0 0 0 is no direction")
     for path in (options.mesh, options.cad, options.compare_report):
         if path:
             session.check_readable(path)
