@@ -31,6 +31,21 @@ void split(const std::vector<std::string>& names, vtkDataSetAttributes* geometry
   }
 }
 
+/// Adds the arrays, as scalars, vectors, ... if they were these. (PassData would remove the
+/// scalars, vectors, ... that `target` has.)
+void addArrays(vtkDataSetAttributes* source, vtkDataSetAttributes* target)
+{
+  for (int a = 0; a < source->GetNumberOfArrays(); ++a)
+  {
+    const int added = target->AddArray(source->GetAbstractArray(a));
+    const int attribute = source->IsArrayAnAttribute(a);
+    if (attribute >= 0)
+    {
+      target->SetActiveAttribute(added, attribute);
+    }
+  }
+}
+
 std::vector<std::string> withGhosts(std::vector<std::string> names)
 {
   names.emplace_back(vtkDataSetAttributes::GhostArrayName());
@@ -61,11 +76,11 @@ void joinOutput(
 {
   const MeshArrays fields = result.route.follow(exchange, parts.fields);
   output->CopyStructure(result.mesh);
-  output->GetPointData()->PassData(fields.ofVertices);
-  output->GetCellData()->PassData(fields.ofCells);
+  addArrays(fields.ofVertices, output->GetPointData());
+  addArrays(fields.ofCells, output->GetCellData());
   output->GetFieldData()->PassData(fields.ofMesh);
-  output->GetPointData()->PassData(result.mesh->GetPointData());
-  output->GetCellData()->PassData(result.mesh->GetCellData());
+  addArrays(result.mesh->GetPointData(), output->GetPointData());
+  addArrays(result.mesh->GetCellData(), output->GetCellData());
   output->GetFieldData()->PassData(result.mesh->GetFieldData());
   if (result.mesh->GetCellData()->GetScalars())
   {

@@ -92,6 +92,18 @@ TEST_F(TaggedBall, givesChildrenTheArraysOfTheirParents)
 }
 
 /// Tag triangles must lie where the boundary of the tetrahedra lies, after refinement too.
+// The readers of legacy files and of .vtu files that name them make arrays the scalars.
+TEST_F(TaggedBall, keepsArraysThatAreTheScalars)
+{
+  coarse->GetPointData()->SetActiveScalars("Linear");
+  coarse->GetCellData()->SetActiveScalars("Tag");
+  const auto data = filters.refineUniformly(filters.project(coarse), 1);
+  ASSERT_NE(data->GetPointData()->GetScalars(), nullptr);
+  EXPECT_STREQ(data->GetPointData()->GetScalars()->GetName(), "Linear");
+  ASSERT_NE(data->GetCellData()->GetScalars(), nullptr);
+  EXPECT_STREQ(data->GetCellData()->GetScalars()->GetName(), "Tag");
+}
+
 TEST_F(TaggedBall, keepsTagTrianglesOnTheBoundary)
 {
   auto data = filters.measure(filters.project(coarse), 1);
