@@ -24,8 +24,8 @@ from cadrefine_pipeline import field_values, gathered, local_output
 from cadrefine_session import Failure
 
 SIZE = (1400, 900)
-ASPECT = SIZE[0] / SIZE[1]
-BAR_SHARE = 0.17  # Of the picture's width, on the left, for the colour bar.
+BAR_SHARE = 0.16  # Of the picture's width, on the left, for the colour bar.
+ASPECT = SIZE[0] * (1 - BAR_SHARE) / SIZE[1]  # Of what is beside it.
 MARGIN = 0.04  # Around what is shown, in parts of its size.
 EDGE_COLOUR, EDGE_WIDTH = (0.15, 0.15, 0.15), 1.5
 DECADES = 6  # Of the colour scale, downwards from the largest error.
@@ -107,13 +107,18 @@ def draw(shown, largest, path, options):
     quadratic = quadratic_triangles(shown)
     renderer.AddActor(surface_actor(shown, colours, edges=not len(quadratic)))
     renderer.AddActor(curved_edges(shown, quadratic))
-    renderer.AddActor2D(colour_bar(colours))
+    renderer.SetViewport(BAR_SHARE, 0.0, 1.0, 1.0)
     look_at(renderer, shown, options.focus, options.view)
+    legend = vtkRenderer()
+    legend.SetBackground(1.0, 1.0, 1.0)
+    legend.SetViewport(0.0, 0.0, BAR_SHARE, 1.0)
+    legend.AddActor2D(colour_bar(colours))
     window = vtkRenderWindow()
     window.SetOffScreenRendering(1)
     window.SetMultiSamples(8)
     window.SetSize(*SIZE)
     window.AddRenderer(renderer)
+    window.AddRenderer(legend)
     window.Render()
     picture = vtkWindowToImageFilter()
     picture.SetInput(window)
@@ -209,22 +214,20 @@ def colour_bar(colours):
         text.ItalicOff()
         text.BoldOff()
         text.ShadowOff()
-    bar.SetDrawBackground(True)  # White, where the picture reaches below it.
-    bar.GetBackgroundProperty().SetColor(1.0, 1.0, 1.0)
-    bar.SetPosition(0.02, 0.04)
-    bar.SetWidth(0.16)
+    bar.SetPosition(0.1, 0.04)
+    bar.SetWidth(0.88)
     bar.SetHeight(0.5)
     return bar
 
 
 def look_at(renderer, shown, focus, view):
-    """Shows the box `focus`, or all of `shown`, beside the colour bar, as large as it fits."""
+    """Shows the box `focus`, or all of `shown`, as large as it fits."""
     direction, right, up = camera_axes(view or default_view(shown.GetBounds()))
     points = box_corners(focus) if focus else vtk_to_numpy(shown.GetPoints().GetData())
     across, upwards = points @ right, points @ up
-    height = max(np.ptp(upwards), np.ptp(across) / (ASPECT * (1 - BAR_SHARE)), 1e-300) * (1 + MARGIN)
-    centre = (across.min() + np.ptp(across) / 2 - BAR_SHARE / 2 * ASPECT * height) * right
-    centre += (upwards.min() + np.ptp(upwards) / 2) * up + (points @ direction).mean() * direction
+    height = max(np.ptp(upwards), np.ptp(across) / ASPECT, 1e-300) * (1 + MARGIN)
+    centre = (across.min() + np.ptp(across) / 2) * right + (upwards.min() + np.ptp(upwards) / 2) * up
+    centre += (points @ direction).mean() * direction
     camera = renderer.GetActiveCamera()
     camera.ParallelProjectionOn()
     camera.SetFocalPoint(*centre)

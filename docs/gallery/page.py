@@ -1,0 +1,80 @@
+"""What docs/gallery.md says, case by case, and how pictures and figures get there."""
+
+import os
+import re
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+PAGE = os.path.join(ROOT, "docs", "gallery.md")
+IMAGES = os.path.join(ROOT, "docs", "images")
+PICTURE_SIZE = (700, 450)
+COLOURS = 64  # Of a picture in the page.
+
+SECTION = re.compile(r"^## (?P<name>\w+): (?P<title>.*)\n(?P<text>(?:(?!^## ).*\n)*)", re.MULTILINE)
+BLOCK = re.compile(r"^```console\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+TABLE = re.compile(r"^\| step \|.*\n(?:\|.*\n)*", re.MULTILINE)
+
+COLUMNS = (  # Heading, key of the step, format.
+    ("step", "step", "d"),
+    ("vertices", "vertices", ",d"),
+    ("cells", "cells", ",d"),
+    ("error", "global_error", ".2e"),
+    ("largest distance", "maximum_distance", ".1e"),
+    ("off the CAD", "unprojected_vertices", "d"),
+    ("invalid cells", "invalid_cells", "d"),
+    ("least quality", "minimum_quality", ".2f"),
+    ("seconds", "elapsed", ".1f"),
+)
+
+
+class Case:
+    def __init__(self, section):
+        self.name = section["name"]
+        self.title = section["title"]
+        lines = BLOCK.search(section["text"])[1].replace("\\\n", " ").splitlines()
+        self.commands = [" ".join(line.split()) for line in lines]
+
+
+def read():
+    with open(PAGE, encoding="utf-8") as file:
+        return file.read()
+
+
+def cases():
+    """The cases by name, in the page's order."""
+    return {section["name"]: Case(section) for section in SECTION.finditer(read())}
+
+
+def publish(run, report):
+    """Puts the pictures of a run beside the page, and its figures into it."""
+    for name in sorted(os.listdir(run.path(""))):
+        if name.endswith(".png"):
+            shrink(run.path(name), os.path.join(IMAGES, f"gallery_{run.case.name}_{name}"))
+
+    def with_figures(section):
+        if section["name"] != run.case.name:
+            return section[0]
+        return TABLE.sub(lambda _: table(report), section[0], count=1)
+
+    text = SECTION.sub(with_figures, read())
+    with open(PAGE, "w", encoding="utf-8") as file:
+        file.write(text)
+
+
+def shrink(picture, path):
+    """A smaller picture of few colours."""
+    from PIL import Image
+
+    with Image.open(picture) as image:
+        small = image.convert("RGB").resize(PICTURE_SIZE, Image.Resampling.LANCZOS)
+        small.quantize(COLOURS, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE).save(path, optimize=True)
+
+
+def table(report):
+    """First and last step."""
+    elapsed = report["seconds"]["read_cad"] + report["seconds"]["read_mesh"]
+    for step in report["steps"]:
+        elapsed += sum(step["seconds"].values())
+        step["elapsed"] = elapsed
+    headings = [heading if heading != "error" else f"error ({report['error_measure']})" for heading, _, _ in COLUMNS]
+    rows = [[format(step[key], style) for _, key, style in COLUMNS] for step in (report["steps"][0], report["steps"][-1])]
+    return "".join(f"| {' | '.join(row)} |\n" for row in [headings, ["---"] * len(COLUMNS), *rows])
