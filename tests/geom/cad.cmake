@@ -1,9 +1,3 @@
-if (OpenCASCADE_VERSION VERSION_GREATER_EQUAL 7.8)
-  set(data_exchange TKDEIGES TKDESTEP)
-else ()
-  set(data_exchange TKIGES TKSTEP)
-endif ()
-
 cadrefine_geom_test(cad_tests
   SOURCES
     cad/AeroplaneTest.cxx
@@ -27,5 +21,5 @@ cadrefine_geom_test(cad_tests
     cad/TestFiles.cxx
     cad/UnitsTest.cxx
     cad/UnreadTest.cxx
-  LINKS CADRefineCad ${data_exchange} TKXSBase TKPrim TKBO TKTopAlgo TKBRep)
+  LINKS CADRefineCad ${CADREFINE_IGES} ${CADREFINE_STEP} TKXSBase TKPrim TKBO TKTopAlgo TKBRep)
 target_include_directories(cad_tests SYSTEM PRIVATE ${OpenCASCADE_INCLUDE_DIR})

@@ -1,9 +1,3 @@
-if (OpenCASCADE_VERSION VERSION_GREATER_EQUAL 7.8)
-  set(data_exchange TKDEIGES TKDESTEP)
-else ()
-  set(data_exchange TKIGES TKSTEP)
-endif ()
-
 cadrefine_geom_test(exact_tests
   SOURCES
     exact/BoundingBlocks.cxx
@@ -13,6 +7,6 @@ cadrefine_geom_test(exact_tests
     exact/WholeModelTest.cxx
     cad/TestFiles.cxx
     ../support/TestShapes.cxx
-  LINKS CADRefineCad ${data_exchange} TKXSBase TKPrim TKBO TKTopAlgo TKBRep TKGeomBase TKShHealing)
+  LINKS CADRefineCad ${CADREFINE_IGES} ${CADREFINE_STEP} TKXSBase TKPrim TKBO TKTopAlgo TKBRep TKGeomBase TKShHealing)
 target_include_directories(exact_tests PRIVATE cad nurbs ../support)
 target_include_directories(exact_tests SYSTEM PRIVATE ${OpenCASCADE_INCLUDE_DIR})

@@ -1,0 +1,7 @@
+"""CADRefine's VTK classes: vtkCADReader, vtkProjectOntoCAD, vtkCADGeometricError, vtkRefineWithCAD, vtkAdaptToCAD,
+vtkMeshValidity.
+
+They work on ParaView's VTK: run in pvpython or pvbatch, or in a Python that finds ParaView's vtkmodules.
+"""
+
+from .CADRefineFilters import *
