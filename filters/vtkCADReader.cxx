@@ -177,6 +177,26 @@ void vtkCADReader::Warn(const cadrefine::CADReport& report)
   }
 }
 
+void vtkCADReader::Read(cadrefine::RankExchange& exchange, vtkPartitionedDataSetCollection* output)
+{
+  const auto model = this->ReadModel(exchange, output);
+  if (exchange.rank() == 0)
+  {
+    this->Warn(model->report());
+  }
+  AddReport(output, model->report());
+  for (unsigned int part = 0; part < 3; ++part)
+  {
+    const int dimension = PartDimensions[part];
+    const cadrefine::DrawingShare share{ exchange.rank(), exchange.size(),
+      this->TessellationTolerance };
+    vtkNew<vtkPartitionedDataSet> partitions;
+    partitions->SetPartition(0, cadrefine::draw(*model, dimension, share));
+    output->SetPartitionedDataSet(part, partitions);
+    output->GetMetaData(part)->Set(vtkCompositeDataSet::NAME(), PartNames[dimension]);
+  }
+}
+
 int vtkCADReader::RequestData(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
 {
@@ -184,23 +204,7 @@ int vtkCADReader::RequestData(
   try
   {
     cadrefine::RankExchange exchange(this->Controller);
-    const auto model = this->ReadModel(exchange, output);
-    if (exchange.rank() == 0)
-    {
-      this->Warn(model->report());
-    }
-    AddReport(output, model->report());
-    for (unsigned int part = 0; part < 3; ++part)
-    {
-      const int dimension = PartDimensions[part];
-      const cadrefine::DrawingShare share{ exchange.rank(), exchange.size(),
-        this->TessellationTolerance };
-      vtkNew<vtkPartitionedDataSet> partitions;
-      cadrefine::attempt(
-        exchange, [&] { partitions->SetPartition(0, cadrefine::draw(*model, dimension, share)); });
-      output->SetPartitionedDataSet(part, partitions);
-      output->GetMetaData(part)->Set(vtkCompositeDataSet::NAME(), PartNames[dimension]);
-    }
+    cadrefine::runTogether(exchange, [&] { this->Read(exchange, output); });
     return 1;
   }
   catch (const std::exception& error)
@@ -208,7 +212,7 @@ int vtkCADReader::RequestData(
     output->Initialize();
     if (!this->Controller || this->Controller->GetLocalProcessId() == 0)
     {
-      vtkErrorMacro(<< error.what());
+      vtkErrorMacro(<< cadrefine::reasonOf(error));
     }
     return 0;
   }

@@ -73,6 +73,7 @@ private:
   vtkCADReader(const vtkCADReader&) = delete;
   void operator=(const vtkCADReader&) = delete;
 
+  void Read(cadrefine::RankExchange& exchange, vtkPartitionedDataSetCollection* output);
   std::shared_ptr<const cadrefine::CADModel> ReadModel(
     cadrefine::RankExchange& exchange, vtkPartitionedDataSetCollection* output);
   void Warn(const cadrefine::CADReport& report);

@@ -94,9 +94,13 @@ int vtkSimplexMeshAlgorithm::RequestData(
   try
   {
     cadrefine::RankExchange exchange(this->Controller);
-    this->Run(exchange, inputs, outputs);
-    this->Statistics->gather(exchange);
-    this->StatisticsText = this->Statistics->json();
+    cadrefine::runTogether(exchange,
+      [&]
+      {
+        this->Run(exchange, inputs, outputs);
+        this->Statistics->gather(exchange);
+        this->StatisticsText = this->Statistics->json();
+      });
     return 1;
   }
   catch (const std::exception& error)
@@ -107,7 +111,7 @@ int vtkSimplexMeshAlgorithm::RequestData(
     }
     if (!this->Controller || this->Controller->GetLocalProcessId() == 0)
     {
-      vtkErrorMacro(<< error.what());
+      vtkErrorMacro(<< cadrefine::reasonOf(error));
     }
     return 0;
   }

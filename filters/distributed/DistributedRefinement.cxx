@@ -41,10 +41,11 @@ std::vector<GlobalId> firstIdsOfChildren(RankExchange& exchange,
   {
     return denseOffsets(exchange, parents, weights).numbers;
   }
-  catch (const Error&) // on all ranks
+  catch (const AgreedError&)
   {
-    throw Error("the mesh lists a cell twice: two cells have the same vertices, or the same global "
-                "id (the filter Clean Cells to Grid merges cells)");
+    throw AgreedError(
+      "the mesh lists a cell twice: two cells have the same vertices, or the same global "
+      "id (the filter Clean Cells to Grid merges cells)");
   }
 }
 

@@ -9,7 +9,10 @@
 namespace cadrefine
 {
 
-/// Runs `work`, which must not communicate, and throws an Error with the first failing rank's
+/// For the user; never empty.
+std::string reasonOf(const std::exception& error);
+
+/// Runs `work`, which must not communicate, and throws an AgreedError with the first failing rank's
 /// reason on all ranks where it threw on any. Collective; one reduction.
 template<class Work>
 void attempt(RankExchange& exchange, const Work& work)
@@ -21,10 +24,33 @@ void attempt(RankExchange& exchange, const Work& work)
   }
   catch (const std::exception& error)
   {
-    reason = error.what();
-    reason = reason.empty() ? "unknown failure" : reason;
+    reason = reasonOf(error);
   }
   exchange.agree(reason);
+}
+
+/// Runs `work`, which may communicate, and throws on all ranks where it throws on any, at any
+/// place: the others throw where they wait next, at the end of `work` at the latest. An Error on
+/// all ranks. `exchange` is of no use afterwards, unless the Error was an AgreedError. Collective;
+/// one reduction, or one message to each rank from one that fails.
+template<class Work>
+void runTogether(RankExchange& exchange, const Work& work)
+{
+  try
+  {
+    work();
+    exchange.agree("");
+  }
+  catch (const AgreedError&)
+  {
+    throw;
+  }
+  catch (const std::exception& error)
+  {
+    const std::string reason = reasonOf(error);
+    exchange.fail(reason);
+    throw Error(reason);
+  }
 }
 
 } // namespace cadrefine

@@ -4,14 +4,14 @@
 #include "FixedPointSum.h"
 #include "RankExchangeLink.h"
 
+#include <vtkDIYUtilities.h>
 #include <vtkMultiProcessController.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <functional>
 #include <limits>
-#include <numeric>
+#include <utility>
 
 namespace cadrefine
 {
@@ -19,8 +19,17 @@ namespace cadrefine
 namespace
 {
 
-constexpr int messageTag = 0x0CAD;
 constexpr std::size_t headerSize = sizeof(std::int64_t);
+
+MPI_Datatype typeOf(const std::vector<std::int64_t>&)
+{
+  return MPI_INT64_T;
+}
+
+MPI_Datatype typeOf(const std::vector<double>&)
+{
+  return MPI_DOUBLE;
+}
 
 std::int64_t announcedBytes(const std::vector<char>& message)
 {
@@ -98,24 +107,52 @@ RankExchange::RankExchange(vtkMultiProcessController* controller, std::size_t me
     throw Error("RankExchange: the message limit must be from 16 bytes to below 2^31.");
   if (!controller || controller->GetNumberOfProcesses() <= 1)
     return;
-  link_ = std::make_unique<Link>(Link{ vtkDIYUtilities::GetCommunicator(controller) });
-  if (static_cast<MPI_Comm>(link_->ranks) == MPI_COMM_NULL)
+  const auto parent = static_cast<MPI_Comm>(vtkDIYUtilities::GetCommunicator(controller));
+  if (parent == MPI_COMM_NULL)
     throw Error("The processes of this controller cannot talk to each other: it has no MPI.");
-  rank_ = link_->ranks.rank();
-  size_ = link_->ranks.size();
+  link_ = Link::make(parent);
+  MPI_Comm_rank(link_->ranks, &rank_);
+  MPI_Comm_size(link_->ranks, &size_);
 }
 
-RankExchange::~RankExchange() = default;
+// A link that has failed may have messages under way that nobody will take: it stays.
+RankExchange::~RankExchange()
+{
+  if (link_ && link_->hasFailed())
+    static_cast<void>(link_.release());
+}
 
-template<class T, class Operation>
-std::vector<T> RankExchange::reduce(const std::vector<T>& mine, const Operation& operation)
+template<class T>
+std::vector<T> RankExchange::reduce(const std::vector<T>& mine, Reduction reduction)
 {
   if (!link_)
     return mine;
   const Clock clock(seconds_);
-  std::vector<T> result;
-  diy::mpi::all_reduce(link_->ranks, mine, result, operation);
-  return result;
+  const MPI_Op operation = reduction == Reduction::Sum       ? MPI_SUM
+                           : reduction == Reduction::Minimum ? MPI_MIN
+                                                             : MPI_MAX;
+  Traffic traffic;
+  std::vector<T>& values = traffic.keep(mine);
+  MPI_Iallreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), typeOf(values),
+    operation, link_->ranks, traffic.addRequest());
+  link_->finish(traffic);
+  return std::move(values);
+}
+
+template<class T>
+std::vector<T> RankExchange::gatherAll(const std::vector<T>& mine)
+{
+  if (!link_)
+    return mine;
+  const Clock clock(seconds_);
+  Traffic traffic;
+  const std::vector<T>& given = traffic.keep(mine);
+  std::vector<T>& all = traffic.keep(std::vector<T>(mine.size() * static_cast<std::size_t>(size_)));
+  const int count = static_cast<int>(mine.size());
+  MPI_Iallgather(given.data(), count, typeOf(given), all.data(), count, typeOf(all), link_->ranks,
+    traffic.addRequest());
+  link_->finish(traffic);
+  return std::move(all);
 }
 
 bool RankExchange::any(bool mine)
@@ -129,57 +166,44 @@ void RankExchange::agree(const std::string& error)
   if (speaker == size_)
     return;
   const std::vector<char> text = broadcast({ error.begin(), error.end() }, speaker);
-  throw Error(std::string(text.begin(), text.end()));
+  throw AgreedError(std::string(text.begin(), text.end()));
 }
 
 std::vector<std::int64_t> RankExchange::sum(const std::vector<std::int64_t>& mine)
 {
-  return reduce(mine, std::plus<std::int64_t>());
+  return reduce(mine, Reduction::Sum);
 }
 
 std::vector<std::int64_t> RankExchange::min(const std::vector<std::int64_t>& mine)
 {
-  return reduce(mine, diy::mpi::minimum<std::int64_t>());
+  return reduce(mine, Reduction::Minimum);
 }
 
 std::vector<std::int64_t> RankExchange::max(const std::vector<std::int64_t>& mine)
 {
-  return reduce(mine, diy::mpi::maximum<std::int64_t>());
+  return reduce(mine, Reduction::Maximum);
 }
 
 std::vector<double> RankExchange::min(const std::vector<double>& mine)
 {
   const double infinity = std::numeric_limits<double>::infinity();
-  return withNan(reduce(withoutNan(mine, infinity, -1.0), diy::mpi::minimum<double>()));
+  return withNan(reduce(withoutNan(mine, infinity, -1.0), Reduction::Minimum));
 }
 
 std::vector<double> RankExchange::max(const std::vector<double>& mine)
 {
   const double infinity = std::numeric_limits<double>::infinity();
-  return withNan(reduce(withoutNan(mine, -infinity, 1.0), diy::mpi::maximum<double>()));
+  return withNan(reduce(withoutNan(mine, -infinity, 1.0), Reduction::Maximum));
 }
 
 std::vector<std::int64_t> RankExchange::gather(std::int64_t mine)
 {
-  if (!link_)
-    return { mine };
-  const Clock clock(seconds_);
-  std::vector<std::int64_t> all;
-  diy::mpi::all_gather(link_->ranks, mine, all);
-  return all;
+  return gatherAll(std::vector<std::int64_t>{ mine });
 }
 
 std::vector<double> RankExchange::gather(const std::vector<double>& mine)
 {
-  if (!link_)
-    return mine;
-  const Clock clock(seconds_);
-  std::vector<std::vector<double>> all;
-  diy::mpi::all_gather(link_->ranks, mine, all);
-  std::vector<double> row;
-  for (const std::vector<double>& numbers : all)
-    row.insert(row.end(), numbers.begin(), numbers.end());
-  return row;
+  return gatherAll(mine);
 }
 
 std::int64_t RankExchange::sumBefore(std::int64_t mine)
@@ -187,9 +211,11 @@ std::int64_t RankExchange::sumBefore(std::int64_t mine)
   if (!link_)
     return 0;
   const Clock clock(seconds_);
-  std::int64_t withMine = 0;
-  diy::mpi::scan(link_->ranks, mine, withMine, std::plus<std::int64_t>());
-  return withMine - mine;
+  Traffic traffic;
+  std::vector<std::int64_t>& sum = traffic.keep(std::vector<std::int64_t>{ mine });
+  MPI_Iscan(MPI_IN_PLACE, sum.data(), 1, MPI_INT64_T, MPI_SUM, link_->ranks, traffic.addRequest());
+  link_->finish(traffic);
+  return sum.front() - mine;
 }
 
 double RankExchange::sumReproducibly(const std::vector<double>& addends)
@@ -212,24 +238,34 @@ std::vector<char> RankExchange::broadcast(const std::vector<char>& bytes, int ro
   if (!link_)
     return bytes;
   const Clock clock(seconds_);
-  std::int64_t total = static_cast<std::int64_t>(bytes.size());
-  diy::mpi::broadcast(link_->ranks, total, root);
-  std::vector<char> result;
-  result.reserve(static_cast<std::size_t>(total));
-  while (result.size() < static_cast<std::size_t>(total))
+  Traffic traffic;
+  std::vector<std::int64_t>& total =
+    traffic.keep(std::vector<std::int64_t>{ static_cast<std::int64_t>(bytes.size()) });
+  MPI_Ibcast(total.data(), 1, MPI_INT64_T, root, link_->ranks, traffic.addRequest());
+  link_->finish(traffic);
+  std::vector<char>& result = traffic.keep(
+    rank_ == root ? bytes : std::vector<char>(static_cast<std::size_t>(total.front())));
+  for (std::size_t begin = 0; begin < result.size(); begin += messageLimit_)
   {
-    const std::size_t count =
-      std::min(static_cast<std::size_t>(total) - result.size(), messageLimit_);
-    std::vector<char> part;
-    if (rank_ == root)
-    {
-      const auto first = bytes.begin() + static_cast<std::ptrdiff_t>(result.size());
-      part.assign(first, first + static_cast<std::ptrdiff_t>(count));
-    }
-    diy::mpi::broadcast(link_->ranks, part, root);
-    result.insert(result.end(), part.begin(), part.end());
+    const std::size_t count = std::min(result.size() - begin, messageLimit_);
+    MPI_Ibcast(result.data() + begin, static_cast<int>(count), MPI_BYTE, root, link_->ranks,
+      traffic.addRequest());
+    link_->finish(traffic);
   }
-  return result;
+  return std::move(result);
+}
+
+std::vector<std::int64_t> RankExchange::swapCounts(const std::vector<Message>& toRank)
+{
+  const Clock clock(seconds_);
+  Traffic traffic;
+  std::vector<std::int64_t>& to = traffic.keep(std::vector<std::int64_t>(toRank.size()));
+  std::transform(toRank.begin(), toRank.end(), to.begin(), announcedBytes);
+  std::vector<std::int64_t>& from = traffic.keep(std::vector<std::int64_t>(toRank.size()));
+  MPI_Ialltoall(
+    to.data(), 1, MPI_INT64_T, from.data(), 1, MPI_INT64_T, link_->ranks, traffic.addRequest());
+  link_->finish(traffic);
+  return std::move(from);
 }
 
 // 1. Tell every rank how many bytes it will get. 2. Send to those that get some, and receive from
@@ -242,14 +278,7 @@ std::vector<RankExchange::Message> RankExchange::allToAllMessages(std::vector<Me
   if (!link_)
     return toRank;
 
-  std::vector<std::int64_t> bytesTo(rankCount);
-  std::transform(toRank.begin(), toRank.end(), bytesTo.begin(), announcedBytes);
-  std::vector<std::int64_t> bytesFrom(rankCount);
-  {
-    const Clock clock(seconds_);
-    diy::mpi::all_to_all(link_->ranks, bytesTo, bytesFrom);
-  }
-
+  const std::vector<std::int64_t> bytesFrom = swapCounts(toRank);
   std::vector<int> destinations;
   std::vector<int> sources;
   std::vector<Message> outgoing;
@@ -257,7 +286,7 @@ std::vector<RankExchange::Message> RankExchange::allToAllMessages(std::vector<Me
   {
     if (bytesFrom[r] > 0)
       sources.push_back(static_cast<int>(r));
-    if (bytesTo[r] > 0)
+    if (announcedBytes(toRank[r]) > 0)
     {
       destinations.push_back(static_cast<int>(r));
       outgoing.push_back(std::move(toRank[r]));
@@ -283,14 +312,19 @@ std::vector<RankExchange::Message> RankExchange::exchangeMessages(
   return transfer(neighbours, std::move(toNeighbour), neighbours);
 }
 
+void RankExchange::fail(const std::string& reason) noexcept
+{
+  if (link_)
+    link_->fail(reason.c_str());
+}
+
 // Sends do not block, so that the receives can wait in any order. Messages from one rank to another
 // arrive in the order in which they were sent: those of two calls cannot be mixed up.
 std::vector<RankExchange::Message> RankExchange::transfer(const std::vector<int>& destinations,
   std::vector<Message> outgoing, const std::vector<int>& sources)
 {
   const Clock clock(seconds_);
-  std::vector<diy::mpi::request> requests;
-  std::vector<std::vector<Message>> parts(outgoing.size());
+  Traffic sent;
   Message toMyself;
   for (std::size_t i = 0; i < outgoing.size(); ++i)
   {
@@ -300,10 +334,11 @@ std::vector<RankExchange::Message> RankExchange::transfer(const std::vector<int>
       continue;
     }
     bytesSent_ += static_cast<std::int64_t>(outgoing[i].size());
-    parts[i] = split(std::move(outgoing[i]), messageLimit_);
-    for (const Message& part : parts[i])
-      requests.push_back(link_->ranks.isend(destinations[i], messageTag, part));
-    messagesSent_ += static_cast<std::int64_t>(parts[i].size());
+    for (Message& part : split(std::move(outgoing[i]), messageLimit_))
+    {
+      link_->send(destinations[i], sent.keep(std::move(part)), sent);
+      ++messagesSent_;
+    }
   }
   std::vector<Message> incoming(sources.size());
   for (std::size_t i = 0; i < sources.size(); ++i)
@@ -313,21 +348,19 @@ std::vector<RankExchange::Message> RankExchange::transfer(const std::vector<int>
     else
       incoming[i] = receive(sources[i]);
   }
-  for (diy::mpi::request& request : requests)
-    request.wait();
+  if (link_)
+    link_->finish(sent);
   return incoming;
 }
 
 RankExchange::Message RankExchange::receive(int source)
 {
-  Message message;
-  link_->ranks.recv(source, messageTag, message);
+  Message message = link_->receive(source);
   const std::size_t total = headerSize + static_cast<std::size_t>(announcedBytes(message));
   message.reserve(total);
   while (message.size() < total)
   {
-    Message part;
-    link_->ranks.recv(source, messageTag, part);
+    const Message part = link_->receive(source);
     message.insert(message.end(), part.begin(), part.end());
   }
   return message;

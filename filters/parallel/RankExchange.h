@@ -1,6 +1,8 @@
 // The one place where ranks talk.
 #pragma once
 
+#include "Error.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -14,6 +16,13 @@ class vtkMultiProcessController;
 
 namespace cadrefine
 {
+
+/// A failure that all ranks know of: they all throw it at the same place.
+class AgreedError : public Error
+{
+public:
+  using Error::Error;
+};
 
 /// Messages between the ranks of a controller.
 ///
@@ -29,8 +38,9 @@ namespace cadrefine
 ///
 /// Fails: a controller of several processes without MPI makes the constructor throw Error. Data of
 /// more than the message limit goes out in several messages, so there is no limit of 2 GiB. A rank
-/// that leaves by an exception of its own between two collective calls makes the others wait:
-/// catch, and tell the others by `agree`.
+/// that leaves by an exception of its own between two collective calls must tell the others
+/// (`fail`; see runTogether in Agreement.h): where they wait for it, they throw RankFailure, which
+/// is an Error, with its reason. Nothing can be sent afterwards; a new object can.
 class RankExchange
 {
 public:
@@ -51,9 +61,14 @@ public:
   /// Whether `mine` holds on any rank.
   bool any(bool mine);
 
-  /// Returns if `error` is empty on all ranks; otherwise throws, on all ranks, an Error with the
-  /// text of the lowest rank that has one. One reduction, and a broadcast where there is an error.
+  /// Returns if `error` is empty on all ranks; otherwise throws, on all ranks, an AgreedError with
+  /// the text of the lowest rank that has one. One reduction, and a broadcast where there is an
+  /// error.
   void agree(const std::string& error);
+
+  /// Tells all other ranks that this one has failed and will not call again. Not collective; one
+  /// short message to each.
+  void fail(const std::string& reason) noexcept;
 
   /// Reductions of one number over the ranks; integers of any type.
   template<class I>
@@ -145,9 +160,18 @@ private:
   std::vector<Message> transfer(const std::vector<int>& destinations, std::vector<Message> outgoing,
     const std::vector<int>& sources);
   Message receive(int source);
+  std::vector<std::int64_t> swapCounts(const std::vector<Message>& toRank);
   class Clock;
-  template<class T, class Operation>
-  std::vector<T> reduce(const std::vector<T>& mine, const Operation& operation);
+  enum class Reduction
+  {
+    Sum,
+    Minimum,
+    Maximum
+  };
+  template<class T>
+  std::vector<T> reduce(const std::vector<T>& mine, Reduction reduction);
+  template<class T>
+  std::vector<T> gatherAll(const std::vector<T>& mine);
 
   std::unique_ptr<Link> link_; // null where there is one rank
   int rank_ = 0;

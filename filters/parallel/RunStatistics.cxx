@@ -3,20 +3,19 @@
 #include <iomanip>
 #include <limits>
 #include <sstream>
-#include <utility>
 
 namespace cadrefine
 {
 
-RunStatistics::Stopwatch::Stopwatch(RunStatistics& statistics, std::string name)
-  : statistics_(statistics), name_(std::move(name)), start_(std::chrono::steady_clock::now())
+RunStatistics::Stopwatch::Stopwatch(RunStatistics& statistics, const std::string& name)
+  : seconds_(statistics.figures_[name]), start_(std::chrono::steady_clock::now())
 {
 }
 
 RunStatistics::Stopwatch::~Stopwatch()
 {
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start_;
-  statistics_.add(name_, seconds.count());
+  seconds_ += seconds.count();
 }
 
 void RunStatistics::gather(RankExchange& exchange)

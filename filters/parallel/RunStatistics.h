@@ -19,14 +19,13 @@ public:
   class Stopwatch
   {
   public:
-    Stopwatch(RunStatistics& statistics, std::string name);
+    Stopwatch(RunStatistics& statistics, const std::string& name);
     ~Stopwatch();
     Stopwatch(const Stopwatch&) = delete;
     Stopwatch& operator=(const Stopwatch&) = delete;
 
   private:
-    RunStatistics& statistics_;
-    std::string name_;
+    double& seconds_; ///< Made in the beginning, as the end must not fail.
     std::chrono::steady_clock::time_point start_;
   };
 
