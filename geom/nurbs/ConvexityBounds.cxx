@@ -183,7 +183,9 @@ void ConvexityBounds::boundOwnHessian(const PatchView& patch, const Ranges& rang
   ownTT_ = rounded(intersection(a.tt, b.tt));
   if (patch.isCurve())
   {
-    ownTT_ = { 1.0, 1.0 }; // the second parameter has no effect: any convex function of it will do
+    // The second parameter has no effect: any convex function of it, as small as the rest, will do.
+    const double length = cadrefine::largestNorm(ranges.s);
+    ownTT_ = rounded({ length * length, length * length });
   }
 }
 

@@ -35,7 +35,8 @@ DistanceModel distanceModel(const PatchView& patch, const Point3& q, double s, d
   m.quadratic.ss = m.lengthS + dot(r, d.uu);
   if (patch.isCurve())
   {
-    m.lengthT = m.quadratic.tt = 1.0;
+    // The second parameter has no effect; of the same magnitude, for any size of the model.
+    m.lengthT = m.quadratic.tt = m.lengthS > 0 ? m.lengthS : 1.0;
     return m;
   }
   m.lengthT = squaredNorm(d.v);

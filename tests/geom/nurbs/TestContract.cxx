@@ -281,6 +281,28 @@ TEST(Canonical, ClosedEdgeStartsAtItsLowerParameter)
   }
 }
 
+/// A power of two scales without rounding. (Once, Newton's method on curves crept where segments
+/// were shorter than 3e-12.)
+TEST(Sizes, AnswersOnCurvesScaleWithTheModel)
+{
+  NurbsModel unit;
+  unit.edges.push_back(shapes::circle(1.0, 0.5));
+  const double factor = std::ldexp(1.0, -45);
+  NurbsModel small;
+  small.edges.push_back(shapes::circle(factor, 0.5 * factor));
+  const ClosestPointSearch searchUnit(unit);
+  const ClosestPointSearch searchSmall(small);
+  shapes::Random random(33);
+  for (int i = 0; i < 100; ++i)
+  {
+    const Point3 q = random.point(2.0);
+    ClosestPoint expected = searchUnit.nearest(q);
+    expected.point = factor * expected.point;
+    expected.distance *= factor;
+    EXPECT_TRUE(sameBits(searchSmall.nearest(factor * q), expected));
+  }
+}
+
 TEST(BadInput, IsReported)
 {
   NurbsModel model = shapes::modelOf(shapes::sphere(1.0));
