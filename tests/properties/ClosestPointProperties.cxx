@@ -1,0 +1,318 @@
+// Closest points of random NURBS models.
+
+#include "ModelBytes.h"
+#include "OccOracle.h"
+#include "RandomShapes.h"
+#include "Rounds.h"
+#include "ShapeIndex.h"
+#include "TestShapes.h"
+
+#include <BRepAdaptor_Curve.hxx>
+#include <BRepAdaptor_Surface.hxx>
+#include <BRepTools.hxx>
+#include <BRepTopAdaptor_FClass2d.hxx>
+#include <BRep_Tool.hxx>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numeric>
+#include <sstream>
+#include <thread>
+
+namespace propertytest
+{
+
+namespace
+{
+
+using namespace cadrefine;
+
+Point3 fromOcc(const gp_Pnt& p)
+{
+  return { p.X(), p.Y(), p.Z() };
+}
+
+void sampleEdge(const TopoDS_Edge& edge, std::vector<Point3>& samples)
+{
+  constexpr int n = 64;
+  const BRepAdaptor_Curve curve(edge);
+  for (int i = 0; i <= n; ++i)
+  {
+    const double part = static_cast<double>(i) / n;
+    samples.push_back(
+      fromOcc(curve.Value((1 - part) * curve.FirstParameter() + part * curve.LastParameter())));
+  }
+}
+
+/// Points inside of the loops, by Open CASCADE's classifier.
+void sampleFace(const TopoDS_Face& face, std::vector<Point3>& samples)
+{
+  constexpr int n = 32;
+  const BRepAdaptor_Surface surface(face);
+  BRepTopAdaptor_FClass2d classifier(face, BRep_Tool::Tolerance(face));
+  double u0 = 0;
+  double u1 = 0;
+  double v0 = 0;
+  double v1 = 0;
+  BRepTools::UVBounds(face, u0, u1, v0, v1);
+  for (int i = 0; i <= n; ++i)
+  {
+    for (int j = 0; j <= n; ++j)
+    {
+      const gp_Pnt2d uv(u0 + (u1 - u0) * i / n, v0 + (v1 - v0) * j / n);
+      if (classifier.Perform(uv) == TopAbs_IN)
+      {
+        samples.push_back(fromOcc(surface.Value(uv.X(), uv.Y())));
+      }
+    }
+  }
+}
+
+/// Points of the model, a thousand a face.
+std::vector<Point3> denseSamples(const TopoDS_Shape& shape)
+{
+  const ShapeIndex index(shape);
+  std::vector<Point3> samples;
+  for (const TopoDS_Vertex& vertex : index.vertices())
+  {
+    samples.push_back(fromOcc(BRep_Tool::Pnt(vertex)));
+  }
+  for (const TopoDS_Edge& edge : index.edges())
+  {
+    sampleEdge(edge, samples);
+  }
+  for (const TopoDS_Face& face : index.faces())
+  {
+    sampleFace(face, samples);
+  }
+  return samples;
+}
+
+/// On the model, off it by any order of magnitude, about it, and far away.
+std::vector<Point3> queryPoints(
+  Random& random, const std::vector<Point3>& samples, double size, int count)
+{
+  const auto last = static_cast<int>(samples.size()) - 1;
+  const auto anyVector = [&] {
+    return Vector3{ random.between(-1, 1), random.between(-1, 1), random.between(-1, 1) };
+  };
+  std::vector<Point3> points;
+  for (int i = 0; i < count; ++i)
+  {
+    const Point3& on = samples[random.among(0, last)];
+    const double away = i % 4 == 0   ? 0
+                        : i % 4 == 1 ? size * random.anyMagnitude(12)
+                        : i % 4 == 2 ? size * random.between(0, 1)
+                                     : size / random.anyMagnitude(3);
+    points.push_back(on + away * anyVector());
+  }
+  return points;
+}
+
+/// A random model, as the reader makes it, and points to ask for.
+struct Problem
+{
+  Problem(Random& random, ShapeKind kind, int points)
+    : model(cadtest::modelOf(randomShape(random, kind), ".brep")),
+      shape(decodeModel(model->toBytes()).shape), samples(denseSamples(shape)),
+      queries(queryPoints(random, samples, model->size(), points))
+  {
+  }
+
+  std::shared_ptr<const CADModel> model;
+  TopoDS_Shape shape;
+  std::vector<Point3> samples;
+  std::vector<Point3> queries;
+};
+
+std::string describe(const Point3& point, const ClosestPoint& answer)
+{
+  std::ostringstream text;
+  text.precision(17);
+  text << "(" << point[0] << ", " << point[1] << ", " << point[2] << "): entity "
+       << answer.entity.index << " of dimension " << static_cast<int>(answer.entity.dimension)
+       << " at (" << answer.parameters[0] << ", " << answer.parameters[1] << "), "
+       << answer.distance << " away";
+  return text.str();
+}
+
+class ClosestPointProperty : public testing::TestWithParam<ShapeKind>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(Random, ClosestPointProperty, testing::ValuesIn(shapeKinds),
+  [](const auto& kind) { return nameOf(kind.param); });
+
+/// The answer is a point of the entity that it names, and neither a sample of the model nor what
+/// Open CASCADE's extrema find is nearer by more than 1e-9 of the size.
+TEST_P(ClosestPointProperty, IsThatOfBruteForce)
+{
+  forEachSeed(12,
+    [](Random& random)
+    {
+      const Problem problem(random, GetParam(), 40);
+      const double size = problem.model->size();
+      const double tolerance = 1e-9 * size;
+      const exacttest::OccOracle oracle(problem.shape, size);
+      for (const Point3& q : problem.queries)
+      {
+        const ClosestPoint answer = problem.model->nearest(q);
+        ASSERT_TRUE(answer.entity) << describe(q, answer);
+        EXPECT_TRUE(answer.converged) << describe(q, answer);
+        const Point3 there = problem.model->evaluate(answer.entity, answer.parameters);
+        EXPECT_LE(distance(there, answer.point), 1e-12 * size) << describe(q, answer);
+        EXPECT_NEAR(distance(q, answer.point), answer.distance, 1e-12 * (size + answer.distance))
+          << describe(q, answer);
+        double sampled = std::numeric_limits<double>::infinity();
+        for (const Point3& sample : problem.samples)
+        {
+          sampled = std::min(sampled, distance(q, sample));
+        }
+        EXPECT_LE(answer.distance, sampled + tolerance) << describe(q, answer);
+        const auto expected = oracle.nearest(q, answer.distance + tolerance);
+        EXPECT_LE(answer.distance, expected.distance + tolerance) << describe(q, answer);
+        EXPECT_TRUE(oracle.liesOn(answer.entity, answer.point, tolerance)) << describe(q, answer);
+      }
+    });
+}
+
+using Bits = std::array<std::uint64_t, 8>;
+
+Bits bitsOf(const ClosestPoint& answer)
+{
+  const std::array<double, 8> numbers{ answer.point[0], answer.point[1], answer.point[2],
+    answer.parameters[0], answer.parameters[1], answer.distance,
+    static_cast<double>(answer.entity.index), static_cast<double>(answer.entity.dimension) };
+  Bits bits{};
+  std::memcpy(bits.data(), numbers.data(), sizeof(bits));
+  return bits;
+}
+
+std::vector<Bits> askInOrder(
+  const CADModel& model, const std::vector<Point3>& points, const std::vector<std::size_t>& order)
+{
+  std::vector<Bits> answers(points.size());
+  for (const std::size_t i : order)
+  {
+    answers[i] = bitsOf(model.nearest(points[i]));
+  }
+  return answers;
+}
+
+/// Bit for bit the same in any order, on any thread, and of a model that was sent as bytes.
+TEST_P(ClosestPointProperty, DependsOnPointAndModelAlone)
+{
+  forEachSeed(12,
+    [](Random& random)
+    {
+      const Problem problem(random, GetParam(), 120);
+      std::vector<std::size_t> order(problem.queries.size());
+      std::iota(order.begin(), order.end(), std::size_t{ 0 });
+      const auto expected = askInOrder(*problem.model, problem.queries, order);
+      const auto sent = CADModel::fromBytes(problem.model->toBytes());
+      std::vector<std::vector<Bits>> answers(3);
+      std::vector<std::thread> threads;
+      for (std::vector<Bits>& of : answers)
+      {
+        std::shuffle(order.begin(), order.end(), random.engine());
+        threads.emplace_back(
+          [&of, &sent, &problem, order] { of = askInOrder(*sent, problem.queries, order); });
+      }
+      for (std::thread& thread : threads)
+      {
+        thread.join();
+      }
+      for (const std::vector<Bits>& of : answers)
+      {
+        EXPECT_TRUE(of == expected);
+      }
+    });
+}
+
+/// A limit that is larger than the distance does not change the answer.
+TEST_P(ClosestPointProperty, DoesNotDependOnALimitBeyondIt)
+{
+  forEachSeed(12,
+    [](Random& random)
+    {
+      const Problem problem(random, GetParam(), 120);
+      for (const Point3& q : problem.queries)
+      {
+        const ClosestPoint answer = problem.model->nearest(q);
+        SearchScope scope;
+        scope.maximumDistance =
+          (1 + random.between(0, 2)) * answer.distance + 1e-9 * problem.model->size();
+        EXPECT_EQ(bitsOf(problem.model->nearest(q, scope)), bitsOf(answer))
+          << describe(q, answer) << "; limit " << scope.maximumDistance;
+      }
+    });
+}
+
+NurbsModel scaled(NurbsModel model, double factor)
+{
+  const auto scalePoints = [factor](std::vector<ControlPoint>& points)
+  {
+    for (ControlPoint& point : points)
+    {
+      point = { factor * point[0], factor * point[1], factor * point[2], point[3] };
+    }
+  };
+  for (NurbsFace& face : model.faces)
+  {
+    face.tolerance *= factor;
+    for (BezierPatch& patch : face.patches)
+    {
+      scalePoints(patch.points);
+    }
+  }
+  for (NurbsEdge& edge : model.edges)
+  {
+    edge.tolerance *= factor;
+    for (BezierCurve& segment : edge.segments)
+    {
+      scalePoints(segment.points);
+    }
+  }
+  for (NurbsVertex& vertex : model.vertices)
+  {
+    vertex.tolerance *= factor;
+    vertex.point = factor * vertex.point;
+  }
+  return model;
+}
+
+/// Powers of two scale without rounding: then so does the answer, bit for bit. An absolute
+/// tolerance anywhere would show.
+TEST_P(ClosestPointProperty, ScalesWithPowersOfTwo)
+{
+  forEachSeed(12,
+    [](Random& random)
+    {
+      const Problem problem(random, GetParam(), 120);
+      const int exponent = random.among(-50, 60);
+      const double factor = std::ldexp(1.0, exponent);
+      const NurbsModel& model = problem.model->nurbs();
+      const NurbsModel scaledModel = scaled(model, factor);
+      const ClosestPointSearch search(model);
+      const ClosestPointSearch scaledSearch(scaledModel);
+      EXPECT_EQ(scaledSearch.modelSize(), factor * search.modelSize());
+      for (const Point3& q : problem.queries)
+      {
+        ClosestPoint expected = search.nearest(q);
+        const ClosestPoint answer = scaledSearch.nearest(factor * q);
+        EXPECT_EQ(answer.converged, expected.converged);
+        expected.point = factor * expected.point;
+        expected.distance *= factor;
+        EXPECT_EQ(bitsOf(answer), bitsOf(expected))
+          << describe(factor * q, answer) << "\nexpected " << describe(factor * q, expected)
+          << "\nscale 2^" << exponent;
+      }
+    });
+}
+
+} // namespace
+
+} // namespace propertytest

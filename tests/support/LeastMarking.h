@@ -1,0 +1,24 @@
+// Which edges longest edge bisection has to cut, by brute force.
+#pragma once
+
+#include "SimplexMesh.h"
+
+#include <array>
+#include <set>
+#include <vector>
+
+namespace cadtest
+{
+
+/// Global ids of an edge's ends, the smaller first.
+using IdPair = std::array<cadrefine::GlobalId, 2>;
+
+/// Corners of the tetrahedra and of the triangles, in this order.
+std::vector<std::vector<cadrefine::Index>> cellsOf(const cadrefine::SimplexMesh& mesh);
+
+/// The least set of edges with the longest edge of each marked cell, and with the longest edge of
+/// each cell and triangle that has an edge in the set.
+std::set<IdPair> leastMarking(
+  const cadrefine::SimplexMesh& mesh, const std::vector<unsigned char>& cellMarks);
+
+} // namespace cadtest
