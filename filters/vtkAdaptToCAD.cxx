@@ -70,14 +70,8 @@ cadrefine::StepResult vtkAdaptToCAD::Execute(
   options.maximumSteps = this->MaximumSteps;
   options.targetError = this->TargetError;
 
-  cadrefine::AdaptationObserver observer;
-  observer.progress = [this](int steps)
-  {
-    this->SetProgressText(steps == 0 ? "Projection" : ("Step " + std::to_string(steps)).c_str());
-    this->UpdateProgress(steps / (1.0 + this->MaximumSteps));
-  };
-  observer.isInterrupted = [this] { return this->GetAbortExecute() != 0; };
-  return cadrefine::adaptMesh(this->MakeContext(exchange, *model), input, options, observer);
+  return cadrefine::adaptMesh(this->MakeContext(exchange, *model), input, options,
+    [this] { return this->GetAbortExecute() != 0; });
 }
 
 MarkingCriterion vtkAdaptToCAD::GetOwnCriterion() const

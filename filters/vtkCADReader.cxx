@@ -164,6 +164,12 @@ std::shared_ptr<const cadrefine::CADModel> vtkCADReader::ReadModel(
   return model;
 }
 
+void vtkCADReader::Say(double progress, const std::string& text)
+{
+  this->SetProgressText(text.c_str());
+  this->UpdateProgress(progress);
+}
+
 void vtkCADReader::Warn(const cadrefine::CADReport& report)
 {
   const std::string text = Section("not read:", EntityLines(report.unread)) +
@@ -179,6 +185,7 @@ void vtkCADReader::Warn(const cadrefine::CADReport& report)
 
 void vtkCADReader::Read(cadrefine::RankExchange& exchange, vtkPartitionedDataSetCollection* output)
 {
+  this->Say(0, "reading the CAD file");
   const auto model = this->ReadModel(exchange, output);
   if (exchange.rank() == 0)
   {
@@ -188,6 +195,7 @@ void vtkCADReader::Read(cadrefine::RankExchange& exchange, vtkPartitionedDataSet
   for (unsigned int part = 0; part < 3; ++part)
   {
     const int dimension = PartDimensions[part];
+    this->Say(0.7 + 0.1 * part, std::string("drawing ") + PartNames[dimension]);
     const cadrefine::DrawingShare share{ exchange.rank(), exchange.size(),
       this->TessellationTolerance };
     vtkNew<vtkPartitionedDataSet> partitions;

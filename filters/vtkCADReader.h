@@ -22,6 +22,7 @@
 #include "vtkPartitionedDataSetCollectionAlgorithm.h"
 
 #include <memory>
+#include <string>
 
 namespace cadrefine
 {
@@ -76,6 +77,7 @@ private:
   void Read(cadrefine::RankExchange& exchange, vtkPartitionedDataSetCollection* output);
   std::shared_ptr<const cadrefine::CADModel> ReadModel(
     cadrefine::RankExchange& exchange, vtkPartitionedDataSetCollection* output);
+  void Say(double progress, const std::string& text);
   void Warn(const cadrefine::CADReport& report);
 
   char* FileName = nullptr;

@@ -21,7 +21,9 @@ cadrefine::StepResult vtkMeshValidity::Execute(
   cadrefine::RankExchange& exchange, vtkPointSet* input, const cadrefine::CADModel*)
 {
   using namespace cadrefine;
+  exchange.progress().say(0, "reading the mesh");
   const DistributedMesh mesh = makeDistributedMesh(exchange, input, CellOrder::FirstOrSecond);
+  exchange.progress().say(0.5, "looking at cells");
   const CellQualities qualities = measureQuality(exchange, mesh);
   StepResult result;
   result.mesh = makePointSet(input, mesh.mesh(), mesh.converted.midNodes);

@@ -94,6 +94,12 @@ int vtkSimplexMeshAlgorithm::RequestData(
   try
   {
     cadrefine::RankExchange exchange(this->Controller);
+    exchange.progress().tell(
+      [this](double fraction, const std::string& text)
+      {
+        this->SetProgressText(text.c_str());
+        this->UpdateProgress(fraction);
+      });
     cadrefine::runTogether(exchange,
       [&]
       {

@@ -16,6 +16,9 @@
  * GetMeshMTime. One mesh is kept, shared with the output while this is there; warnings are given
  * once for it.
  *
+ * Long work tells its progress with a text (GetProgressText, vtkCommand::ProgressEvent), on each
+ * rank, a few times a second.
+ *
  * A failure on one rank is an error on all: rank 0 reports the reason, and the output stays empty.
  */
 #ifndef vtkSimplexMeshAlgorithm_h

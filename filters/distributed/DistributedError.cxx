@@ -47,6 +47,8 @@ CurvedErrorFacet makeCurvedFacet(const DistributedMesh& mesh, const DistributedB
   return facet;
 }
 
+constexpr CountedWork counted{ "measuring", "facets" };
+
 /// Errors of these facets, in their order.
 Answers<FacetError> measureFacets(RankExchange& exchange, const DistributedMesh& mesh,
   const ClassifiedBoundary& classified, const Classification& classification,
@@ -61,9 +63,11 @@ Answers<FacetError> measureFacets(RankExchange& exchange, const DistributedMesh&
       questions.push_back(
         makeCurvedFacet(mesh, classified.boundary, classified.classes, classification, f));
     }
-    return answerEvenly<FacetError>(exchange, std::move(questions),
+    return answerEvenly<FacetError>(
+      exchange, std::move(questions),
       [&](const CurvedErrorFacet& facet)
-      { return curvedError(classified.projector, facet, depth); });
+      { return curvedError(classified.projector, facet, depth); },
+      counted);
   }
   std::vector<ErrorFacet> questions;
   questions.reserve(facets.size());
@@ -72,8 +76,10 @@ Answers<FacetError> measureFacets(RankExchange& exchange, const DistributedMesh&
     questions.push_back(
       makeErrorFacet(mesh.mesh(), classified.boundary, classified.classes, classification, f));
   }
-  return answerEvenly<FacetError>(exchange, std::move(questions),
-    [&](const ErrorFacet& facet) { return geometricError(classified.projector, facet, depth); });
+  return answerEvenly<FacetError>(
+    exchange, std::move(questions),
+    [&](const ErrorFacet& facet) { return geometricError(classified.projector, facet, depth); },
+    counted);
 }
 
 } // namespace

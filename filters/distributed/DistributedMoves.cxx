@@ -68,12 +68,16 @@ public:
 
   void run()
   {
+    const Progress& progress = exchange_.progress();
+    progress.say(0, "moving vertices onto the CAD");
     const MoveGuard guard(mesh(), moves_, start_, plane_, parallelFor_);
     settle(guard, aimed_);
     std::int64_t left = findLeft();
     int idle = 0;
     for (int round = 0; left > 0 && idle < patience && round < maximumRounds; ++round)
     {
+      progress.say((1.0 + round) / (2.0 + maximumRounds),
+        "making way for " + std::to_string(left) + " vertices, round " + std::to_string(round + 1));
       tryAgain(round);
       const std::int64_t before = left;
       left = findLeft();
@@ -82,6 +86,7 @@ public:
     }
     if (left > 0 || settings_.smoothCells)
     {
+      progress.say(1, "smoothing cells");
       smooth(guard);
     }
     record();

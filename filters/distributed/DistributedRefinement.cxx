@@ -167,6 +167,7 @@ RefinementTrace refine(RankExchange& exchange, DistributedMesh& mesh, const Refi
   }
   SplitMesh split;
   {
+    exchange.progress().say(0.5, "cutting cells");
     const RunStatistics::Stopwatch watch(statistics, "seconds cutting");
     split = plan.uniform ? splitUniformly(mesh.mesh(), plan.table, midpoints, ids)
                          : splitMarked(mesh.mesh(), plan.table, plan.marks, midpoints, ids);
@@ -188,13 +189,17 @@ RefinementTrace refineOntoCAD(RankExchange& exchange, DistributedMesh& mesh,
   watch.emplace(statistics, "seconds projection");
   const BoundaryProjector& projector = classified.projector;
   const auto codes = edgeCodes(exchange, plan, classified);
+  std::optional<Progress::Part> part;
+  part.emplace(exchange.progress(), 0.2, 0.5);
   const auto hits =
     projectMidpoints(exchange, mesh.mesh(), plan, codes, projector, classification, statistics);
+  part.reset();
   const auto onBoundary = onRefinedBoundary(plan, codes, classified.boundary.onBoundary);
   const std::size_t oldCount = mesh.mesh().points.size();
   watch.reset();
   RefinementTrace trace = refine(exchange, mesh, plan, statistics);
   watch.emplace(statistics, "seconds moves");
+  part.emplace(exchange.progress(), 0.7, 1);
   trace.projectedPoints = countHits(exchange, mesh.shared, oldCount, hits);
   if (newVertices == NewVertices::StayStraight)
   {

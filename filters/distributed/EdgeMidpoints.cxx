@@ -101,7 +101,8 @@ std::vector<MidpointOnCAD> projectMidpoints(RankExchange& exchange, const Simple
   }
   const auto answers = answerEvenly<ClosestPoint>(exchange, std::move(questions),
     [&](const MidpointQuestion& question)
-    { return projector.projectMidpoint(question.edgeClass, question.points, question.entities); });
+    { return projector.projectMidpoint(question.edgeClass, question.points, question.entities); },
+    { "projecting", "new vertices" });
   recordBalance(statistics, "new points", answers.balance);
   std::vector<MidpointOnCAD> hits;
   for (std::size_t i = 0; i < places.size(); ++i)

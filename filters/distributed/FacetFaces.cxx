@@ -142,7 +142,8 @@ std::vector<FaceMatch> findFaces(
     facets.push_back(f);
   }
   const auto answers = answerEvenly<FaceMatch>(task.exchange, std::move(questions),
-    [&](const CornerHits& question) { return finder.find(question); });
+    [&](const CornerHits& question) { return finder.find(question); },
+    { "finding the faces of", "facets" });
   std::vector<FaceMatch> matches(records.size());
   for (std::size_t i = 0; i < facets.size(); ++i)
   {

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace cadrefine
@@ -48,7 +49,8 @@ NearestPoints findNearest(const ProjectionTask& task)
   }
   const auto answers = answerEvenly<ClosestPoint>(task.exchange, std::move(questions),
     [&](const PointQuestion& question)
-    { return task.projector.nearest(question.point, question.limit); });
+    { return task.projector.nearest(question.point, question.limit); },
+    { "projecting", "vertices" });
   result.hits.resize(points.size());
   for (std::size_t i = 0; i < vertices.size(); ++i)
   {
@@ -96,12 +98,20 @@ ProjectionResult projectBoundary(RankExchange& exchange, DistributedMesh& mesh,
   const ProjectionOptions& options)
 {
   const ProjectionTask task{ exchange, mesh, projector, boundary, options };
+  std::optional<Progress::Part> part;
+  part.emplace(exchange.progress(), 0, 0.6);
   NearestPoints nearest = findNearest(task);
   auto& hits = nearest.hits;
+  part.reset();
+  part.emplace(exchange.progress(), 0.6, 0.75);
   const FacetClasses facets = classifyFacets(task, hits);
   const auto onCAD = findVerticesOnCAD(task, facets.records);
+  part.reset();
+  part.emplace(exchange.progress(), 0.75, 0.85);
   const VertexEntities meeting = findVertexEntities(task, hits, facets);
   placeVertices(task, meeting, hits);
+  part.reset();
+  part.emplace(exchange.progress(), 0.85, 1);
 
   ProjectionResult result;
   result.conflicts = giveCorners(task, meeting, onCAD, hits);
@@ -148,7 +158,7 @@ ProjectionResult projectPoints(RankExchange& exchange, DistributedMesh& mesh, co
     }
   }
   const auto answers = answerEvenly<ClosestPoint>(exchange, std::move(questions),
-    [&](const Point3& point) { return model.nearest(point, scope); });
+    [&](const Point3& point) { return model.nearest(point, scope); }, { "projecting", "points" });
   for (std::size_t i = 0; i < vertices.size(); ++i)
   {
     const ClosestPoint& hit = answers.values[i];

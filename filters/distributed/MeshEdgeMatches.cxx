@@ -67,7 +67,8 @@ std::vector<EdgeMatch> matchMeshEdges(const ProjectionTask& task,
   }
   const EdgeFinder finder(task.model());
   const auto answers = answerEvenly<EdgeMatch>(task.exchange, std::move(asked.questions),
-    [&](const MeshEdge& edge) { return finder.find(edge); });
+    [&](const MeshEdge& edge) { return finder.find(edge); },
+    { "finding the CAD edges of", "mesh edges" });
   std::vector<EdgeMatch> best(edges.size());
   for (std::size_t i = 0; i < asked.of.size(); ++i)
   {

@@ -210,7 +210,8 @@ void placeVertices(
     }
   }
   const auto answers = answerEvenly<ClosestPoint>(task.exchange, std::move(questions),
-    [&](const VertexQuestion& question) { return placeOf(task.projector, question); });
+    [&](const VertexQuestion& question) { return placeOf(task.projector, question); },
+    { "placing", "vertices" });
   for (std::size_t i = 0; i < vertices.size(); ++i)
   {
     hits[vertices[i]] = answers.values[i];

@@ -58,13 +58,13 @@ struct Answers
 
 /// function(question) for every question of every rank, wherever there is time for it: the answers
 /// do not depend on where. Questions and answers are plain values; `function` is called from
-/// several threads and must not communicate; where it throws, all ranks throw an Error with the
-/// reason of the lowest rank. Collective. Messages: one number gathered from every rank, and what a
-/// rank has above the mean goes to one of those below it, and the answers back: at most 2 x ranks
-/// messages in all.
+/// several threads and must not communicate; the progress of the run counts them as `work`. Where
+/// it throws, all ranks throw an Error with the reason of the lowest rank. Collective. Messages:
+/// one number gathered from every rank, and what a rank has above the mean goes to one of those
+/// below it, and the answers back: at most 2 x ranks messages in all.
 template<class Answer, class Question, class Function>
-Answers<Answer> answerEvenly(
-  RankExchange& exchange, std::vector<Question> questions, const Function& function)
+Answers<Answer> answerEvenly(RankExchange& exchange, std::vector<Question> questions,
+  const Function& function, const CountedWork& work = {})
 {
   const ParallelFor parallelFor = forOnThreads(exchange);
   const WorkPlan plan = planEvenWork(exchange, questions.size());
@@ -92,7 +92,7 @@ Answers<Answer> answerEvenly(
     [&]
     {
       result.values.resize(questions.size());
-      parallelFor(questions.size(), coarseGrain,
+      forCounted(parallelFor, exchange.progress(), work, plan.balance.total, questions.size(),
         [&](std::size_t begin, std::size_t end)
         {
           const Question* first = questions.data();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Error.h"
+#include "Progress.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -57,6 +58,9 @@ public:
 
   int rank() const { return rank_; }
   int size() const { return size_; }
+
+  /// What this rank tells of the run. Not communicated.
+  Progress& progress() { return progress_; }
 
   /// Whether `mine` holds on any rank.
   bool any(bool mine);
@@ -173,6 +177,7 @@ private:
   template<class T>
   std::vector<T> gatherAll(const std::vector<T>& mine);
 
+  Progress progress_;
   std::unique_ptr<Link> link_; // null where there is one rank
   int rank_ = 0;
   int size_ = 1;

@@ -21,19 +21,21 @@ class Adaptation
 {
 public:
   Adaptation(const StepContext& context, const AdaptationOptions& options,
-    const AdaptationObserver& observer)
-    : context_(context), options_(options), observer_(observer)
+    const std::function<bool()>& isInterrupted)
+    : context_(context), options_(options), isInterrupted_(isInterrupted)
   {
   }
 
   StepResult run(vtkPointSet* input)
   {
-    observer_.progress(0);
-    setMesh(projectMesh(context_, input, options_.projection), 0);
+    {
+      const Progress::Part step = beginStep(0, "Projection");
+      setMesh(project(input), 0);
+    }
     std::string reason = reasonToStop();
     while (reason.empty())
     {
-      observer_.progress(steps_ + 1);
+      const Progress::Part step = beginStep(steps_ + 1, "Step " + std::to_string(steps_ + 1));
       reason = refine();
       if (reason.empty())
       {
@@ -46,9 +48,28 @@ public:
   }
 
 private:
+  static constexpr double partOfMeasuring = 0.7; ///< Of a step, where it begins.
+
+  Progress& progress() const { return context_.exchange.progress(); }
+
+  /// Says its name; the part of it in the progress.
+  Progress::Part beginStep(int step, const std::string& name) const
+  {
+    const double length = 1.0 / (1 + options_.maximumSteps);
+    progress().say(step * length, name);
+    return { progress(), step * length, (step + 1) * length, name + ": " };
+  }
+
+  StepResult project(vtkPointSet* input) const
+  {
+    const Progress::Part part(progress(), 0, partOfMeasuring);
+    return projectMesh(context_, input, options_.projection);
+  }
+
   /// Takes the mesh of the next step, and measures it.
   void setMesh(StepResult step, std::int64_t markedCells)
   {
+    const Progress::Part part(progress(), partOfMeasuring, 1);
     StepResult measured = measureMesh(context_, step.mesh, options_.recursionDepth);
     result_.mesh = measured.mesh;
     result_.route.append(std::move(step.route));
@@ -72,13 +93,19 @@ private:
     {
       return "all steps are done (MaximumSteps)";
     }
-    return context_.exchange.any(observer_.isInterrupted()) ? "interrupted" : "";
+    return context_.exchange.any(isInterrupted_()) ? "interrupted" : "";
+  }
+
+  RefinementOutcome refineNext() const
+  {
+    const Progress::Part part(progress(), 0, partOfMeasuring);
+    return refineMesh(context_, result_.mesh, options_.refinement);
   }
 
   /// Makes a step, or says why not.
   std::string refine()
   {
-    RefinementOutcome refined = refineMesh(context_, result_.mesh, options_.refinement);
+    RefinementOutcome refined = refineNext();
     if (refined.markedCells == 0)
     {
       return "no cell is marked";
@@ -94,7 +121,7 @@ private:
 
   const StepContext& context_;
   const AdaptationOptions& options_;
-  const AdaptationObserver& observer_;
+  const std::function<bool()>& isInterrupted_;
   StepResult result_;
   ConvergenceTable table_;
   int steps_ = 0;
@@ -103,9 +130,9 @@ private:
 } // namespace
 
 StepResult adaptMesh(const StepContext& context, vtkPointSet* input,
-  const AdaptationOptions& options, const AdaptationObserver& observer)
+  const AdaptationOptions& options, const std::function<bool()>& isInterrupted)
 {
-  return Adaptation(context, options, observer).run(input);
+  return Adaptation(context, options, isInterrupted).run(input);
 }
 
 } // namespace cadrefine

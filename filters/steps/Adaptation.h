@@ -23,24 +23,16 @@ struct AdaptationOptions
   double targetError = 0; ///< Global; 0: none.
 };
 
-/// How an adaptation talks while it runs.
-struct AdaptationObserver
-{
-  /// Called before each step, with its number; 0 is the projection.
-  std::function<void(int)> progress;
-  /// Whether the user wants no further steps. Asked on every rank; one that does is enough.
-  std::function<bool()> isInterrupted;
-};
-
 /// Projects the mesh; then measures the error, marks and refines, until the error, the steps or the
 /// cells reach their limit, no cell is marked, or the user interrupts. Collective. Memory: that of
-/// a step, and of the mesh before it.
+/// a step, and of the mesh before it. `isInterrupted`, whether the user wants no further steps, is
+/// asked on every rank between steps; one that does is enough.
 ///
 /// The mesh is that of the last whole step, with its error. The table has a row a step, the first
 /// for the mesh after projection, on rank 0: Step, MarkedCells (cells that were marked to make it),
 /// and the field data of the mesh by their names. Its field data StopReason says why there was no
 /// further step. The other ranks have the columns alone.
 StepResult adaptMesh(const StepContext& context, vtkPointSet* input,
-  const AdaptationOptions& options, const AdaptationObserver& observer);
+  const AdaptationOptions& options, const std::function<bool()>& isInterrupted);
 
 } // namespace cadrefine

@@ -51,10 +51,12 @@ void addErrors(vtkPointSet* output, const MeshError& error)
 
 StepResult measureMesh(const StepContext& context, vtkPointSet* input, int recursionDepth)
 {
+  context.exchange.progress().say(0, "reading the mesh");
   DistributedMesh mesh = makeDistributedMesh(context.exchange, input, CellOrder::FirstOrSecond);
   Classification classification;
   attempt(context.exchange,
     [&] { classification = readClassification(input, mesh.converted.pointOf, context.model); });
+  const Progress::Part part(context.exchange.progress(), 0.2, 1);
   const MeshError error =
     measureError(context.exchange, mesh, context.model, classification, recursionDepth);
 

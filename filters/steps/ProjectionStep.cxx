@@ -20,6 +20,8 @@ namespace
 ProjectionResult projectCells(
   const StepContext& context, DistributedMesh& mesh, ProjectionOptions options)
 {
+  context.exchange.progress().say(0.05, "finding the boundary");
+  const Progress::Part part(context.exchange.progress(), 0.1, 1);
   const DistributedBoundary boundary = findBoundary(context.exchange, mesh, context.model);
   const BoundaryProjector projector(context.model, boundary.kind);
   const std::string warning = warningOfInvalidCells(context.exchange, mesh);
@@ -54,6 +56,7 @@ ProjectionOptions makeProjectionOptions(const double* region, double maximumDist
 StepResult projectMesh(const StepContext& context, vtkPointSet* input, ProjectionOptions options)
 {
   RankExchange& exchange = context.exchange;
+  exchange.progress().say(0, "reading the mesh");
   DistributedMesh mesh = makeDistributedMesh(exchange, input);
   const ProjectionResult result = mesh.mesh().dimension == 0
                                     ? projectPoints(exchange, mesh, context.model, options)

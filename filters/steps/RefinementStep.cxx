@@ -44,21 +44,25 @@ public:
     {
       return { { makeOutput(input), std::move(route_) }, 0, false };
     }
-    makePlan();
-    const bool limited = isTooLarge();
-    if (limited || (options_.onlyIfMarked && markedCells_ == 0))
     {
-      return { {}, markedCells_, limited };
+      const Progress::Part part = beginLevel(0);
+      makePlan();
+      const bool limited = isTooLarge();
+      if (limited || (options_.onlyIfMarked && markedCells_ == 0))
+      {
+        return { {}, markedCells_, limited };
+      }
+      if (options_.balance && exchange_.size() > 1)
+      {
+        balanceCells(input);
+      }
+      refineOnce();
     }
-    if (options_.balance && exchange_.size() > 1)
-    {
-      balanceCells(input);
-    }
-    refineOnce();
     context_.statistics.set("new cells imbalance after",
       findImbalance(exchange_, static_cast<std::int64_t>(mesh_.mesh().cellCount())));
     for (int level = 1; level < options_.levels; ++level)
     {
+      const Progress::Part part = beginLevel(level);
       makePlan();
       refineOnce();
     }
@@ -66,6 +70,19 @@ public:
   }
 
 private:
+  Progress& progress() const { return exchange_.progress(); }
+
+  /// The part of a level in the progress; the mesh is read before the first one.
+  Progress::Part beginLevel(int level) const
+  {
+    constexpr double reading = 0.1;
+    const double length = (1 - reading) / options_.levels;
+    const std::string name = options_.levels > 1 ? "level " + std::to_string(level + 1) + " of " +
+                                                     std::to_string(options_.levels) + ": "
+                                                 : "";
+    return { progress(), reading + level * length, reading + (level + 1) * length, name };
+  }
+
   void checkOutput(vtkPointSet* input) const
   {
     if (options_.quadraticCells && vtkPolyData::SafeDownCast(input))
@@ -82,6 +99,7 @@ private:
 
   void load(vtkPointSet* source)
   {
+    progress().say(0, "reading the mesh");
     {
       const auto stopwatch = watch("seconds reading cells");
       mesh_ = makeDistributedMesh(exchange_, source);
@@ -140,6 +158,7 @@ private:
     {
       toCut.emplace(FacetsToCut{ boundary(), positions_ });
     }
+    progress().say(0, "marking cells");
     const auto stopwatch = watch("seconds marking");
     if (options_.uniform)
     {
@@ -181,6 +200,7 @@ private:
   void balanceCells(vtkPointSet* input)
   {
     Redistribution balanced;
+    progress().say(0.1, "sharing out the cells over the ranks");
     {
       const auto stopwatch = watch("seconds balancing");
       const auto weights = childCounts();
