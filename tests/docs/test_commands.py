@@ -24,6 +24,7 @@ from driver import ENVIRONMENT
 PROGRAMS = {"bash": ["bash", "-euo", "pipefail"], "python": ["pvpython"]}
 LINKED = ("data", "docs", "plugin", "tests")
 TIMEOUT = 240  # Seconds of one program.
+SAY_WHERE = """trap 'echo "line $LINENO failed: $BASH_COMMAND"' ERR\n"""  # Read by bash before the script.
 ERRORS = re.compile(r"ERR\||^ERROR|^Traceback", re.MULTILINE)
 
 
@@ -53,7 +54,10 @@ def run(page, language, blocks, folder, scripts):
     script = os.path.join(scripts, page.name.replace(os.sep, "_") + {"bash": ".sh", "python": ".py"}[language])
     with open(script, "w", encoding="utf-8") as file:
         file.write(text_of(blocks))
-    environment = {**os.environ, **ENVIRONMENT}
+    say_where = os.path.join(scripts, "say_where")
+    with open(say_where, "w", encoding="ascii") as file:
+        file.write(SAY_WHERE)
+    environment = {**os.environ, **ENVIRONMENT, "BASH_ENV": say_where}
     environment.pop("CADREFINE_PLUGIN", None)  # People do not have it either.
     try:
         result = subprocess.run(PROGRAMS[language] + [script], cwd=folder, env=environment, stdout=subprocess.PIPE,
