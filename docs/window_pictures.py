@@ -46,13 +46,8 @@ shown = simple.FindSource({name!r})
 display = simple.Show(shown, view)
 simple.ColorBy(display, ({association!r}, {array!r}))
 display.SetRepresentationType("Surface With Edges")
-colors = simple.GetColorTransferFunction({array!r})
-display.RescaleTransferFunctionToDataRange(False, True)
-if {logarithmic!r}:
-    high = shown.CellData[{array!r}].GetRange(0)[1]
-    colors.RescaleTransferFunction(high * 1e-4, high)
-    colors.MapControlPointsToLogSpace()
-    colors.UseLogScale = 1
+display.EdgeColor = [0.25, 0.25, 0.25]
+display.LineWidth = 0.5
 display.SetScalarBarVisibility(view, True)
 simple.SetActiveSource(shown)
 simple.ResetCamera(view)
@@ -64,10 +59,10 @@ def select(name):
     return [python("from paraview import simple"), python(f"simple.SetActiveSource(simple.FindSource({name!r}))")]
 
 
-def show(window, name, association, array, logarithmic=False):
+def show(window, name, association, array):
     script = window.path(f"show_{array}.py")
     with open(script, "w", encoding="utf-8") as file:
-        file.write(SHOW.format(name=name, association=association, array=array, logarithmic=logarithmic))
+        file.write(SHOW.format(name=name, association=association, array=array))
     return python(f"exec(open({script!r}).read(), {{}})")
 
 
@@ -81,7 +76,7 @@ def play(window, mesh):
     window.play(*select("rod.vtk"), *choose_from_menu("AdaptToCAD"), *choose_cad(), OK,
                 event(PANEL + "ErrorMarking/ComboBox", "activated", "Bulk"),
                 event(PANEL + "MaximumSteps/LineEdit0", "set_string", "6"), APPLY,
-                show(window, "AdapttoCAD1", "CELLS", "GeometricError", logarithmic=True))
+                show(window, "AdapttoCAD1", "CELLS", "GeometricError"))
     window.picture("tutorial_adapted")
 
 
