@@ -2,6 +2,7 @@
 .DEFAULT_GOAL := help
 
 JOBS := $(shell nproc)
+PREFIX := /usr/local
 CCACHE := $(shell command -v ccache)
 CONFIGURE := $(if $(CCACHE),-DCMAKE_CXX_COMPILER_LAUNCHER=$(CCACHE) -DCMAKE_C_COMPILER_LAUNCHER=$(CCACHE))
 SOURCES = $(shell find data filters geom tests -name '*.h' -o -name '*.cxx' -o -name '*.cpp')
@@ -34,6 +35,19 @@ demo: build ## Run the NACA 0012 case on two ranks: tables and pictures in build
 .PHONY: test
 test: build format-check ## Run all tests
 	@ctest --preset release --parallel $(JOBS)
+
+.PHONY: install
+install: ## Install what `make build` made (PREFIX=/usr/local, DESTDIR=)
+	@DESTDIR="$(abspath $(DESTDIR))" cmake --install build/release --prefix "$(PREFIX)"
+	@cp build/release/install_manifest.txt build/installed.txt
+
+.PHONY: uninstall
+uninstall: ## Remove what `make install` installed last (the same DESTDIR)
+	@DESTDIR="$(abspath $(DESTDIR))" plugin/package/uninstall build/installed.txt
+
+.PHONY: package
+package: build ## Make Debian packages: build/*.deb
+	@plugin/package/debian build/release build
 
 .PHONY: benchmarks
 benchmarks: build ## Measure against other programs: tables of rates and ratios

@@ -2,6 +2,9 @@
 
 #include "OccGuard.h"
 
+// Before STEPConstruct_Styles.hxx, which in Open CASCADE 7.8 uses it and does not include it.
+#include <StepData_StepModel.hxx>
+
 #include <Interface_InterfaceModel.hxx>
 #include <Quantity_Color.hxx>
 #include <STEPConstruct_Styles.hxx>

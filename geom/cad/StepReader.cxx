@@ -32,7 +32,9 @@ namespace cadrefine
 namespace
 {
 
-Handle(StepRepr_GlobalUnitAssignedContext) unitsOf(const Handle(Standard_Transient) & entity)
+using Units = Handle(StepRepr_GlobalUnitAssignedContext);
+
+Units unitsOf(const Handle(Standard_Transient) & entity)
 {
   using WithUncertainty = StepGeom_GeomRepContextAndGlobUnitAssCtxAndGlobUncertaintyAssCtx;
   using WithoutUncertainty = StepGeom_GeometricRepresentationContextAndGlobalUnitAssignedContext;
@@ -47,6 +49,16 @@ Handle(StepRepr_GlobalUnitAssignedContext) unitsOf(const Handle(Standard_Transie
   return {};
 }
 
+/// STEPConstruct_UnitContext::ComputeFactors; since Open CASCADE 7.8 it takes the factors of the
+/// session as well: by default, those of a session in millimetres.
+template<class... SessionFactors>
+void computeFactors(STEPConstruct_UnitContext& converter,
+  Standard_Integer (STEPConstruct_UnitContext::*compute)(const Units&, const SessionFactors&...),
+  const Units& units)
+{
+  (converter.*compute)(units, SessionFactors()...);
+}
+
 /// Length of the first unit that the file declares, in millimetres; 1 where it declares none.
 double findLengthUnit(STEPControl_Reader& reader)
 {
@@ -54,9 +66,14 @@ double findLengthUnit(STEPControl_Reader& reader)
   const Handle(StepData_StepModel) model = reader.StepModel();
   for (int number = 1; number <= model->NbEntities(); ++number)
   {
-    const Handle(StepRepr_GlobalUnitAssignedContext) units = unitsOf(model->Value(number));
+    const Units units = unitsOf(model->Value(number));
+    if (units.IsNull())
+    {
+      continue;
+    }
     STEPConstruct_UnitContext converter;
-    if (!units.IsNull() && (converter.ComputeFactors(units), converter.LengthDone()))
+    computeFactors(converter, &STEPConstruct_UnitContext::ComputeFactors, units);
+    if (converter.LengthDone())
     {
       return converter.LengthFactor();
     }
