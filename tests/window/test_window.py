@@ -75,6 +75,11 @@ def choose_cad():
             event(DIALOG + "pipelineView", "mouseRelease", "1,0,0," + click)]
 
 
+def choose_inputs():
+    """The same, and OK."""
+    return [*choose_cad(), event(DIALOG + "buttonBox/1QPushButton0", "activate")]
+
+
 def panel(*fields):
     """The fields of the panel and what they must hold: (name, Qt property, value)."""
     return [check(PANEL + name, qt_property, value) for name, qt_property, value in fields]
@@ -209,13 +214,7 @@ def main():
     window = Window(plugin, output)
     play_all(window, data)
     report_path = report_of(window)
-    status = window.run(TIMEOUT)
-    pictures = window.pictures()
-    log = window.log()
-    if status != 0 or "ERR|" in log:
-        print("\n".join(line for line in log.splitlines() if "Available widget" not in line))
-        reason = f"still ran after {TIMEOUT} s and was ended" if status is None else f"ended with status {status}"
-        sys.exit(f"the window {reason}, or reported an error; pictures and log are in {output}")
+    pictures = window.run_well(TIMEOUT)
     with open(report_path, encoding="utf-8") as file:
         report = json.load(file)
     check_registered(report)

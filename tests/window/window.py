@@ -9,6 +9,7 @@ import re
 import shutil
 import struct
 import subprocess
+import sys
 import zlib
 from xml.sax.saxutils import quoteattr
 
@@ -26,7 +27,7 @@ CONSOLE = "pythonShellDock/pythonShell/consoleWidget"
 
 
 def event(widget, command, arguments=""):
-    """Something done to a widget of the main window."""
+    """Something done to a widget of the main window; the name of another window's begins with a slash."""
     return ("event", widget, command, arguments)
 
 
@@ -81,6 +82,17 @@ class Window:
             finally:
                 process.kill()
                 process.wait()
+
+    def run_well(self, timeout):
+        """The same; says what went wrong and exits, where it did. Leaves the pictures as PNG, and returns them."""
+        status = self.run(timeout)
+        pictures = self.pictures()
+        log = self.log()
+        if status != 0 or "ERR|" in log or "WARN|" in log:
+            print("\n".join(line for line in log.splitlines() if "Available widget" not in line))
+            reason = f"still ran after {timeout} s and was ended" if status is None else f"ended with status {status}"
+            sys.exit(f"the window {reason}, or reported an error; pictures and log are in {self.folder}")
+        return pictures
 
     def log(self):
         with open(self.path("log.txt"), encoding="utf-8", errors="replace") as file:
@@ -140,7 +152,7 @@ class Display:
 
 
 def as_xml(kind, widget, command, arguments):
-    widget = quoteattr(f"pqClientMainWindow/{widget}" if widget else "pqClientMainWindow")
+    widget = quoteattr(widget[1:] if widget.startswith("/") else f"pqClientMainWindow/{widget}".rstrip("/"))
     name = "command" if kind == "event" else "property"
     return f"  <pq{kind} object={widget} {name}={quoteattr(command)} arguments={quoteattr(arguments)} />\n"
 

@@ -62,8 +62,8 @@ void makeLogarithmic(vtkSMProxy* table)
 {
   if (fitToData(table))
   {
-    SM_SCOPED_TRACE(PropertiesModified).arg("proxy", table);
     vtkSMTransferFunctionProxy::MapControlPointsToLogSpace(table);
+    SM_SCOPED_TRACE(PropertiesModified).arg("proxy", table);
     vtkSMPropertyHelper(table, "UseLogScale").Set(1);
     vtkSMPropertyHelper(table, "AutomaticRescaleRangeMode")
       .Set(vtkSMTransferFunctionManager::NEVER);
