@@ -92,18 +92,6 @@ TEST_F(TaggedBall, givesChildrenTheArraysOfTheirParents)
 }
 
 /// Tag triangles must lie where the boundary of the tetrahedra lies, after refinement too.
-// The readers of legacy files and of .vtu files that name them make arrays the scalars.
-TEST_F(TaggedBall, keepsArraysThatAreTheScalars)
-{
-  coarse->GetPointData()->SetActiveScalars("Linear");
-  coarse->GetCellData()->SetActiveScalars("Tag");
-  const auto data = filters.refineUniformly(filters.project(coarse), 1);
-  ASSERT_NE(data->GetPointData()->GetScalars(), nullptr);
-  EXPECT_STREQ(data->GetPointData()->GetScalars()->GetName(), "Linear");
-  ASSERT_NE(data->GetCellData()->GetScalars(), nullptr);
-  EXPECT_STREQ(data->GetCellData()->GetScalars()->GetName(), "Tag");
-}
-
 TEST_F(TaggedBall, keepsTagTrianglesOnTheBoundary)
 {
   auto data = filters.measure(filters.project(coarse), 1);
@@ -128,6 +116,23 @@ TEST_F(TaggedBall, keepsWholeNumbersOfPoints)
   ASSERT_NE(region, nullptr);
   EXPECT_EQ(region->GetDataType(), VTK_INT);
   EXPECT_EQ(valuesOf(region), (std::set<double>{ 0, 1, 2, 3 }));
+}
+
+/// As readers of .vtk and .xdmf files make them.
+TEST_F(TaggedBall, keepsArraysThatAreScalarsOrVectors)
+{
+  coarse->GetPointData()->SetActiveScalars("Linear");
+  coarse->GetCellData()->SetActiveScalars("Tag");
+  coarse->GetCellData()->SetActiveVectors("Colour");
+  const auto data = filters.refineUniformly(filters.project(coarse), 1);
+  ASSERT_NE(data->GetPointData()->GetScalars(), nullptr);
+  EXPECT_STREQ(data->GetPointData()->GetScalars()->GetName(), "Linear");
+  ASSERT_NE(data->GetCellData()->GetScalars(), nullptr);
+  EXPECT_STREQ(data->GetCellData()->GetScalars()->GetName(), "Tag");
+  EXPECT_EQ(valuesOf(data->GetCellData()->GetScalars()).size(), 40u);
+  ASSERT_NE(data->GetCellData()->GetVectors(), nullptr);
+  EXPECT_STREQ(data->GetCellData()->GetVectors()->GetName(), "Colour");
+  EXPECT_NE(data->GetPointData()->GetGlobalIds(), nullptr);
 }
 
 TEST_F(TaggedBall, hasUniqueGlobalIds)
