@@ -32,6 +32,10 @@ build: packages ## Build the plugin (build/release), the tests and the benchmark
 demo: build ## Run the NACA 0012 case on two ranks: tables and pictures in build/demo
 	@/usr/bin/python3 plugin/demo.py --output build/demo
 
+.PHONY: gallery
+gallery: build ## Run the cases of docs/gallery.md: meshes, reports and pictures in build/gallery
+	@/usr/bin/python3 docs/gallery/gallery.py
+
 .PHONY: test
 test: build format-check ## Run all tests
 	@ctest --preset release --parallel $(JOBS)

@@ -22,7 +22,7 @@ DRIVER = "plugin/cadrefine.py"
 
 VIEWS = {  # Case: the driver's options for its pictures.
     "naca": "--view -0.45 -0.85 0.3 --focus 0 0.55 0 0.3 -0.16 0.16",
-    "nose": "--view -0.5 -0.8 0.35 --focus 0.07 0.17 -0.06 0 0.02 0.1",
+    "nose": "--view -0.5 -0.8 0.35 --focus 0.075 0.155 -0.06 0 0.04 0.1",
     "bow": "--view -0.5 0.7 0.3",
     "bearing": "--view -0.3 -0.7 0.5 --focus -0.013 0.013 -0.068 -0.045 0 0.02",
     "arcs": "",
@@ -31,7 +31,8 @@ VIEWS = {  # Case: the driver's options for its pictures.
     "ball": "",
 }
 FURTHER_PICTURES = {  # Case: commands in its folder that draw more.
-    "tee": "pvpython {here}/groups.py mesh.vtu CellEntityIds groups.png -0.55 -0.7 0.45",
+    "tee": "pvpython {here}/groups.py mesh.vtu CellEntityIds groups.png -0.55 -0.7 0.45 "
+           "1=inlet 2=outlet 3=branch 4=wall",
 }
 
 
@@ -81,6 +82,14 @@ class Run:
             sys.exit(f"gallery: {self.case.name}: exit status {status}")
 
 
+def processor_seconds(case, options):
+    """What the case costs without pictures."""
+    before = os.times()
+    Run(case, argparse.Namespace(**{**vars(options), "pictures": False})).run()
+    after = os.times()
+    return after.children_user + after.children_system - before.children_user - before.children_system
+
+
 def environment():
     """As Open MPI wants it of root."""
     as_root = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"} if os.geteuid() == 0 else {}
@@ -110,9 +119,10 @@ def main():
         os.execvp("xvfb-run", ["xvfb-run", "--auto-servernum", sys.executable, *sys.argv])
     for name in options.cases or cases:
         run = Run(cases[name], options)
+        seconds = processor_seconds(cases[name], options) if options.publish else None
         report = run.run()
         if options.publish:
-            page.publish(run, report)
+            page.publish(run, report, seconds)
         print(f"Results in {run.folder}/: {', '.join(sorted(os.listdir(run.path(''))))}")
 
 

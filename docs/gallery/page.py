@@ -7,7 +7,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 PAGE = os.path.join(ROOT, "docs", "gallery.md")
 IMAGES = os.path.join(ROOT, "docs", "images")
 PICTURE_SIZE = (700, 450)
-COLOURS = 64  # Of a picture in the page.
+LARGEST = 80_000  # Bytes of a picture in the page.
 
 SECTION = re.compile(r"^## (?P<name>\w+): (?P<title>.*)\n(?P<text>(?:(?!^## ).*\n)*)", re.MULTILINE)
 BLOCK = re.compile(r"^```console\n(.*?)^```$", re.MULTILINE | re.DOTALL)
@@ -22,7 +22,6 @@ COLUMNS = (  # Heading, key of the step, format.
     ("off the CAD", "unprojected_vertices", "d"),
     ("invalid cells", "invalid_cells", "d"),
     ("least quality", "minimum_quality", ".2f"),
-    ("seconds", "elapsed", ".1f"),
 )
 
 
@@ -44,8 +43,8 @@ def cases():
     return {section["name"]: Case(section) for section in SECTION.finditer(read())}
 
 
-def publish(run, report):
-    """Puts the pictures of a run beside the page, and its figures into it."""
+def publish(run, report, seconds):
+    """Puts the pictures of a run beside the page, and its figures into it; `seconds` are those of the processor."""
     for name in sorted(os.listdir(run.path(""))):
         if name.endswith(".png"):
             shrink(run.path(name), os.path.join(IMAGES, f"gallery_{run.case.name}_{name}"))
@@ -53,7 +52,7 @@ def publish(run, report):
     def with_figures(section):
         if section["name"] != run.case.name:
             return section[0]
-        return TABLE.sub(lambda _: table(report), section[0], count=1)
+        return TABLE.sub(lambda _: table(report, seconds), section[0], count=1)
 
     text = SECTION.sub(with_figures, read())
     with open(PAGE, "w", encoding="utf-8") as file:
@@ -61,20 +60,23 @@ def publish(run, report):
 
 
 def shrink(picture, path):
-    """A smaller picture of few colours."""
+    """A smaller picture, of as many colours as LARGEST allows."""
     from PIL import Image
 
     with Image.open(picture) as image:
         small = image.convert("RGB").resize(PICTURE_SIZE, Image.Resampling.LANCZOS)
-        small.quantize(COLOURS, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE).save(path, optimize=True)
+    for colours in (256, 128, 64):
+        reduced = small.quantize(colours, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
+        reduced.save(path, optimize=True)
+        if os.path.getsize(path) < LARGEST:
+            return
+    raise RuntimeError(f"{path}: is larger than {LARGEST} bytes; take fewer steps or look closer")
 
 
-def table(report):
+def table(report, seconds):
     """First and last step."""
-    elapsed = report["seconds"]["read_cad"] + report["seconds"]["read_mesh"]
-    for step in report["steps"]:
-        elapsed += sum(step["seconds"].values())
-        step["elapsed"] = elapsed
+    steps = report["steps"][0], report["steps"][-1]
     headings = [heading if heading != "error" else f"error ({report['error_measure']})" for heading, _, _ in COLUMNS]
-    rows = [[format(step[key], style) for _, key, style in COLUMNS] for step in (report["steps"][0], report["steps"][-1])]
-    return "".join(f"| {' | '.join(row)} |\n" for row in [headings, ["---"] * len(COLUMNS), *rows])
+    rows = [[format(step[key], style) for _, key, style in COLUMNS] for step in steps]
+    rows = [[*headings, "processor seconds"], ["---"] * (len(COLUMNS) + 1), [*rows[0], ""], [*rows[1], f"{seconds:.1f}"]]
+    return "".join(f"| {' | '.join(row)} |\n" for row in rows)
