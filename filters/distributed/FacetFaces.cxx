@@ -15,8 +15,8 @@ namespace
 {
 
 /// Whether the facet looks alike on the CAD: no edge shorter than half of it or longer than twice,
-/// no corner farther away than half of the longest edge. Facets of walls and of the far field
-/// collapse when their corners are projected.
+/// and, where the user sets no limit, no corner farther away than half of the longest edge. Facets
+/// of walls and of the far field collapse when their corners are projected.
 bool keepsItsShape(
   const ProjectionTask& task, const std::vector<ClosestPoint>& hits, const Facet& facet)
 {
@@ -37,7 +37,7 @@ bool keepsItsShape(
     longest = std::max(longest, before);
     farthest = std::max(farthest, hits[a].distance);
   }
-  return farthest <= 0.5 * longest;
+  return task.options.maximumDistance > 0 || farthest <= 0.5 * longest;
 }
 
 std::vector<FacetRecord> makeRecords(

@@ -5,10 +5,15 @@
 #include "InitialProjection.h"
 #include "MeshSummary.h"
 
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
 #include <vtkPointData.h>
 #include <vtkPointSet.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
 #include <string>
 #include <utility>
 
@@ -31,6 +36,40 @@ ProjectionResult projectCells(
     context.warn(warning);
   }
   return projectBoundary(context.exchange, mesh, projector, boundary, options);
+}
+
+/// Diagonal of the box round the vertices of all ranks.
+double findSize(RankExchange& exchange, const std::vector<Point3>& points)
+{
+  const double infinity = std::numeric_limits<double>::infinity();
+  std::vector<double> low(3, infinity);
+  std::vector<double> high(3, -infinity);
+  for (const Point3& point : points)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      low[axis] = std::min(low[axis], point[axis]);
+      high[axis] = std::max(high[axis], point[axis]);
+    }
+  }
+  low = exchange.min(low);
+  high = exchange.max(high);
+  return std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
+}
+
+/// A mesh in other units, or elsewhere, would look like one that is exact: its error is 0.
+void warnOfNothingProjected(
+  const StepContext& context, const DistributedMesh& mesh, const ProjectionOptions& options)
+{
+  const double size = findSize(context.exchange, mesh.mesh().points);
+  if (context.exchange.rank() == 0)
+  {
+    std::ostringstream text;
+    text << "no vertex of the mesh" << (options.region ? " in the region" : "")
+         << " lies on the CAD. The mesh measures " << size << " across, the CAD "
+         << context.model.size() << "; are they in the same unit and place?";
+    context.warn(text.str());
+  }
 }
 
 } // namespace
@@ -75,6 +114,10 @@ StepResult projectMesh(const StepContext& context, vtkPointSet* input, Projectio
   summariseMesh(exchange, mesh, summariseQuality(exchange, mesh), output);
   summariseProjection(exchange, mesh, result.classification, result.projectedPoints, output);
   summariseConflicts(exchange, mesh, result.conflicts, output);
+  if (output->GetFieldData()->GetArray("CADVertices")->GetTuple1(0) == 0)
+  {
+    warnOfNothingProjected(context, mesh, options);
+  }
   return { output, std::move(route) };
 }
 
