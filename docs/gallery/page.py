@@ -77,6 +77,6 @@ def table(report, seconds):
     """First and last step."""
     steps = report["steps"][0], report["steps"][-1]
     headings = [heading if heading != "error" else f"error ({report['error_measure']})" for heading, _, _ in COLUMNS]
-    rows = [[format(step[key], style) for _, key, style in COLUMNS] for step in steps]
-    rows = [[*headings, "processor seconds"], ["---"] * (len(COLUMNS) + 1), [*rows[0], ""], [*rows[1], f"{seconds:.1f}"]]
+    first, last = ([format(step[key], style) for _, key, style in COLUMNS] for step in steps)
+    rows = [*headings, "processor seconds"], ["---"] * (len(COLUMNS) + 1), [*first, ""], [*last, f"{seconds:.1f}"]
     return "".join(f"| {' | '.join(row)} |\n" for row in rows)
