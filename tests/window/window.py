@@ -67,12 +67,13 @@ class Window:
     def dump(self, name):
         return self.path("output", name + ".xwd")
 
-    def run(self, timeout):
-        """Plays the events; returns the exit status, None where the window had to be killed."""
+    def run(self, timeout, *options):
+        """Plays the events in a window with these options; returns the exit status, None where the window had to be
+        killed."""
         self.write_settings()
         self.write_events()
         with open(self.path("log.txt"), "w", encoding="utf-8") as log, Display(self.path("display")) as display:
-            process = subprocess.Popen(self.command(), env=self.environment(display), stdout=log,
+            process = subprocess.Popen(self.command() + list(options), env=self.environment(display), stdout=log,
                                        stderr=subprocess.STDOUT)
             try:
                 return process.wait(timeout)
@@ -83,9 +84,9 @@ class Window:
                 process.kill()
                 process.wait()
 
-    def run_well(self, timeout):
+    def run_well(self, timeout, *options):
         """The same; says what went wrong and exits, where it did. Leaves the pictures as PNG, and returns them."""
-        status = self.run(timeout)
+        status = self.run(timeout, *options)
         pictures = self.pictures()
         log = self.log()
         if status != 0 or "ERR|" in log or "WARN|" in log:

@@ -1,20 +1,21 @@
 #include "pqMenuReasons.h"
 
-#include "vtkSMNamedArrayDomain.h"
-
 #include <QAction>
 #include <QMainWindow>
 #include <QMenu>
 #include <pqActiveObjects.h>
 #include <pqCoreUtilities.h>
 #include <pqOutputPort.h>
-#include <pqPipelineSource.h>
 #include <pqServer.h>
-#include <vtkSMDomainIterator.h>
+#include <vtkDataObject.h>
+#include <vtkPVDataInformation.h>
+#include <vtkPVXMLElement.h>
 #include <vtkSMProperty.h>
+#include <vtkSMProxy.h>
 #include <vtkSMSessionProxyManager.h>
-#include <vtkSMSourceProxy.h>
-#include <vtkSmartPointer.h>
+
+#include <map>
+#include <string>
 
 namespace
 {
@@ -25,21 +26,30 @@ QMenu* filtersMenu()
   return window ? window->findChild<QMenu*>("menuFilters") : nullptr;
 }
 
-/// Why the data at the port are no input of the filter; empty if its named arrays do not matter.
-QString reasonAgainst(vtkSMProxy* filter, const pqOutputPort& port)
+/// Whether the data meet a condition.
+bool isMet(vtkPVXMLElement* condition, vtkPVDataInformation* data)
+{
+  const std::map<std::string, int> associations{ { "point", vtkDataObject::POINT },
+    { "cell", vtkDataObject::CELL }, { "field", vtkDataObject::FIELD } };
+  const auto association = associations.find(condition->GetAttributeOrEmpty("attribute_type"));
+  int present = 1;
+  condition->GetScalarAttribute("present", &present);
+  return association == associations.end() ||
+         (present != 0) == (data->GetArrayInformation(condition->GetAttributeOrEmpty("array"),
+                              association->second) != nullptr);
+}
+
+/// Why the data are no input of the filter; empty if they meet its conditions.
+QString reasonAgainst(vtkSMProxy* filter, vtkPVDataInformation* data)
 {
   vtkSMProperty* input = filter->GetProperty("Input");
-  if (!input)
+  vtkPVXMLElement* hints = input ? input->GetHints() : nullptr;
+  for (unsigned int i = 0; hints && i < hints->GetNumberOfNestedElements(); ++i)
   {
-    return {};
-  }
-  const auto domains = vtkSmartPointer<vtkSMDomainIterator>::Take(input->NewDomainIterator());
-  for (domains->Begin(); !domains->IsAtEnd(); domains->Next())
-  {
-    auto* domain = vtkSMNamedArrayDomain::SafeDownCast(domains->GetDomain());
-    if (domain && !domain->IsInDomain(port.getSourceProxy(), port.getPortNumber()))
+    vtkPVXMLElement* hint = hints->GetNestedElement(i);
+    if (std::string(hint->GetName()) == "MenuCondition" && !isMet(hint, data))
     {
-      return domain->GetReason();
+      return hint->GetAttributeOrEmpty("reason");
     }
   }
   return {};
@@ -76,15 +86,16 @@ void pqMenuReasons::explain()
   for (QAction* action : filtersMenu()->findChildren<QAction*>())
   {
     const QStringList names = action->data().toStringList(); // group and name of the filter
-    if (names.size() != 2 || action->isEnabled())
+    if (names.size() != 2)
     {
       continue;
     }
     vtkSMProxy* filter =
       proxies->GetPrototypeProxy(qUtf8Printable(names[0]), qUtf8Printable(names[1]));
-    const QString reason = filter ? reasonAgainst(filter, *port) : QString();
+    const QString reason = filter ? reasonAgainst(filter, port->getDataInformation()) : QString();
     if (!reason.isEmpty())
     {
+      action->setEnabled(false);
       action->setStatusTip(reason);
     }
   }

@@ -3,8 +3,15 @@
 
 #include <QObject>
 
-/// Says in the status bar why a filter of the menu CAD Refinement is greyed out, where ParaView
-/// itself knows no more than "Requirements not met".
+/// Greys filters of the menu out where their input lacks an array that they need, or has one that
+/// tells that it is something else, and says why in the status bar. The conditions are hints of the
+/// input property:
+///
+///     <MenuCondition attribute_type="point" array="CADParameters" reason="Apply ... first"/>
+///
+/// attribute_type is point, cell or field; present="0" asks for data without the array. Hints, and
+/// no domain of our own: a client that has not loaded the plugin takes the filters' descriptions
+/// from its server, and could not read such a domain.
 class pqMenuReasons : public QObject
 {
   Q_OBJECT
