@@ -12,7 +12,7 @@ import subprocess
 import sys
 
 from test_session import read_json
-from test_window import APPLY, choose_from_menu, choose_inputs, open_file
+from test_window import APPLY, choose_from_menu, choose_inputs, open_file, panel
 from window import Display, Window, python
 
 TIMEOUT = 150
@@ -117,7 +117,9 @@ def play(window, data, result):
                 *open_file(os.path.join(data, "cylinder.brep")), APPLY,
                 *open_file(os.path.join(data, "cylinder_coarse.vtu")), APPLY)
     window.picture("opened")
-    window.play(*choose_from_menu("AdaptToCAD"), *choose_inputs(), APPLY)
+    window.play(*choose_from_menu("AdaptToCAD"), *choose_inputs(),
+                *panel(("MaximumSteps", "visible", "true"), ("MaximumCells", "visible", "false"),
+                       ("IndicatorThreshold", "visible", "false"), ("CADRegion", "visible", "false")), APPLY)
     window.picture("adapted")
     window.play(python("adapted = simple.FindSource('AdapttoCAD1')"),
                 python("values = {'adapted': adapted_values(adapted), 'ranks': largest_rank(adapted) + 1}"),

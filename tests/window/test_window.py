@@ -45,7 +45,13 @@ def charts():
     return [{"type": item.Input.GetXMLName(), "port": item.Input.Port, "series": list(item.SeriesVisibility)}
             for view in simple.GetViews() if view.GetXMLName() == "XYChartView" for item in view.Representations]
 
-report = {"charts": charts(), "sources": {key[0]: describe(source) for key, source in simple.GetSources().items()},
+def display_of_cad():
+    reader = [source for source in simple.GetSources().values() if source.GetXMLName() == "CADReader"][0]
+    view = [view for view in simple.GetViews() if view.GetXMLName() == "RenderView"][0]
+    display = simple.GetDisplayProperties(reader, view)
+    return {"array": list(display.ColorArrayName), "mapped": display.MapScalars, "blocks": list(display.BlockColors)}
+
+report = {"cad": display_of_cad(), "charts": charts(), "sources": {key[0]: describe(source) for key, source in simple.GetSources().items()},
           "menu": {name: definition("filters", name) for name in FILTERS},
           "functions": [name for name in FUNCTIONS if hasattr(simple, name)]}
 with open(FILE, "w") as file:
@@ -104,8 +110,21 @@ def use(window, name, *actions):
     window.picture("applied_" + name)
 
 
+def coloured_copy(source, target):
+    """Copies an IGES file and gives its surfaces colours: a number in the second line of a directory entry."""
+    with open(source, encoding="ascii") as file:
+        lines = file.readlines()
+    surfaces = [i for i, line in enumerate(lines) if line[72] == "D" and line.startswith("     128")]
+    for count, i in enumerate(surfaces[1::2]):
+        lines[i] = lines[i][:16] + f"{2 + count // 2 % 6:8}" + lines[i][24:]
+    with open(target, "w", encoding="ascii") as file:
+        file.writelines(lines)
+    return target
+
+
 def play_all(window, data):
-    window.play(*open_file(os.path.join(data, "naca0012_sharp.igs")),
+    cad = coloured_copy(os.path.join(data, "naca0012_sharp.igs"), window.path("NACA.IGS"))
+    window.play(*open_file(cad),
                 event(PROPERTIES + "SearchBox/AdvancedButton", "set_boolean", "true"),
                 *panel(("TessellationTolerance/DoubleRangeWidget/DoubleLineEdit", "text", "0.001")), APPLY)
     window.picture("cad")
@@ -127,10 +146,15 @@ def play_all(window, data):
     use(window, "RefineWithCAD",
         *panel(("Method/ComboBox", "currentText", "Longest Edge Bisection"), ("Method/ComboBox", "count", "2"),
                ("Levels/IntRangeWidget/LineEdit", "text", "1"), ("MarkingArray/ComboBox", "currentText", "None"),
-               ("Threshold/DoubleLineEdit0", "text", "0"), ("Fraction", "visible", "false"),
+               ("Threshold", "visible", "false"), ("Fraction", "visible", "false"),
                ("ProjectNewVertices/CheckBox", "checked", "true"),
                ("Balance/CheckBox", "checked", "true")),
+        event(PANEL + "Method/ComboBox", "activated", "Uniform Bisection"),
+        *panel(("MarkingArray", "visible", "false"), ("ChordTolerance", "visible", "false")),
+        event(PANEL + "Method/ComboBox", "activated", "Longest Edge Bisection"),
         event(PANEL + "MarkingArray/ComboBox", "activated", "GeometricError"),
+        *panel(("Threshold", "visible", "true"), ("Threshold/DoubleLineEdit0", "text", "0"),
+               ("Fraction", "visible", "false")),
         event(PANEL + "Threshold/DoubleLineEdit0", "set_string", "1e-5"))
     use(window, "MeshValidity")
     window.play(python("from paraview import simple"),
@@ -166,6 +190,12 @@ def check_registered(report):
         assert report["menu"][name] == "CAD Refinement", f"{name} is in the menu {report['menu'][name]}"
     assert by_type(report, "CADReader")["label"] == "CAD Reader"
     assert report["functions"] == FUNCTIONS, f"paraview.simple has only {report['functions']}"
+
+
+def check_cad(report):
+    """Faces are drawn in the colours of the file, edges and vertices dark."""
+    assert report["cad"]["array"] == ["CELLS", "Color"] and report["cad"]["mapped"] == 0, report["cad"]
+    assert [text for text in report["cad"]["blocks"] if "/" in text] == ["/Root/Edges", "/Root/Vertices"], report["cad"]
 
 
 def check_results(report):
@@ -218,6 +248,7 @@ def main():
     with open(report_path, encoding="utf-8") as file:
         report = json.load(file)
     check_registered(report)
+    check_cad(report)
     check_results(report)
     check_adaptation(report)
     check_pictures(pictures)

@@ -4,6 +4,7 @@ The window is started with folders of settings of its own, so that it neither se
 """
 
 import glob
+import itertools
 import os
 import re
 import shutil
@@ -13,14 +14,12 @@ import sys
 import zlib
 from xml.sax.saxutils import quoteattr
 
-SIZE = (1600, 1100)
-
-SETTINGS = f"""[General]
+SETTINGS = """[General]
 GeneralSettings.ShowWelcomeDialog=false
 [MainWindow]
 Layout=true
 Position=@Point(0 0)
-Size=@Size({SIZE[0]} {SIZE[1]})
+Size=@Size({} {})
 """
 
 CONSOLE = "pythonShellDock/pythonShell/consoleWidget"
@@ -44,7 +43,8 @@ def python(statement):
 class Window:
     """One run of the window; `folder` is emptied and takes events, settings, log and pictures."""
 
-    def __init__(self, plugin, folder):
+    def __init__(self, plugin, folder, size=(1600, 1100)):
+        self.size = size
         self.plugin = plugin
         self.folder = folder
         self.events = []
@@ -72,7 +72,8 @@ class Window:
         killed."""
         self.write_settings()
         self.write_events()
-        with open(self.path("log.txt"), "w", encoding="utf-8") as log, Display(self.path("display")) as display:
+        with open(self.path("log.txt"), "w", encoding="utf-8") as log, \
+                Display(self.path("display"), self.size) as display:
             process = subprocess.Popen(self.command() + list(options), env=self.environment(display), stdout=log,
                                        stderr=subprocess.STDOUT)
             try:
@@ -120,7 +121,7 @@ class Window:
         said = subprocess.run(["pvserver", "--version"], capture_output=True, text=True, timeout=60, check=True).stdout
         number = re.search(r"\d+\.\d+\.\d+", said).group()
         with open(self.path("settings", "ParaView", f"ParaView{number}.ini"), "w", encoding="utf-8") as file:
-            file.write(SETTINGS)
+            file.write(SETTINGS.format(*self.size))
 
     def command(self):
         folder, name = os.path.split(self.plugin)
@@ -134,14 +135,26 @@ class Window:
 
 
 class Display:
-    """An X server whose screen is the file Xvfb_screen0 of a folder. It chooses a free number itself, unlike
-    xvfb-run, which may choose the same one twice where two start at once."""
+    """An X server whose screen is the file Xvfb_screen0 of a folder. Its number comes from the process's: the lowest
+    free one, which Xvfb and xvfb-run would take, may be that of a server that is just ending and takes its socket
+    along."""
 
-    def __init__(self, folder):
-        screen = f"{SIZE[0]}x{SIZE[1]}x24"
-        self.server = subprocess.Popen(["Xvfb", "-displayfd", "1", "-screen", "0", screen, "-fbdir", folder,
+    numbers = itertools.count(100 + os.getpid() % 30000 * 2)
+
+    def __init__(self, folder, size=(1600, 1100)):
+        self.name = ""
+        while not self.name:
+            self.start(f":{next(self.numbers)}", folder, f"{size[0]}x{size[1]}x24")
+
+    def start(self, name, folder, screen):
+        """The name stays empty where it is taken."""
+        self.server = subprocess.Popen(["Xvfb", name, "-displayfd", "1", "-screen", "0", screen, "-fbdir", folder,
                                         "-nolisten", "tcp"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
-        self.name = ":" + self.server.stdout.readline().decode().strip()
+        if self.server.stdout.readline():
+            self.name = name
+        else:
+            self.server.wait()
+            self.server.stdout.close()
 
     def __enter__(self):
         return self

@@ -140,7 +140,8 @@ void pqColourScales::colour(pqRepresentation* representation)
       makeLogarithmic(table);
     }
   }
-  if (array == "CADEntity" && representation->getView())
+  const bool isDirect = vtkSMPropertyHelper(display, "MapScalars", /*quiet*/ true).GetAsInt() == 0;
+  if ((array == "CADEntity" || (array == "Color" && isDirect)) && representation->getView())
   {
     vtkSMPVRepresentationProxy::SetScalarBarVisibility(
       display, representation->getView()->getProxy(), false);

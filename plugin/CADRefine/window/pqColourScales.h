@@ -15,8 +15,9 @@ class vtkSMProxy;
 /// the data while the user leaves it like that. ParaView's own logarithmic scale warns at each
 /// rescaling where some values are 0, as those of all cells away from the CAD are.
 ///
-/// Hides the legend of CAD entities, which would have a line for each of them. What a state file or
-/// the user's saved defaults say is kept.
+/// Hides the legend of CAD entities, which would have a line for each of them, and of the CAD
+/// file's own colours, which has no meaning. What a state file or the user's saved defaults say is
+/// kept.
 class pqColourScales : public QObject
 {
   Q_OBJECT
