@@ -59,9 +59,10 @@ void pqCADDisplay::onAdded(pqRepresentation* added)
   {
     setBlockColours(display, { "Edges", "Vertices" });
   }
-  if (data->GetArrayInformation("Color", vtkDataObject::CELL))
+  auto* coloured = vtkSMPVRepresentationProxy::SafeDownCast(display);
+  if (coloured && data->GetArrayInformation("Color", vtkDataObject::CELL))
   {
-    vtkSMPVRepresentationProxy::SetScalarColoring(display, "Color", vtkDataObject::CELL);
+    coloured->SetScalarColoring("Color", vtkDataObject::CELL);
     vtkSMPropertyHelper(display, "MapScalars", /*quiet*/ true).Set(0);
   }
   display->UpdateVTKObjects();

@@ -40,7 +40,8 @@ bool isSavedByUser(const QString& array)
 
 QString colourArray(vtkSMProxy* display)
 {
-  return vtkSMPVRepresentationProxy::GetUsingScalarColoring(display)
+  auto* coloured = vtkSMPVRepresentationProxy::SafeDownCast(display);
+  return coloured && coloured->GetUsingScalarColoring()
            ? vtkSMPropertyHelper(display, "ColorArrayName").GetInputArrayNameToProcess()
            : "";
 }
@@ -143,8 +144,8 @@ void pqColourScales::colour(pqRepresentation* representation)
   const bool isDirect = vtkSMPropertyHelper(display, "MapScalars", /*quiet*/ true).GetAsInt() == 0;
   if ((array == "CADEntity" || (array == "Color" && isDirect)) && representation->getView())
   {
-    vtkSMPVRepresentationProxy::SetScalarBarVisibility(
-      display, representation->getView()->getProxy(), false);
+    vtkSMPVRepresentationProxy::SafeDownCast(display)->SetScalarBarVisibility(
+      representation->getView()->getProxy(), false);
   }
   representation->renderViewEventually();
 }
