@@ -1,10 +1,12 @@
 """Joins the pieces of a mesh, as they come from the ranks, to one grid without double points."""
 
 import numpy as np
-from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkIdList, vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkUnstructuredGrid
+from vtkmodules.vtkCommonDataModel import vtkUnstructuredGrid
 from vtkmodules.vtkFiltersCore import vtkAppendFilter
+
+import cadrefine_grid
 
 
 # What ParaView adds where a rank reads its part of a file.
@@ -51,11 +53,7 @@ def set_cells(result, grid, order, new_number):
     new_offsets = np.concatenate([[0], np.cumsum(sizes)])
     within = np.arange(new_offsets[-1]) - np.repeat(new_offsets[:-1], sizes)
     connectivity = new_number[corners[np.repeat(offsets[:-1][order], sizes) + within]]
-    cells = vtkCellArray()
-    cells.SetData(numpy_to_vtkIdTypeArray(new_offsets.astype(np.int64), deep=True),
-                  numpy_to_vtkIdTypeArray(connectivity.astype(np.int64), deep=True))
-    types = vtk_to_numpy(grid.GetCellTypesArray())[order]
-    result.SetCells(numpy_to_vtk(types, deep=True), cells)
+    cadrefine_grid.set_cells(result, vtk_to_numpy(grid.GetCellTypesArray())[order], new_offsets, connectivity)
 
 
 def take(source, target, chosen):

@@ -20,7 +20,10 @@ from vtkmodules.vtkRenderingCore import (vtkActor, vtkColorTransferFunction, vtk
                                          vtkRenderWindow, vtkWindowToImageFilter)
 
 import cadrefine_session as session
-from cadrefine_pipeline import field_values, gathered, local_output
+import cadrefine_session as session
+from cadrefine_input import local_output
+from cadrefine_output import gathered
+from cadrefine_pipeline import field_values
 from cadrefine_session import Failure
 
 SIZE = (1400, 900)
@@ -124,12 +127,11 @@ def draw(shown, largest, path, options):
     picture.SetInput(window)
     picture.ReadFrontBufferOff()
     writer = vtkPNGWriter()
-    writer.SetFileName(path + ".part")
+    writer.SetFileName(path)
     writer.SetInputConnection(picture.GetOutputPort())
     writer.Write()
     window.Finalize()
     session.raise_errors(path)
-    os.replace(path + ".part", path)
 
 
 def error_colours(largest):

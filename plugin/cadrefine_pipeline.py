@@ -1,30 +1,30 @@
-"""The chain of filters that the driver runs: readers, projection, error, refinement, writer.
+"""The chain of filters that the driver runs: readers, projection, error, refinement.
 
 Each step adds two filters to the chain, and every filter keeps its output. The memory is therefore that of all
 meshes together: uniform steps cost 1/7 more than the last mesh alone, longest edge steps at most their number
 times the last mesh.
 """
 
-import glob
 import json
-import os
 import time
 
-from paraview import servermanager, simple
+from paraview import simple
 
 import cadrefine_session as session
-from cadrefine_merge import merged_grid
+from cadrefine_input import local_output, open_mesh
 from cadrefine_session import Failure
 
 # Names on the command line, and those of the filters.
 METHODS = {"longest-edge": "Longest Edge Bisection", "uniform": "Uniform Bisection"}
 STRATEGIES = {"threshold": "Threshold", "fraction": "Fraction of Largest", "bulk": "Bulk"}
+TITLES = {"project": "projecting", "error": "measuring the error", "refine": "refining"}
 
 # paraview.simple names the filters after their labels: ProjectOntoCAD, "Project onto CAD", is ProjectontoCAD there.
 
 
 class Pipeline:
-    def __init__(self):
+    def __init__(self, terminal):
+        self.terminal = terminal
         self.mesh = None  # The last filter of the chain.
         self.cad = None
         self.values = {}  # Field data of the last mesh: what was counted over all ranks.
@@ -34,7 +34,7 @@ class Pipeline:
 
     def read_mesh(self, path):
         self.mesh_path = path
-        self.mesh = self.timed("read_mesh", lambda: open_mesh(path))
+        self.mesh = self.timed("read_mesh", lambda: open_mesh(path, self.terminal))
 
     def check(self, options):
         """Finds what cannot be done with the mesh before any work is."""
@@ -45,7 +45,7 @@ class Pipeline:
 
     def read_cad(self, path):
         self.cad = simple.CADReader(FileName=path)
-        self.timed("read_cad", lambda: session.update(self.cad, path))
+        self.timed("read_cad", lambda: self.update(self.cad, path, "reading the CAD"))
 
     def project(self, options):
         self.start_step()
@@ -136,10 +136,14 @@ class Pipeline:
 
     def run(self, phase):
         """Runs the last filter, adds its time to `phase` and takes over what it counted."""
-        self.timed(phase, lambda: session.update(self.mesh, self.mesh_path))
+        self.timed(phase, lambda: self.update(self.mesh, self.mesh_path, TITLES[phase]))
         self.values.update(field_values(local_output(self.mesh)))
         self.mesh.UpdatePipelineInformation()
         self.costs[phase] = json.loads(self.mesh.SMProxy.GetProperty("RunStatistics").GetElement(0))
+
+    def update(self, proxy, path, title):
+        with self.terminal.following(proxy.GetClientSideObject(), title):
+            session.update(proxy, path)
 
     def timed(self, phase, work):
         started = time.perf_counter()
@@ -156,45 +160,6 @@ class Pipeline:
         array = information.GetCellDataInformation().GetArrayInformation("CADEntity")
         return int(array.GetComponentRange(0)[1]) + 1 if array and information.GetNumberOfCells() else 0
 
-    def write(self, path):
-        """Writes the last mesh under another name first, so that no partial file is left behind."""
-        if path.endswith(".pvtu"):
-            write_pieces(self.mesh, path)
-            return
-        grid = gathered(self.mesh)
-        if session.speaks():
-            write_one_file(grid, path)
-
-
-def open_mesh(path):
-    """The reader of a mesh file, its blocks merged to one grid."""
-    try:
-        reader = simple.OpenDataFile(path)
-    except RuntimeError:
-        session.messages.take()
-        raise Failure(f"{path}: ParaView cannot read this as a mesh") from None
-    if reader is None or isinstance(reader, list):
-        raise Failure(f"{path}: ParaView cannot read this as a mesh")
-    if reader.GetXMLName() == "CADReader":
-        raise Failure(f"{path}: this is a CAD file where a mesh is due")
-    session.raise_errors(path)
-    session.update(reader, path)
-    mesh = reader
-    if local_output(mesh).IsA("vtkCompositeDataSet"):
-        mesh = simple.MergeBlocks(Input=reader)
-        session.update(mesh, path)
-    grid = local_output(mesh)
-    if not (grid.IsA("vtkUnstructuredGrid") or grid.IsA("vtkPolyData")):
-        raise Failure(f"{path}: holds a {grid.GetClassName()}, not a mesh of triangles or tetrahedra")
-    if mesh.GetDataInformation().GetNumberOfCells() == 0:
-        raise Failure(f"{path}: the mesh has no cells")
-    return mesh
-
-
-def local_output(proxy):
-    """This rank's piece of the output: the driver and the pipeline share a process."""
-    return proxy.GetClientSideObject().GetOutputDataObject(0)
-
 
 def field_values(data):
     """Field data arrays by name: a number, a list of numbers, or a list of strings. Bytes are left out."""
@@ -208,53 +173,3 @@ def field_values(data):
         single = len(items) == 1 and not isinstance(items[0], str)
         values[array.GetName()] = items[0] if single else items
     return values
-
-
-def gathered(proxy):
-    """All pieces of the output, appended, on rank 0; the other ranks get nothing of use. (servermanager.Fetch would
-    do, but ParaView 5.11 cuts what it gathered into pieces again and returns the first.)"""
-    reducer = servermanager.filters.ReductionFilter(Input=proxy)
-    reducer.PostGatherHelperName = "vtkAppendFilter"
-    reducer.UpdatePipeline()
-    data = local_output(reducer)
-    result = data.NewInstance()
-    result.ShallowCopy(data)
-    simple.Delete(reducer)
-    return result
-
-
-def write_one_file(grid, path):
-    from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
-
-    writer = vtkXMLUnstructuredGridWriter()
-    writer.SetInputData(merged_grid(grid))
-    writer.SetFileName(path + ".part")
-    writer.SetDataModeToBinary()  # VTK 9.2 cannot read appended data back where libexpat has the corrections of 2024.
-    if not writer.Write() or session.messages.errors:
-        if os.path.exists(path + ".part"):
-            os.remove(path + ".part")
-        session.raise_errors(path)
-        raise Failure(f"{path}: could not be written")
-    os.replace(path + ".part", path)
-
-
-def write_pieces(mesh, path):
-    try:
-        simple.SaveData(path, proxy=mesh, DataMode="Binary")
-    except RuntimeError as error:
-        session.messages.errors.append(str(error))
-    if session.messages.errors:
-        if os.path.exists(path):
-            os.remove(path)
-        remove_pieces(path)
-        session.raise_errors(path)
-
-
-def remove_pieces(path):
-    """Removes the pieces of a .pvtu file, NAME/NAME_0.vtu and so on, and nothing else of the user's."""
-    folder = path[: -len(".pvtu")]
-    for piece in glob.glob(glob.escape(os.path.join(folder, os.path.basename(folder))) + "_*.vtu"):
-        if os.path.isfile(piece):
-            os.remove(piece)
-    if os.path.isdir(folder) and not os.listdir(folder):
-        os.rmdir(folder)

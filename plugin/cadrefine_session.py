@@ -12,10 +12,13 @@ from vtkmodules.vtkCommonCore import vtkOutputWindow
 
 PLUGIN = "CADRefine.so"
 
-# Runs on every rank: errors are collected and told once, not printed by each rank.
+# Runs on every rank: errors are collected and told once, not printed by each rank; signals end the process.
 SILENCE = """
+import signal
 from vtkmodules.vtkCommonCore import vtkLogger
 vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
+for ending in (signal.SIGINT, signal.SIGTERM):
+    signal.signal(ending, signal.SIG_DFL)
 """
 
 # Runs on every rank: makes its exit status 1 once it has left MPI and returned from main. (sys.exit would end rank 0
@@ -25,6 +28,19 @@ import ctypes
 libc = ctypes.CDLL(None)
 libc.__cxa_atexit(ctypes.cast(libc._exit, ctypes.c_void_p), ctypes.c_void_p(1), None)
 """
+
+# Runs on every rank: what ends it on a signal is in the plugin, since it must not wait for Python.
+ON_SIGNALS = """
+import ctypes
+from vtkmodules.vtkParallelCore import vtkMultiProcessController
+controller = vtkMultiProcessController.GetGlobalController()
+first = controller is None or controller.GetLocalProcessId() == 0
+plugin = ctypes.CDLL({plugin!r})
+plugin.cadrefineEndOnSignal({line!r} if first else b"")
+for path in {paths!r}:
+    plugin.cadrefineRemoveOnSignal(path)
+"""
+INTERRUPTED = b"cadrefine: interrupted, nothing was written\n"
 
 
 class Failure(Exception):
@@ -125,11 +141,11 @@ def check_readable(path):
 
 def check_writable(path, endings):
     if not path.endswith(endings):
-        raise Failure(f"{path}: the name must end in {' or '.join(endings)}")
+        raise Failure(f"{path}: the name must end in {', '.join(endings)}")
     folder = os.path.dirname(os.path.abspath(path))
     if not os.path.isdir(folder):
         raise Failure(f"{path}: there is no folder {folder}")
-    if os.path.isdir(path) or not os.access(path if os.path.exists(path) else folder, os.W_OK):
+    if os.path.isdir(path) or not all(os.access(item, os.W_OK) for item in (path, folder) if os.path.exists(item)):
         raise Failure(f"{path}: may not be written")
 
 
@@ -152,8 +168,18 @@ def plugin_candidates():
     return [os.path.join(here, PLUGIN)] + release + built + installed
 
 
+loaded_plugin = ""
+
+
+def remove_on_signal(paths):
+    """A signal that ends a rank removes these files, and folders that come before what is in them."""
+    run_on_all_ranks(ON_SIGNALS.format(plugin=loaded_plugin, line=INTERRUPTED,
+                                       paths=[os.fsencode(os.path.abspath(path)) for path in paths]))
+
+
 def load_plugin():
-    """Loads the plugin on every rank."""
+    """Loads the plugin on every rank. From then on, signals end all ranks cleanly."""
+    global loaded_plugin
     found = [path for path in plugin_candidates() if os.path.isfile(path)]
     if not found:
         raise Failure(f"{PLUGIN}: not found; build it (make build) or name it in CADREFINE_PLUGIN")
@@ -165,3 +191,5 @@ def load_plugin():
     raise_errors(path)
     if not hasattr(simple, "CADReader"):
         raise Failure(f"{path}: is not the CADRefine plugin")
+    loaded_plugin = path
+    remove_on_signal([])

@@ -1,0 +1,78 @@
+"""Results are written beside their place, and put there together at the end: a run leaves all of them, or none.
+
+A result FILE is made in the folder FILE.part. Until it is in its place, a failure removes this folder, and so does a
+signal that ends the run, on each rank.
+"""
+
+import os
+import re
+import shutil
+import signal
+
+import cadrefine_session as session
+
+SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+
+
+class Results:
+    """The results that are being made, on the rank that speaks; on the others it does nothing."""
+
+    def __init__(self):
+        self.made = []  # Pairs of the file where it was made, and its place.
+
+    def path(self, place, companions=()):
+        """Where to write what shall become `place`. `companions` are names of other files of the result, beside it or
+        in a folder beside it, that go along with it."""
+        folder = place + ".part"
+        name = os.path.basename(place)
+        if session.speaks():
+            shutil.rmtree(folder, ignore_errors=True)
+            os.mkdir(folder)
+        everything = [os.path.join(folder, item) for item in (*companions, name)]
+        folders = {os.path.dirname(item) for item in everything}
+        session.remove_on_signal(sorted(folders, key=len) + everything)
+        self.made.append(place)
+        return os.path.join(folder, name)
+
+    def keep(self):
+        """Puts all results in their places, undisturbed by signals; the file that names others last."""
+        if not session.speaks():
+            return
+        signal.pthread_sigmask(signal.SIG_BLOCK, SIGNALS)
+        for place in self.made:
+            if place.endswith(".pvtu"):
+                remove_pieces(place)
+            move(place + ".part", os.path.dirname(os.path.abspath(place)), last=os.path.basename(place))
+        self.made = []
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, SIGNALS)
+
+    def discard(self):
+        if session.speaks():
+            for place in self.made:
+                shutil.rmtree(place + ".part", ignore_errors=True)
+        self.made = []
+
+
+def move(source, target, last=None):
+    """Moves what is in the folder `source` into the folder `target`, over what is there."""
+    os.makedirs(target, exist_ok=True)
+    for name in sorted(os.listdir(source), key=lambda name: name == last):
+        path = os.path.join(source, name)
+        if os.path.isdir(path):
+            move(path, os.path.join(target, name))
+        else:
+            os.replace(path, os.path.join(target, name))
+    os.rmdir(source)
+
+
+def remove_pieces(place):
+    """Removes the pieces that the .pvtu file at `place`, if there is one, names, and nothing else of the user's."""
+    if not os.path.isfile(place):
+        return
+    with open(place, encoding="utf-8", errors="replace") as file:
+        pieces = re.findall(r'<Piece\s+Source="([^"]*)"', file.read())
+    folder = os.path.basename(place)[: -len(".pvtu")]
+    for piece in pieces:
+        path = os.path.join(os.path.dirname(os.path.abspath(place)), piece)
+        if re.fullmatch(re.escape(f"{folder}/{folder}_") + r"\d+\.vtu", piece) and os.path.isfile(path):
+            os.remove(path)

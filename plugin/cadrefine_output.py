@@ -1,0 +1,84 @@
+"""Writes the last mesh, in the format that the file's name tells."""
+
+from paraview import servermanager, simple
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
+
+import cadrefine_msh
+import cadrefine_session as session
+import cadrefine_xdmf
+from cadrefine_grid import from_grid
+from cadrefine_input import local_output, silence
+from cadrefine_merge import merged_grid
+
+NOT_KEPT = {
+    ".xdmf": "names of groups, global ids, field data",
+    ".msh": "global ids, field data; arrays are in double precision",
+}
+FORMATS = (".vtu", ".pvtu", *NOT_KEPT)
+
+
+def companions(path):
+    """Names of the other files that a result in this format consists of."""
+    name = path.replace("\\", "/").rpartition("/")[2]
+    if path.endswith(".xdmf"):
+        return [name[: -len(".xdmf")] + ".h5"]
+    if path.endswith(".pvtu"):
+        folder = name[: -len(".pvtu")]
+        return [f"{folder}/{folder}_{rank}.vtu" for rank in range(session.ranks())]
+    return []
+
+
+def write(proxy, path, place):
+    """Writes the output of `proxy` to `path`, which will later be `place`. Failures name `place`."""
+    session.messages.take()
+    try:
+        if path.endswith(".pvtu"):
+            simple.SaveData(path, proxy=proxy, DataMode="Binary")
+        else:
+            grid = gathered(proxy)
+            if session.speaks():
+                write_grid(merged_grid(grid), path)
+    except (OSError, RuntimeError) as error:
+        session.messages.errors.append(getattr(error, "strerror", None) or str(error))
+    session.raise_errors(place)
+
+
+def write_grid(grid, path):
+    if path.endswith(".vtu"):
+        write_vtu(grid, path)
+        return
+    mesh = from_grid(grid)
+    if path.endswith(".msh"):
+        cadrefine_msh.write(path, mesh)
+    else:
+        with silence():
+            cadrefine_xdmf.write(path, mesh)
+
+
+def write_vtu(grid, path):
+    writer = vtkXMLUnstructuredGridWriter()
+    writer.SetInputData(grid)
+    writer.SetFileName(path)
+    writer.SetDataModeToBinary()  # VTK 9.2 cannot read appended data back where libexpat has the corrections of 2024.
+    if not writer.Write():
+        raise OSError("could not be written")
+
+
+def gathered(proxy):
+    """All pieces of the output, appended, on rank 0; the other ranks get nothing of use. (servermanager.Fetch would
+    do, but ParaView 5.11 cuts what it gathered into pieces again and returns the first.)"""
+    reducer = servermanager.filters.ReductionFilter(Input=proxy)
+    reducer.PostGatherHelperName = "vtkAppendFilter"
+    reducer.UpdatePipeline()
+    data = local_output(reducer)
+    result = data.NewInstance()
+    result.ShallowCopy(data)
+    simple.Delete(reducer)
+    return result
+
+
+def remarks(place):
+    """What the reader of the file should know."""
+    for ending, what in NOT_KEPT.items():
+        if place and place.endswith(ending):
+            yield f"Not kept in {place}: {what}"
