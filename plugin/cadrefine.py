@@ -101,15 +101,17 @@ def run(options, results, terminal, started):
 
 
 def write_report(options, content, other, results):
-    if options.report:
-        path = results.path(options.report)
-        if session.speaks():
-            with open(path, "w", encoding="utf-8") as file:
-                file.write(json.dumps(content, indent=2) + "\n")
-    if options.plot:
-        path = results.path(options.plot)
-        if session.speaks():
-            cadrefine_plot.plot(content, path, other)
+    def report(path):
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(json.dumps(content, indent=2) + "\n")
+
+    for place, write in ((options.report, report),
+                         (options.plot, lambda path: cadrefine_plot.plot(content, path, other))):
+        if place and session.speaks():
+            try:
+                write(results.path(place))
+            except OSError as error:
+                raise Failure(f"{place}: {error.strerror}") from None
 
 
 def main(arguments):

@@ -7,7 +7,7 @@ from vtkmodules.vtkFiltersCore import vtkAppendFilter
 
 from cadrefine_grid import to_vtk
 
-VERTEX, POLY_VERTEX, LINE, POLY_LINE = 1, 2, 3, 4  # Of VTK's types of cells.
+VERTEX, POLY_VERTEX, LINE, POLY_LINE, TRIANGLE, TETRAHEDRON = 1, 2, 3, 4, 5, 10  # VTK's types of cells.
 
 
 def joined(data):
@@ -68,3 +68,18 @@ def complete(parts):
                 kind = vtk_to_numpy(array).dtype
                 width = array.GetNumberOfComponents()
                 attributes.AddArray(to_vtk(name, np.zeros((count, width) if width > 1 else count, dtype=kind)))
+
+
+def orient(grid):
+    """Turns tetrahedra of negative volume round, and triangles of the plane z = 0, where there are no tetrahedra."""
+    points = vtk_to_numpy(grid.GetPoints().GetData())
+    offsets = vtk_to_numpy(grid.GetCells().GetOffsetsArray())
+    corners = vtk_to_numpy(grid.GetCells().GetConnectivityArray())
+    types = vtk_to_numpy(grid.GetCellTypesArray())
+    kind, size = (TETRAHEDRON, 4) if (types == TETRAHEDRON).any() else (TRIANGLE, 3)
+    if kind == TRIANGLE and points[:, 2].any():
+        return
+    places = offsets[:-1][types == kind][:, np.newaxis] + np.arange(size)
+    sides = points[corners[places]][:, 1:] - points[corners[places]][:, :1]
+    turned = places[np.linalg.det(sides[:, :, : size - 1]) < 0]
+    corners[turned[:, -2:]] = corners[turned[:, :-3:-1]]

@@ -26,6 +26,7 @@ def read(path):
             reader.SetObjectArrayStatus(kind, name, 1)
     reader.Update()
     grid = joined(reader.GetOutput())
+    grid.GetFieldData().Initialize()
     add_names(grid, reader.GetOutput())
     return grid
 

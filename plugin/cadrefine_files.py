@@ -4,9 +4,9 @@ A result FILE is made in the folder FILE.part. Until it is in its place, a failu
 signal that ends the run, on each rank.
 """
 
+import contextlib
 import os
 import re
-import shutil
 import signal
 
 import cadrefine_session as session
@@ -18,39 +18,46 @@ class Results:
     """The results that are being made, on the rank that speaks; on the others it does nothing."""
 
     def __init__(self):
-        self.made = []  # Pairs of the file where it was made, and its place.
+        self.made = {}  # By the place of each result: paths of its files as they are made, after their folders.
 
     def path(self, place, companions=()):
         """Where to write what shall become `place`. `companions` are names of other files of the result, beside it or
         in a folder beside it, that go along with it."""
         folder = place + ".part"
-        name = os.path.basename(place)
+        files = [os.path.join(folder, name) for name in (*companions, os.path.basename(place))]
+        self.made[place] = sorted({os.path.dirname(file) for file in files}, key=len) + files
+        session.remove_on_signal(self.made[place])
         if session.speaks():
-            shutil.rmtree(folder, ignore_errors=True)
+            remove(self.made[place])
+            if os.path.exists(folder):
+                raise session.Failure(f"{place}: {folder} is in the way")
             os.mkdir(folder)
-        everything = [os.path.join(folder, item) for item in (*companions, name)]
-        folders = {os.path.dirname(item) for item in everything}
-        session.remove_on_signal(sorted(folders, key=len) + everything)
-        self.made.append(place)
-        return os.path.join(folder, name)
+        return files[-1]
 
     def keep(self):
         """Puts all results in their places, undisturbed by signals; the file that names others last."""
         if not session.speaks():
             return
         signal.pthread_sigmask(signal.SIG_BLOCK, SIGNALS)
-        for place in self.made:
+        for place in list(self.made):
             if place.endswith(".pvtu"):
                 remove_pieces(place)
             move(place + ".part", os.path.dirname(os.path.abspath(place)), last=os.path.basename(place))
-        self.made = []
+            del self.made[place]
         signal.pthread_sigmask(signal.SIG_UNBLOCK, SIGNALS)
 
     def discard(self):
         if session.speaks():
-            for place in self.made:
-                shutil.rmtree(place + ".part", ignore_errors=True)
-        self.made = []
+            for paths in self.made.values():
+                remove(paths)
+        self.made = {}
+
+
+def remove(paths):
+    """Removes files, and folders that come before what is in them; what is not there is no matter."""
+    for path in reversed(paths):
+        with contextlib.suppress(OSError):
+            (os.rmdir if os.path.isdir(path) else os.remove)(path)
 
 
 def move(source, target, last=None):

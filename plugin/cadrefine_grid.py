@@ -8,8 +8,8 @@ from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkUnstructuredGrid
 
 PHYSICAL, GEOMETRICAL = "gmsh:physical", "gmsh:geometrical"  # Cell arrays, named as meshio names them.
-# Cell arrays that tell groups of cells, the one that counts first: of gmsh, Medit, Exodus, SU2, gmsh's .vtk files.
-TAG_ARRAYS = (PHYSICAL, "medit:ref", "ObjectId", "su2:tag", "nastran:ref", "CellEntityIds", "MaterialIds")
+# Cell arrays that tell groups of cells, the first of them counts: of gmsh, Medit, Exodus, SU2, Netgen, .vtk files.
+TAG_ARRAYS = (PHYSICAL, "medit:ref", "ObjectId", "su2:tag", "netgen:index", "CellEntityIds", "MaterialIds")
 
 TYPES = {  # VTK's number of a type of cell: its name in meshio, its dimension, its number of points.
     1: ("vertex", 0, 1), 3: ("line", 1, 2), 5: ("triangle", 2, 3), 9: ("quad", 2, 4), 10: ("tetra", 3, 4),
@@ -72,7 +72,7 @@ def in_space(points):
 
 
 def from_grid(grid):
-    """A Mesh whose cells are ordered by type, those of the same type as they were; ids and ghost arrays are left out."""
+    """A Mesh with the cells ordered by type, those of a type as they were; ids and ghost arrays are left out."""
     types = vtk_to_numpy(grid.GetCellTypesArray())
     offsets = vtk_to_numpy(grid.GetCells().GetOffsetsArray())
     corners = vtk_to_numpy(grid.GetCells().GetConnectivityArray())

@@ -39,28 +39,29 @@ formats of MESH (triangles or tetrahedra; cells of lower dimension carry tags):
   .xdmf                     as written by meshio, DOLFIN, DOLFINx, ParaView; all grids of the domain
   .e .ex2 .exo              Exodus: element blocks and side sets
   .mesh                     Medit         (this and the next ones: through python3-meshio)
-  .inp                      Abaqus; sets of elements become cell arrays of 0 and 1
-  .su2 .vol .bdf            SU2, Netgen, Nastran
+  .inp                      Abaqus; sets of elements become groups, and cell arrays of 0 and 1
+  .su2 .vol                 SU2, Netgen
   Tags of gmsh are the cell arrays gmsh:physical and gmsh:geometrical, those of Medit medit:ref, of
   Exodus ObjectId. Names of groups are field data of the mesh, and are written to .msh files.
   Of a time series the first time step is read.
 
 formats of --output:
-  .vtu   one file                  .pvtu  a file for each rank, in a folder beside it; for large meshes
+  .vtu   one file
+  .pvtu  a file for each rank, in a folder beside it: for large meshes
   .xdmf  with an .h5 file beside it, for DOLFIN, DOLFINx and ParaView: the grid "mesh", and the grid
          "facets" with the tags of the boundary as "facet_tags"
   .msh   gmsh 2.2, binary, with physical groups and their names
 
 table:
-  step; vertices and cells of the mesh; vertices on the CAD; points looked up on the CAD in this step;
-  global geometric error (area in 2D, volume in 3D); largest distance from the boundary to the CAD;
-  inverted or degenerate cells; vertices that had to stop on the way to the CAD; least quality of a
-  cell (mean ratio, 1 is best); seconds of the step; what was done in it.
+  step; vertices and cells of the mesh; vertices on the CAD; points looked up on the CAD in this
+  step; global geometric error (area in 2D, volume in 3D); largest distance from the boundary to the
+  CAD; inverted or degenerate cells; vertices that had to stop on the way to the CAD; least quality
+  of a cell (mean ratio, 1 is best); seconds of the step; what was done in it.
 
 environment:
-  CADREFINE_PLUGIN    the plugin CADRefine.so, if it is neither built beside the driver nor installed
-  NO_COLOR            if set, no colours; they are used on terminals alone
-  VTK_SMP_MAX_THREADS most threads of a rank (default: the cores that mpirun bound it to)
+  CADREFINE_PLUGIN     the plugin CADRefine.so, where it is neither built nor installed as usual
+  NO_COLOR             if set, no colours; they are used on terminals alone
+  VTK_SMP_MAX_THREADS  most threads of a rank (default: the cores that mpirun bound it to)
 
 exit status:
   0     done; results are in their places

@@ -22,8 +22,7 @@ from cadrefine_session import Failure
 
 EXODUS = (".e", ".ex2", ".exo", ".exii", ".g")
 XDMF = (".xdmf", ".xmf")
-MESHIO = {".mesh": "medit", ".meshb": "medit", ".su2": "su2", ".vol": "netgen", ".bdf": "nastran", ".nas": "nastran",
-          ".fem": "nastran"}  # Its modules by file name extension.
+MESHIO = {".mesh": "medit", ".meshb": "medit", ".su2": "su2", ".vol": "netgen"}  # Its modules by extension.
 BAD_FILE = (cadrefine_msh_numbers.BadFile, cadrefine_meshio.BadFile, cadrefine_xdmf.BadFile)
 
 # Runs on every rank, in the process of the driver on rank 0, whose grid it hands over.

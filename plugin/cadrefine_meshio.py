@@ -4,9 +4,9 @@ import importlib
 
 import numpy as np
 
-from cadrefine_grid import TYPE_OF_NAME, Mesh
+from cadrefine_grid import PHYSICAL, TYPE_OF_NAME, Mesh, tag_array
 
-NOT_KEPT = {"medit:ref", "gmsh:dim_tags", "nastran:ref"}  # Tags of points, which could only be interpolated.
+NOT_KEPT = {"medit:ref", "gmsh:dim_tags"}  # Tags of points, which could only be interpolated.
 
 
 class BadFile(Exception):
@@ -14,12 +14,13 @@ class BadFile(Exception):
 
 
 def read(path, module):
-    """The Mesh that meshio's `module` makes of the file. Sets of cells become cell arrays of 0 and 1. Throws BadFile."""
+    """The Mesh that meshio's `module` makes of the file. Sets of cells become cell arrays of 0 and 1, and, where the
+    file has no other tags, groups: a cell of several sets is in the first of them. Throws BadFile."""
     try:
         reader = importlib.import_module("meshio." + module)
     except ImportError as error:
-        raise BadFile(f"to read it, the Python package {error.name or 'meshio'} is needed (Debian: python3-meshio)"
-                      ) from None
+        package = (error.name or "meshio").partition(".")[0]
+        raise BadFile(f"to read it, the Python package {package} is needed (Debian: python3-{package})") from None
     try:
         source = reader.read(path)
     except (Exception, SystemExit) as error:  # meshio lets through whatever went wrong.
@@ -38,7 +39,22 @@ def converted(source):
         cell_data[name] = np.concatenate([members(part, len(corners)) for part, (_, corners) in zip(chosen, blocks)])
     point_data = {name: values for name, values in source.point_data.items() if name not in NOT_KEPT}
     groups = {name: (int(pair[0]), int(pair[1])) for name, pair in source.field_data.items() if len(pair) == 2}
-    return Mesh(source.points, blocks, only_numbers(point_data), only_numbers(cell_data), groups)
+    mesh = Mesh(source.points, blocks, only_numbers(point_data), only_numbers(cell_data), groups)
+    if source.cell_sets and tag_array(mesh.cell_data) is None:
+        add_groups(mesh, list(source.cell_sets))
+    return mesh
+
+
+def add_groups(mesh, set_names):
+    """Tags from 1 on, in each dimension that a set has cells of; the name goes to the highest of them."""
+    dimensions = mesh.cell_dimensions()
+    tags = np.zeros(len(dimensions), dtype=np.int32)
+    for tag, name in enumerate(set_names, 1):
+        inside = mesh.cell_data[name] == 1
+        tags[inside & (tags == 0)] = tag
+        if inside.any():
+            mesh.groups[name] = (tag, int(dimensions[inside].max()))
+    mesh.cell_data[PHYSICAL] = tags
 
 
 def members(chosen, count):

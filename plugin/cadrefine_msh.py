@@ -113,7 +113,8 @@ def set_fields(arrays, fields, all_tags):
 
 
 def write(path, mesh):
-    """Cells outside all groups have the group 0, which is none. Tags are those of the first array of TAG_ARRAYS."""
+    """Cells outside all groups have the group 0, which is none. Tags are those of the first array of TAG_ARRAYS. Other
+    cell arrays are left out: meshio 5 cannot read a file that has any."""
     groups, count = tags_of(mesh), len(mesh.points)
     entities = np.maximum(mesh.cell_data.get(GEOMETRICAL, np.maximum(groups, 1)), 1).astype(np.int32)
     with open(path, "wb") as file:
@@ -132,10 +133,8 @@ def write(path, mesh):
             file.write(np.array([kind, len(corners), 2], dtype=np.int32).tobytes() + rows.astype(np.int32).tobytes())
             first = last
         file.write(b"\n$EndElements\n")
-        for section, arrays in (("NodeData", mesh.point_data), ("ElementData", mesh.cell_data)):
-            for name, values in arrays.items():
-                if name not in (GEOMETRICAL, tag_array(mesh.cell_data)):
-                    write_field(file, section, name, values)
+        for name, values in mesh.point_data.items():
+            write_field(file, "NodeData", name, values)
 
 
 def tags_of(mesh):

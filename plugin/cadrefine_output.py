@@ -12,16 +12,16 @@ from cadrefine_merge import merged_grid
 
 NOT_KEPT = {
     ".xdmf": "names of groups, global ids, field data",
-    ".msh": "global ids, field data; arrays are in double precision",
+    ".msh": "cell arrays but for tags, global ids, field data but for names of groups",
 }
 FORMATS = (".vtu", ".pvtu", *NOT_KEPT)
 
 
 def companions(path):
-    """Names of the other files that a result in this format consists of."""
+    """Names of the other files that a result in this format consists of, or is made from."""
     name = path.replace("\\", "/").rpartition("/")[2]
     if path.endswith(".xdmf"):
-        return [name[: -len(".xdmf")] + ".h5"]
+        return [name[: -len(".xdmf")] + ".h5", cadrefine_xdmf.SERIAL + name]
     if path.endswith(".pvtu"):
         folder = name[: -len(".pvtu")]
         return [f"{folder}/{folder}_{rank}.vtu" for rank in range(session.ranks())]

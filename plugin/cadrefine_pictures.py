@@ -20,7 +20,6 @@ from vtkmodules.vtkRenderingCore import (vtkActor, vtkColorTransferFunction, vtk
                                          vtkRenderWindow, vtkWindowToImageFilter)
 
 import cadrefine_session as session
-import cadrefine_session as session
 from cadrefine_input import local_output
 from cadrefine_output import gathered
 from cadrefine_pipeline import field_values
@@ -56,7 +55,11 @@ self.GetOutputDataObject(0).ShallowCopy(last.GetOutput())
 
 
 def check_display():
-    """A picture needs an X server, and VTK crashes without one."""
+    """Where VTK draws through X, a picture needs an X server, and VTK crashes without one. (With EGL or OSMesa none.)"""
+    import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  (makes the window one that draws)
+
+    if not vtkRenderWindow().IsA("vtkXOpenGLRenderWindow"):
+        return
     if not os.environ.get("DISPLAY"):
         raise Failure("a screenshot needs a display, and DISPLAY is not set; run it under xvfb-run")
     name = ctypes.util.find_library("X11")

@@ -8,7 +8,7 @@ import numpy as np
 from vtkmodules.vtkCommonDataModel import vtkMultiBlockDataSet, vtkUnstructuredGrid
 from vtkmodules.vtkIOXdmf2 import vtkXdmfReader, vtkXdmfWriter
 
-from cadrefine_blocks import joined
+from cadrefine_blocks import joined, orient
 from cadrefine_grid import TYPES, Mesh, arrays_of, tag_array, to_grid, to_vtk
 
 SERIAL = "SERIAL:"  # Before the name of an HDF5 file: this process opens it alone, not all ranks together.
@@ -26,6 +26,8 @@ class BadFile(Exception):
 def read(path):
     """All grids of the file's domain as one, of a series the first time step. Throws BadFile."""
     tree = parse(path)
+    if tree.find(".//Grid/Topology") is None or tree.find(".//Grid/Geometry") is None:
+        raise BadFile("it holds no grid of cells")  # VTK's reader would crash.
     folder = os.path.dirname(os.path.abspath(path))
     for item in tree.iter("DataItem"):
         if item.get("Format", "XML").upper() != "HDF" or ":" not in (item.text or ""):
@@ -47,6 +49,7 @@ def read(path):
         raise BadFile("it holds no grid that can be read")
     grid = joined(reader.GetOutputDataObject(0))
     grid.GetCellData().RemoveArray(FACET_TAGS)
+    orient(grid)  # DOLFIN orders the corners of a cell by their numbers.
     return grid
 
 

@@ -45,7 +45,7 @@ class Run:
     def command(ranks, folder, arguments):
         arguments = [DRIVER, *map(str, arguments)]
         if ranks == 0:
-            return ["pvpython", *arguments]
+            return [*launcher(0), *arguments]
         # Each rank leaves its exit status in a file; mpirun sees 0, and so ends none of them early.
         script = 'pvbatch "$@"; echo $? > "$0/$OMPI_COMM_WORLD_RANK"'
         return ["mpirun", "-np", str(ranks), "sh", "-c", script, folder, *arguments]
@@ -65,3 +65,25 @@ def report_of(ranks, *arguments):
         assert not run.errors, run.errors
         with open(path, encoding="utf-8") as file:
             return json.load(file)
+
+
+def launcher(ranks):
+    """Command that starts ParaView's Python; `ranks` 0 stands for pvpython."""
+    return ["mpirun", "-np", str(ranks), "pvbatch"] if ranks else ["pvpython"]
+
+
+def many(ranks, folder, runs):
+    """Makes all `runs`, as many_runs.py takes them, in one process. Returns the line of the failure of each, or None,
+    and what was printed. `folder` is for files in between."""
+    told, results = os.path.join(folder, "runs.json"), os.path.join(folder, "results.json")
+    with open(told, "w", encoding="utf-8") as file:
+        json.dump(runs, file)
+    program = os.path.join(os.path.dirname(os.path.abspath(__file__)), "many_runs.py")
+    result = subprocess.run([*launcher(ranks), program, told, results], env={**os.environ, **ENVIRONMENT}, text=True,
+                            capture_output=True, timeout=TIMEOUT, check=False)
+    assert result.returncode == 0 and not result.stderr.strip(), (result.stdout, result.stderr)
+    with open(results, encoding="utf-8") as file:
+        failures = json.load(file)
+    os.remove(told)
+    os.remove(results)
+    return failures, result.stdout

@@ -1,0 +1,148 @@
+"""Meshes of one body in the formats of other programs, written by these where they are at hand."""
+
+import os
+import subprocess
+import sys
+
+import gmsh
+import meshio
+import numpy as np
+from scipy.io import netcdf_file
+
+BODY, WALL, ENDS, RIM = 10, 20, 21, 30  # Tags of the physical groups.
+GROUPS = {"solid body": (BODY, 3), "wall": (WALL, 2), "ends": (ENDS, 2), "rim": (RIM, 1)}
+
+DOLFIN = """
+import sys
+import dolfin as df
+mesh = df.Mesh()
+folder = sys.argv[1]
+with df.XDMFFile(folder + "/tetrahedra.xdmf") as file:
+    file.read(mesh)
+tags = df.MeshFunction("size_t", mesh, 2, 0)
+df.CompiledSubDomain("on_boundary && x[2] < 0.02").mark(tags, 5)
+tags.rename("tags", "tags")
+with df.XDMFFile(folder + "/dolfin.xdmf") as file:
+    file.write(mesh)
+    file.write(tags)
+with df.XDMFFile(folder + "/square.xdmf") as file:
+    file.write(df.UnitSquareMesh(3, 3))
+"""
+
+
+def write_gmsh(cad, folder):
+    """The body of a CAD file in the formats that gmsh writes. Part of the walls belongs to no group."""
+    gmsh.initialize()
+    try:
+        gmsh.option.setNumber("General.Terminal", 0)
+        gmsh.model.occ.importShapes(cad)
+        gmsh.model.occ.synchronize()
+        faces = [tag for _, tag in gmsh.model.getEntities(2)]
+        edges = [tag for _, tag in gmsh.model.getEntities(1)]
+        members = {"solid body": [1], "wall": faces[:2], "ends": faces[3:], "rim": edges[:1]}
+        for name, (tag, dimension) in GROUPS.items():
+            gmsh.model.addPhysicalGroup(dimension, members[name], tag)
+            gmsh.model.setPhysicalName(dimension, tag, name)
+        gmsh.option.setNumber("Mesh.MeshSizeMin", 0.6)
+        gmsh.option.setNumber("Mesh.MeshSizeMax", 0.8)
+        gmsh.model.mesh.generate(3)
+        for version, binary in ((2.2, 0), (2.2, 1), (4.1, 0), (4.1, 1)):
+            gmsh.option.setNumber("Mesh.MshFileVersion", version)
+            gmsh.option.setNumber("Mesh.Binary", binary)
+            gmsh.write(os.path.join(folder, f"gmsh{version:.0f}{'binary' if binary else 'text'}.msh"))
+        gmsh.option.setNumber("Mesh.Binary", 0)
+        for ending in ("mesh", "inp", "vtk", "su2"):
+            gmsh.write(os.path.join(folder, "gmsh." + ending))
+        gmsh.option.setNumber("Mesh.SaveAll", 1)  # In this file, some cells belong to no group.
+        gmsh.model.addPhysicalGroup(2, faces[:1], 22)  # And some to two.
+        gmsh.model.setPhysicalName(2, 22, "first wall")
+        gmsh.write(os.path.join(folder, "all.msh"))
+    finally:
+        gmsh.finalize()
+
+
+def write_meshio(folder):
+    """The same, from gmsh's file, as XDMF in text and in HDF5, and Netgen."""
+    mesh = meshio.gmsh.read(os.path.join(folder, "gmsh2text.msh"))
+    meshio.write(os.path.join(folder, "text.xdmf"), mesh, data_format="XML")
+    meshio.write(os.path.join(folder, "mixed.xdmf"), mesh)
+    alone = meshio.Mesh(mesh.points, {"tetra": mesh.cells_dict["tetra"]},
+                        cell_data={"gmsh:physical": [mesh.get_cell_data("gmsh:physical", "tetra")]})
+    for name in ("tetrahedra.xdmf", "meshio.vol"):
+        meshio.write(os.path.join(folder, name), alone)
+
+
+def write_dolfin(folder):
+    """Tetrahedra, and in a second grid tags of all faces: 5 below, 0 on the others; and a square of triangles."""
+    subprocess.run([sys.executable, "-c", DOLFIN, folder], check=True, capture_output=True)
+
+
+def write_exodus(folder):
+    """Two element blocks and a side set, by the letter of the format (netCDF 3)."""
+    mesh = meshio.gmsh.read(os.path.join(folder, "gmsh2text.msh"))
+    cells, triangles = mesh.cells_dict["tetra"] + 1, mesh.cells_dict["triangle"] + 1
+    blocks = cells[:100], cells[100:]
+    wall = triangles[mesh.get_cell_data("gmsh:physical", "triangle") == WALL]
+    sides = sides_of(cells, wall)
+    with netcdf_file(os.path.join(folder, "exodus.ex2"), "w", version=2) as file:
+        file.api_version = file.version = np.float32(5)
+        file.floating_point_word_size, file.file_size, file.title = np.int32(8), np.int32(1), "test"
+        file.createDimension("time_step", None)
+        sizes = {"len_string": 33, "len_line": 81, "len_name": 33, "four": 4, "num_dim": 3,
+                 "num_nodes": len(mesh.points), "num_elem": len(cells), "num_el_blk": 2, "num_side_sets": 1,
+                 "num_side_ss1": len(sides)}
+        for number, block in enumerate(blocks, 1):
+            sizes.update({f"num_el_in_blk{number}": len(block), f"num_nod_per_el{number}": 4})
+        for name, size in sizes.items():
+            file.createDimension(name, size)
+        file.createVariable("time_whole", "d", ("time_step",))
+        for axis, values in zip("xyz", mesh.points.T):
+            file.createVariable("coord" + axis, "d", ("num_nodes",))[:] = values
+        add_names(file, "eb", "num_el_blk", {1: "steel", 2: "air"})
+        add_names(file, "ss", "num_side_sets", {7: "wall"})
+        for number, block in enumerate(blocks, 1):
+            table = file.createVariable(f"connect{number}", "i", (f"num_el_in_blk{number}", f"num_nod_per_el{number}"))
+            table[:] = block
+            table.elem_type = "TETRA"
+        for name, values in zip(("elem_ss1", "side_ss1"), sides.T):
+            file.createVariable(name, "i", ("num_side_ss1",))[:] = values
+    return {1: len(blocks[0]), 2: len(blocks[1]), 7: len(wall)}
+
+
+def add_names(file, kind, dimension, names):
+    ids = file.createVariable(kind + "_prop1", "i", (dimension,))
+    ids[:] = list(names)
+    ids.name = "ID"
+    file.createVariable(kind + "_status", "i", (dimension,))[:] = 1
+    table = file.createVariable(kind + "_names", "c", (dimension, "len_name"))
+    for row, name in enumerate(names.values()):
+        table[row] = np.array(list(name.ljust(33, "\0")), "S1")
+
+
+def sides_of(cells, triangles):
+    """Number of the tetrahedron and of its side, both from 1, for each triangle."""
+    corners = [[0, 1, 3], [1, 2, 3], [0, 2, 3], [0, 1, 2]]  # Exodus's sides 1 to 4.
+    found = {}
+    for side, chosen in enumerate(corners, 1):
+        for cell, triple in enumerate(np.sort(cells[:, chosen], axis=1).tolist(), 1):
+            found[tuple(triple)] = cell, side
+    return np.array([found[tuple(triple)] for triple in np.sort(triangles, axis=1).tolist()])
+
+
+def write_plane(folder):
+    """A square in the plane z = 0, with tagged sides, by gmsh."""
+    gmsh.initialize()
+    try:
+        gmsh.option.setNumber("General.Terminal", 0)
+        gmsh.model.occ.addDisk(0, 0, 0, 1, 1)
+        gmsh.model.occ.synchronize()
+        gmsh.model.addPhysicalGroup(2, [1], 3)
+        gmsh.model.addPhysicalGroup(1, [1], 4)
+        gmsh.model.setPhysicalName(1, 4, "rim")
+        gmsh.option.setNumber("Mesh.MeshSizeMin", 0.5)
+        gmsh.option.setNumber("Mesh.MeshSizeMax", 0.5)
+        gmsh.model.mesh.generate(2)
+        gmsh.write(os.path.join(folder, "disc.msh"))
+        gmsh.write(os.path.join(folder, "disc.brep"))
+    finally:
+        gmsh.finalize()

@@ -1,0 +1,223 @@
+#!/usr/bin/python3
+"""Meshes of other programs are read with their tags, and are written so that other programs read them."""
+
+import contextlib
+import io
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import driver
+import gmsh
+import meshes
+import meshio
+import numpy as np
+
+RANKS = int(sys.argv.pop()) if sys.argv[-1].isdigit() else 1
+CAD = driver.data("cylinder.brep")
+CHILDREN = {"tetra": 8, "triangle": 4, "line": 2}  # Of each cell in a uniform step.
+TAGS = {**{f"gmsh{kind}.msh": "gmsh:physical" for kind in ("2text", "2binary", "4text", "4binary")},
+        "text.xdmf": "gmsh:physical", "mixed.xdmf": "gmsh:physical", "gmsh.vtk": "CellEntityIds"}
+
+READ_XDMF = """
+import json, sys
+import dolfin as df
+mesh, found = df.Mesh(), {}
+with df.XDMFFile(sys.argv[1]) as file:
+    file.read(mesh)
+    dimension = mesh.topology().dim()
+    for name, of in (("gmsh:physical", dimension), ("facet_tags", dimension - 1)):
+        tags = df.MeshValueCollection("size_t", mesh, of)
+        file.read(tags, name)
+        values = list(tags.values().values())
+        found[name] = {value: values.count(value) for value in set(values)}
+print(json.dumps([mesh.geometry().dim(), dimension, mesh.num_cells(), found]))
+"""
+
+
+def counted(mesh, name):
+    """How many cells of each type have each tag: {type: {tag: count}}."""
+    found = {}
+    for block, values in zip(mesh.cells, mesh.cell_data[name]):
+        for tag in np.unique(values):
+            of_type = found.setdefault(block.type, {})
+            of_type[int(tag)] = of_type.get(int(tag), 0) + int((values == tag).sum())
+    return found
+
+
+def children(counts):
+    return {kind: {tag: CHILDREN[kind] * count for tag, count in tags.items()} for kind, tags in counts.items()}
+
+
+class Formats(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = folder.name
+        meshes.write_gmsh(CAD, cls.folder)
+        meshes.write_meshio(cls.folder)
+        meshes.write_dolfin(cls.folder)
+        meshes.write_plane(cls.folder)
+        cls.exodus = meshes.write_exodus(cls.folder)
+        cls.coarse = meshio.gmsh.read(cls.path("gmsh2text.msh"))
+        step = ["--steps", "1", "--method", "uniform"]
+        names = [*TAGS, "all.msh", "gmsh.mesh", "gmsh.inp", "gmsh.su2", "meshio.vol", "dolfin.xdmf",
+                 "exodus.ex2"]
+        runs = [[cls.path(name), CAD, *step, "--output", cls.path(name + ".vtu")] for name in names]
+        runs += [[cls.path("gmsh4binary.msh"), CAD, *step, "--output", cls.path("out" + ending)]
+                 for ending in (".msh", ".xdmf")]
+        runs += [[cls.path("exodus.ex2"), CAD, *step, "--output", cls.path("exodus.msh")],
+                 [cls.path("disc.msh"), cls.path("disc.brep"), *step, "--output", cls.path("disc_out.xdmf")],
+                 [cls.path("disc.msh"), cls.path("disc.brep"), *step, "--output", cls.path("disc_out.msh")],
+                 [cls.path("out.xdmf"), CAD, "--steps", "0", "--quadratic", "--output", cls.path("curved.msh")]]
+        failures, cls.output = driver.many(RANKS, cls.folder, [{"arguments": run} for run in runs])
+        assert not any(failures), failures
+
+    @classmethod
+    def path(cls, name):
+        return os.path.join(cls.folder, name)
+
+    def result(self, name):
+        """The mesh as it was refined: checks that it has the right number of tetrahedra, of the right volume."""
+        mesh = meshio.read(self.path(name + ".vtu"))
+        cells = mesh.cells_dict["tetra"]
+        self.assertEqual(len(cells), 8 * len(self.coarse.cells_dict["tetra"]))
+        corners = mesh.points[cells]
+        volumes = np.linalg.det(corners[:, 1:] - corners[:, :1]) / 6
+        self.assertGreater(volumes.min(), 0.0)
+        self.assertTrue(5.7 < volumes.sum() < 6.3, volumes.sum())
+        return mesh
+
+    def test_tags(self):
+        """Every cell of every dimension has the tag of its parent, whatever the file."""
+        expected = children(counted(self.coarse, "gmsh:physical"))
+        self.assertEqual(set(expected), {"line", "triangle", "tetra"})
+        for name, tags in TAGS.items():
+            with self.subTest(name):
+                self.assertEqual(counted(self.result(name), tags), expected)
+
+    def test_names_of_groups(self):
+        for name in ("gmsh2text.msh", "gmsh4binary.msh"):
+            data = meshio.read(self.path(name + ".vtu")).field_data
+            for group, pair in meshes.GROUPS.items():
+                self.assertEqual(np.ravel(data[group]).tolist(), list(pair))
+
+    def test_cells_in_no_group_and_in_two(self):
+        """meshio refuses such a file."""
+        mesh = self.result("all.msh")
+        walls = children(counted(self.coarse, "gmsh:physical"))["triangle"]
+        tags = counted(mesh, "gmsh:physical")["triangle"]
+        self.assertGreater(tags[0], 0)
+        self.assertEqual(tags[meshes.WALL], walls[meshes.WALL])
+        self.assertEqual(counted(mesh, "wall")["triangle"][1], walls[meshes.WALL])
+        first = counted(mesh, "first wall")["triangle"][1]
+        self.assertTrue(0 < first < walls[meshes.WALL])
+
+    def test_medit(self):
+        tags = children(counted(meshio.medit.read(self.path("gmsh.mesh")), "medit:ref"))
+        self.assertEqual(counted(self.result("gmsh.mesh"), "medit:ref"), tags)
+
+    def test_abaqus(self):
+        """Sets of elements are cell arrays of 0 and 1, and groups."""
+        mesh = self.result("gmsh.inp")
+        expected = children(counted(self.coarse, "gmsh:physical"))
+        self.assertEqual(counted(mesh, "wall")["triangle"][1], expected["triangle"][meshes.WALL])
+        self.assertEqual(counted(mesh, "solid_body")["tetra"], {1: expected["tetra"][meshes.BODY]})
+        self.assertEqual(counted(mesh, "rim")["line"][1], expected["line"][meshes.RIM])
+        tag, dimension = np.ravel(mesh.field_data["wall"])
+        self.assertEqual(dimension, 2)
+        self.assertEqual(counted(mesh, "gmsh:physical")["triangle"][tag], expected["triangle"][meshes.WALL])
+
+    def test_others(self):
+        with contextlib.redirect_stderr(io.StringIO()):  # It warns that tags have no names.
+            tags = counted(meshio.su2.read(self.path("gmsh.su2")), "su2:tag")
+        self.assertEqual(counted(self.result("gmsh.su2"), "su2:tag"), children(tags))
+        self.result("meshio.vol")
+
+    def test_two_grids_of_dolfin(self):
+        """Its triangles are all of the mesh, also inside. Coordinates are read in double precision."""
+        mesh = self.result("dolfin.xdmf")
+        tags = counted(mesh, "tags")["triangle"]
+        self.assertEqual(set(tags), {0, 5})
+        self.assertGreater(tags[5], 0)
+        fine, coarse = mesh.points[:, 2], self.coarse.points[:, 2]
+        self.assertEqual(fine.min(), coarse.min())
+        self.assertEqual(fine.max(), coarse.max())
+
+    def test_triangles_of_dolfin(self):
+        """DOLFIN orders the corners by number, so half of them go round the wrong way."""
+        program = os.path.join(driver.ROOT, "plugin")
+        sys.path.insert(0, program)
+        self.addCleanup(sys.path.remove, program)
+        import cadrefine_grid
+        import cadrefine_xdmf
+
+        mesh = cadrefine_grid.from_grid(cadrefine_xdmf.read(self.path("square.xdmf")))
+        (kind, corners), = mesh.blocks
+        self.assertEqual((kind, len(corners)), (5, 18))
+        sides = mesh.points[corners[:, 1:], :2] - mesh.points[corners[:, :1], :2]
+        np.testing.assert_allclose(np.linalg.det(sides), 1 / 9)
+
+    def test_exodus(self):
+        tags = counted(self.result("exodus.ex2"), "ObjectId")
+        self.assertEqual(tags["tetra"], {block: 8 * self.exodus[block] for block in (1, 2)})
+        self.assertEqual(tags["triangle"], {7: 4 * self.exodus[7]})
+
+    def groups_in_gmsh(self, name):
+        """What gmsh finds in a file: {(dimension, tag): (name, number of cells)}."""
+        gmsh.initialize()
+        try:
+            gmsh.option.setNumber("General.Terminal", 0)
+            gmsh.open(self.path(name))
+            return {(dimension, tag): (gmsh.model.getPhysicalName(dimension, tag), sum(
+                sum(len(ids) for ids in gmsh.model.mesh.getElements(dimension, entity)[1])
+                for entity in gmsh.model.getEntitiesForPhysicalGroup(dimension, tag)))
+                for dimension, tag in gmsh.model.getPhysicalGroups()}
+        finally:
+            gmsh.finalize()
+
+    def test_gmsh_reads_the_groups_back(self):
+        expected = children(counted(self.coarse, "gmsh:physical"))
+        kinds = {3: "tetra", 2: "triangle", 1: "line"}
+        groups = {(dimension, tag): (name, expected[kinds[dimension]][tag])
+                  for name, (tag, dimension) in meshes.GROUPS.items()}
+        self.assertEqual(self.groups_in_gmsh("out.msh"), groups)
+        self.assertEqual(set(self.groups_in_gmsh("exodus.msh").values()),
+                         {("steel", 8 * self.exodus[1]), ("air", 8 * self.exodus[2]), ("wall", 4 * self.exodus[7])})
+        self.assertEqual(self.groups_in_gmsh("disc_out.msh")[1, 4][0], "rim")
+
+    def test_quadratic_cells_for_gmsh(self):
+        """meshio and this driver agree on the order of the nodes: the middles of inner edges are where they belong."""
+        mesh = meshio.gmsh.read(self.path("curved.msh"))
+        cells = mesh.cells_dict["tetra10"]
+        middles = mesh.points[cells[:, [[0, 1], [1, 2], [2, 0], [0, 3], [1, 3], [2, 3]]]].mean(axis=2)
+        inside = mesh.point_data["CADDimension"][cells[:, 4:]] < 0
+        self.assertGreater(inside.sum(), 100)
+        self.assertLess(np.abs(mesh.points[cells[:, 4:]] - middles)[inside].max(), 1e-14)
+
+    def test_dolfin_reads_what_is_written(self):
+        expected = children(counted(self.coarse, "gmsh:physical"))
+        for name, space, dimension, kinds in (("out.xdmf", 3, 3, ("tetra", "triangle")),
+                                              ("disc_out.xdmf", 2, 2, ("triangle", "line"))):
+            read = subprocess.run([sys.executable, "-c", READ_XDMF, self.path(name)], check=True, capture_output=True,
+                                  text=True)
+            found = json.loads(read.stdout)
+            self.assertEqual(found[:2], [space, dimension])
+            if dimension == 2:
+                expected = children(counted(meshio.gmsh.read(self.path("disc.msh")), "gmsh:physical"))
+            self.assertEqual(found[2], sum(expected[kinds[0]].values()))
+            for array, kind in zip(("gmsh:physical", "facet_tags"), kinds):
+                self.assertEqual({int(tag): count for tag, count in found[3][array].items()}, expected[kind])
+
+    def test_nothing_else_is_written(self):
+        left = [name for name in os.listdir(self.folder) if name.endswith(".part")]
+        self.assertEqual(left, [])
+        self.assertIn(f"Not kept in {self.path('out.msh')}: ", self.output)
+
+
+if __name__ == "__main__":
+    unittest.main()
