@@ -75,8 +75,9 @@ format: packages ## Format the sources
 	@clang-format -i $(SOURCES)
 
 .PHONY: format-check
-format-check: packages ## Fail where make format would change something
-	@clang-format --dry-run --Werror $(SOURCES)
+format-check: packages ## Fail where make format would change something (clang-format 14: others differ)
+	@if clang-format --version | grep -q 'version 14\.'; then clang-format --dry-run --Werror $(SOURCES); \
+	  else echo "format-check: left out, $$(clang-format --version) is not 14"; fi
 
 .PHONY: tidy
 tidy: build ## Run clang-tidy on the sources
