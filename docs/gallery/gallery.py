@@ -31,7 +31,7 @@ VIEWS = {  # Case: the driver's options for its pictures.
     "ball": "",
 }
 FURTHER_PICTURES = {  # Case: commands in its folder that draw more.
-    "tee": "pvpython {here}/groups.py mesh.vtu CellEntityIds groups.png -0.55 -0.7 0.45 "
+    "tee": "pvpython {here}/groups.py mesh.vtu gmsh:physical groups.png -0.55 -0.7 0.45 "
            "1=inlet 2=outlet 3=branch 4=wall",
 }
 

@@ -71,10 +71,10 @@ class Gallery(unittest.TestCase):
 
     def test_groups_of_gmsh_are_kept(self):
         def groups_of(file):
-            tags = meshio.read(result("tee", file)).cell_data_dict["CellEntityIds"]["triangle"].ravel()
+            tags = meshio.read(result("tee", file)).cell_data_dict["gmsh:physical"]["triangle"].ravel()
             return {tag: sum(tags == tag) for tag in set(tags.tolist())}
 
-        coarse, fine = groups_of("coarse.vtk"), groups_of("mesh.vtu")
+        coarse, fine = groups_of("coarse.msh"), groups_of("mesh.vtu")
         self.assertEqual(set(coarse), {1, 2, 3, 4})
         self.assertEqual(set(fine), set(coarse))
         for tag in coarse:
