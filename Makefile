@@ -5,7 +5,7 @@ JOBS := $(shell nproc)
 PREFIX := /usr/local
 CCACHE := $(shell command -v ccache)
 CONFIGURE := $(if $(CCACHE),-DCMAKE_CXX_COMPILER_LAUNCHER=$(CCACHE) -DCMAKE_C_COMPILER_LAUNCHER=$(CCACHE))
-SOURCES = $(shell find data filters geom tests -name '*.h' -o -name '*.cxx' -o -name '*.cpp')
+SOURCES = $(shell find data docs filters geom plugin tests -name '*.h' -o -name '*.cxx' -o -name '*.cpp')
 
 # Open MPI (4 and 5): run as root, as containers do; more ranks than cores; no complaint where the kernel forbids
 # ranks to read each other's memory.
