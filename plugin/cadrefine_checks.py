@@ -4,8 +4,8 @@ import argparse
 import math
 
 import cadrefine_output as output
-import cadrefine_pictures as pictures
 import cadrefine_session as session
+from cadrefine_display import check_display
 from cadrefine_session import Failure
 
 DEEPEST = 8  # Recursion depth that CADGeometricError takes.
@@ -77,4 +77,4 @@ def check(options):
         if getattr(options, name):
             session.check_writable(getattr(options, name), allowed)
     if options.screenshot or options.screenshot_start:
-        pictures.check_display()
+        check_display()

@@ -119,7 +119,7 @@ def add_results(group):
     group.add_argument("--focus", type=number, nargs=6, metavar=BOX,
                        help="box that the pictures show, lengths (default: all that lies on the CAD)")
     group.add_argument("--view", type=number, nargs=3, metavar=("X", "Y", "Z"),
-                       help="direction from the mesh to the eye in the pictures; z is up (default -0.6 -0.64 0.48, of a "
-                       "mesh in the plane 0 0 1)")
+                       help="direction from the mesh to the eye in the pictures; z is up (default -0.6 -0.64 0.48, of "
+                       "a mesh in the plane 0 0 1)")
     group.add_argument("--quiet", action="store_true", help="print nothing but errors")
     group.add_argument("-h", "--help", action="store_true", help="print this help, and do nothing else")

@@ -4,10 +4,7 @@ The boundary triangles are gathered on rank 0, which draws them alone. (Drawing 
 each of them, and ParaView 5.11 was seen to hang there when a rank has nothing to draw.)
 """
 
-import ctypes
-import ctypes.util
 import itertools
-import os
 
 import numpy as np
 from paraview import simple
@@ -23,7 +20,6 @@ import cadrefine_session as session
 from cadrefine_input import local_output
 from cadrefine_output import gathered
 from cadrefine_pipeline import field_values
-from cadrefine_session import Failure
 
 SIZE = (1400, 900)
 BAR_SHARE = 0.16  # Of the picture's width, on the left, for the colour bar.
@@ -52,24 +48,6 @@ if self.GetInputDataObject(0, 0).IsA("vtkUnstructuredGrid"):
 last.Update()
 self.GetOutputDataObject(0).ShallowCopy(last.GetOutput())
 """
-
-
-def check_display():
-    """Where VTK draws through X, a picture needs an X server, and VTK crashes without one. (With EGL or OSMesa none.)"""
-    import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  (makes the window one that draws)
-
-    if not vtkRenderWindow().IsA("vtkXOpenGLRenderWindow"):
-        return
-    if not os.environ.get("DISPLAY"):
-        raise Failure("a screenshot needs a display, and DISPLAY is not set; run it under xvfb-run")
-    name = ctypes.util.find_library("X11")
-    if name:
-        x11 = ctypes.CDLL(name)
-        x11.XOpenDisplay.restype = ctypes.c_void_p
-        display = x11.XOpenDisplay(None)
-        if not display:
-            raise Failure(f"a screenshot needs a display, and {os.environ['DISPLAY']} cannot be opened")
-        x11.XCloseDisplay(ctypes.c_void_p(display))
 
 
 def largest_error(mesh):

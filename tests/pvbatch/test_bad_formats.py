@@ -70,7 +70,8 @@ class BadFormats(unittest.TestCase):
             ("cut.inp", part("gmsh.inp", 9000), "meshio cannot read it as abaqus: "),
             ("broken.xdmf", "<Xdmf><Domain>", "malformed: "),
             ("lonely.xdmf", '<Xdmf><Domain><Grid><Topology TopologyType="Triangle"><DataItem Format="HDF">'
-             'gone.h5:/cells</DataItem></Topology><Geometry/></Grid></Domain></Xdmf>', "its data file gone.h5 is not there"),
+             'gone.h5:/cells</DataItem></Topology><Geometry/></Grid></Domain></Xdmf>',
+             "its data file gone.h5 is not there"),
             ("nothing.xdmf", "<Xdmf><Domain/></Xdmf>", "it holds no grid of cells"),
             ("text.ex2", "This is no mesh.\n", "Unable to open"),
             ("cut.ex2", part("exodus.ex2", 500), "Unable to open"),
