@@ -9,6 +9,8 @@
 #include <Interface_Static.hxx>
 #include <STEPControl_Controller.hxx>
 #include <STEPControl_Writer.hxx>
+#include <StepData_StepModel.hxx>
+#include <UnitsMethods.hxx>
 
 #include <fstream>
 #include <sstream>
@@ -56,6 +58,9 @@ bool writeStep(const TopoDS_Shape& shape, const std::string& path, const std::st
   STEPControl_Controller::Init();
   Interface_Static::SetCVal("write.step.unit", unit.c_str());
   STEPControl_Writer writer;
+  // Open CASCADE 7.8 writes the unit's name without scaling to it, if not told its length too.
+  writer.Model()->SetWriteLengthUnit(
+    UnitsMethods::GetLengthFactorValue(Interface_Static::IVal("write.step.unit")));
   return writer.Transfer(shape, STEPControl_AsIs) == IFSelect_RetDone &&
          writer.Write(path.c_str()) == IFSelect_RetDone;
 }
