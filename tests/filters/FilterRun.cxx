@@ -57,7 +57,8 @@ FilterRun::FilterRun(const std::string& cadFile, vtkMultiProcessController* cont
   const Outcome outcome = execute(reader);
   if (!outcome.succeeded)
   {
-    throw std::runtime_error("the reader failed: " + cadFile);
+    throw std::runtime_error("the reader failed: " + cadFile +
+                             (outcome.errors.empty() ? "" : ": " + outcome.errors.front()));
   }
   cad_ = outcome.output;
 }

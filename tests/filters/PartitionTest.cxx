@@ -9,7 +9,6 @@
 #include "TestShapes.h"
 
 #include <vtkDataArray.h>
-#include <vtkFieldData.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkUnstructuredGrid.h>
@@ -284,33 +283,6 @@ protected:
     return steps;
   }
 
-  static std::map<std::string, double> fieldValues(vtkPointSet* mesh)
-  {
-    std::map<std::string, double> values;
-    vtkFieldData* fields = mesh->GetFieldData();
-    for (int a = 0; a < fields->GetNumberOfArrays(); ++a)
-    {
-      values[fields->GetArrayName(a)] = fields->GetArray(a)->GetTuple1(0);
-    }
-    return values;
-  }
-
-  void expectSame(vtkPointSet* piece, vtkPointSet* serial, std::size_t step)
-  {
-    const cadtest::CanonicalMesh mesh = cadtest::gather(exchange, piece);
-    if (exchange.rank() > 0)
-    {
-      return;
-    }
-    RankExchange alone(nullptr);
-    const cadtest::CanonicalMesh expected = cadtest::gather(alone, serial);
-    EXPECT_EQ(mesh.contradictions, 0) << "after step " << step;
-    EXPECT_TRUE(mesh.points == expected.points) << "after step " << step;
-    EXPECT_TRUE(mesh.cells == expected.cells) << "after step " << step;
-    EXPECT_EQ(mesh.points.size(), static_cast<std::size_t>(serial->GetNumberOfPoints()));
-    EXPECT_EQ(fieldValues(piece), fieldValues(serial)) << "after step " << step;
-  }
-
   /// Of each step that `runSteps` makes of a mesh. Returns the steps of this rank's piece.
   template<class RunSteps>
   Steps expectSameAsOnOneRank(const RunSteps& runSteps)
@@ -322,7 +294,8 @@ protected:
     const Steps serial = exchange.rank() == 0 ? runSteps(whole, nullptr) : Steps(pieces.size());
     for (std::size_t step = 0; step < pieces.size(); ++step)
     {
-      expectSame(pieces[step], serial[step], step);
+      SCOPED_TRACE("after step " + std::to_string(step));
+      cadtest::expectSame(exchange, pieces[step], serial[step]);
     }
     return pieces;
   }

@@ -379,7 +379,7 @@ cadrefine::Point3 Motion::operator()(const cadrefine::Point3& point) const
   return scale * turned + shift;
 }
 
-Motion randomMotion(Random& random, double digits, double sizes, bool inThePlane)
+Motion randomMotion(Random& random, double lowest, double highest, double sizes, bool inThePlane)
 {
   using namespace cadrefine;
   const auto anyVector = [&] {
@@ -389,7 +389,7 @@ Motion randomMotion(Random& random, double digits, double sizes, bool inThePlane
   const Vector3 up = inThePlane ? Vector3{ 0, 0, 1 } : normalized(anyVector());
   const Vector3 side = normalized(cross(up, anyVector()));
   motion.rows = { side, cross(up, side), up };
-  motion.scale = std::pow(10.0, random.between(-digits, digits));
+  motion.scale = std::pow(10.0, random.between(lowest, highest));
   motion.shift = (sizes * motion.scale) * anyVector();
   motion.shift[2] = inThePlane ? 0 : motion.shift[2];
   return motion;

@@ -42,9 +42,9 @@ struct Motion
   cadrefine::Point3 operator()(const cadrefine::Point3& point) const;
 };
 
-/// Sizes from 10^-digits to 10^digits; moves of up to `sizes` times the new size. In the plane z
+/// Sizes from 10^lowest to 10^highest; moves of up to `sizes` times the new size. In the plane z
 /// stays 0.
-Motion randomMotion(Random& random, double digits, double sizes, bool inThePlane);
+Motion randomMotion(Random& random, double lowest, double highest, double sizes, bool inThePlane);
 
 /// A copy of the shape, moved.
 TopoDS_Shape moved(const TopoDS_Shape& shape, const Motion& motion);

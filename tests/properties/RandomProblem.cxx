@@ -1,0 +1,160 @@
+#include "RandomProblem.h"
+
+#include "DataSets.h"
+#include "Facets.h"
+#include "TestMeshes.h"
+#include "TestShapes.h"
+
+#include <vtkPolyData.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace propertytest
+{
+
+namespace
+{
+
+using namespace cadrefine;
+
+/// Moves all vertices by up to `length` in each direction.
+void shake(Random& random, SimplexMesh& mesh, double length, int dimension)
+{
+  for (Point3& point : mesh.points)
+  {
+    for (int k = 0; k < dimension; ++k)
+    {
+      point[k] += length * random.between(-1, 1);
+    }
+  }
+}
+
+/// The triangles round the tetrahedra, with their vertices only.
+SimplexMesh boundaryOf(const SimplexMesh& mesh)
+{
+  SimplexMesh surface;
+  surface.dimension = 2;
+  std::vector<Index> numbers(mesh.points.size(), -1);
+  for (const Facet& facet : findOuterFacets(mesh))
+  {
+    auto& triangle = surface.triangles.emplace_back(facet.vertices);
+    for (Index& v : triangle)
+    {
+      Index& number = numbers[v];
+      if (number < 0)
+      {
+        number = static_cast<Index>(surface.points.size());
+        surface.points.push_back(mesh.points[v]);
+        surface.ids.push_back(number);
+      }
+      v = number;
+    }
+  }
+  return surface;
+}
+
+} // namespace
+
+FilterProblem::FilterProblem(Random& random)
+{
+  const int kind = random.among(0, 5);
+  if (kind <= 2) // cube, its surface
+  {
+    const int n = random.among(2, 3);
+    mesh = cadtest::cubeMesh(n, 0.08, random.seed());
+    shake(random, mesh, 0.02 / n, 3);
+    shape = nearUnitCube(random, random.between(0.01, 0.08));
+    isSurface = kind == 2;
+    mesh = isSurface ? boundaryOf(mesh) : mesh;
+  }
+  else if (kind == 3)
+  {
+    isSurface = random.chance(0.3);
+    mesh = isSurface ? cadtest::sphereMesh(1, 0.02) : cadtest::ballMesh(1, 0.02);
+    shake(random, mesh, 0.03, 3);
+    shape = cadtest::sphere(1);
+  }
+  else if (kind == 4)
+  {
+    mesh = cadtest::torusMesh(1, 0.4, random.among(8, 11), random.among(5, 7));
+    shake(random, mesh, 0.01, 3);
+    shape = cadtest::torus(1, 0.4);
+  }
+  else
+  {
+    mesh = cadtest::discMesh(0.95, 0.01, random.among(9, 16));
+    shake(random, mesh, 0.02, 2);
+    shape = nearUnitCircle(random, random.between(0, 0.05));
+  }
+}
+
+vtkSmartPointer<vtkPointSet> FilterProblem::dataSet() const
+{
+  vtkSmartPointer<vtkPointSet> result;
+  if (isSurface)
+  {
+    result = cadtest::toPolyData(mesh);
+  }
+  else
+  {
+    result = cadtest::toGrid(mesh);
+  }
+  cadtest::addArrays(result);
+  return result;
+}
+
+Plan::Plan(Random& random, const FilterProblem& problem)
+{
+  dimension = problem.mesh.dimension == 3 || problem.isSurface ? 3 : 2;
+  depth = random.among(1, 2);
+  isBulk = random.chance(0.4);
+  fraction = random.between(0.2, 0.9);
+  threshold = std::pow(10.0, random.between(-5, -2));
+  levels = random.among(1, 3);
+  cutFacets = random.chance(0.4);
+  balance = random.chance(0.5);
+  chordTolerance = random.chance(0.3) ? random.between(0.005, 0.05) : 0;
+  normalAngle = random.chance(0.3) ? random.between(10, 40) : 0;
+  straight = random.chance(0.1);
+  uniformAfterwards = random.chance(0.3);
+  isQuadratic = !problem.isSurface && random.chance(0.2);
+}
+
+void Plan::markByErrorAndSize(vtkRefineWithCAD* filter, double size) const
+{
+  filter->SetMarkingArray("GeometricError");
+  filter->SetMarking(isBulk ? vtkRefineWithCAD::BULK : vtkRefineWithCAD::THRESHOLD);
+  filter->SetFraction(fraction);
+  filter->SetThreshold(threshold * std::pow(size, dimension));
+  filter->SetLevels(levels);
+  filter->SetCutFacets(cutFacets);
+  filter->SetChordTolerance(chordTolerance * size);
+  filter->SetNormalAngle(normalAngle);
+  filter->SetProjectNewVertices(!straight);
+  filter->SetBalance(balance);
+}
+
+Plan::Steps Plan::run(const cadtest::FilterRun& filters, vtkPointSet* mesh, double size) const
+{
+  Steps steps{ filters.project(mesh) };
+  steps.push_back(filters.measure(steps.back(), depth));
+  steps.push_back(filters.run<vtkRefineWithCAD>(
+    steps.back(), [&](vtkRefineWithCAD* filter) { markByErrorAndSize(filter, size); }));
+  if (uniformAfterwards || isQuadratic)
+  {
+    steps.push_back(filters.run<vtkRefineWithCAD>(steps.back(),
+      [&](vtkRefineWithCAD* filter)
+      {
+        filter->SetMethod(vtkRefineWithCAD::UNIFORM_BISECTION);
+        filter->SetLevels(uniformAfterwards ? 1 : 0);
+        filter->SetQuadraticCells(isQuadratic);
+        filter->SetBalance(balance);
+      }));
+  }
+  steps.push_back(filters.measure(steps.back(), depth));
+  return steps;
+}
+
+} // namespace propertytest
