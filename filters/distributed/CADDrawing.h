@@ -15,7 +15,7 @@ struct DrawingShare
 {
   int rank = 0;
   int size = 1;
-  double tolerance = 1e-3; ///< Deflection as a part of the model's size.
+  double tolerance = CADModel::drawingTolerance; ///< Deflection as a part of the model's size.
 };
 
 /// This rank's share of the entities of a dimension (indices rank, rank + size, ...) as vertices,

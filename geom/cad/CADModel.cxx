@@ -2,12 +2,14 @@
 
 #include "CADModelBuilder.h"
 #include "ModelBytes.h"
+#include "ModelCheck.h"
 #include "NurbsExtraction.h"
 #include "OccGuard.h"
 #include "ShapeIndex.h"
 #include "ShapeTessellation.h"
 
 #include <algorithm>
+#include <cmath>
 #include <mutex>
 
 namespace cadrefine
@@ -23,6 +25,15 @@ void checkIndex(const NurbsModel& model, EntityId entity)
   {
     throw Error("the CAD model has no entity " + std::to_string(entity.index) + " of dimension " +
                 std::to_string(entity.dimension));
+  }
+}
+
+void checkSize(double size)
+{
+  if (!(size > 0) || !std::isfinite(size))
+  {
+    throw Error(
+      size == 0 ? "CAD model: all of it lies in one point" : "CAD model: its size is not finite");
   }
 }
 
@@ -89,6 +100,8 @@ struct CADModel::Implementation
       size(content.size),
       report(content.report), looks{ { {}, content.edgeLooks, content.faceLooks } }
   {
+    checkModel(nurbs);
+    checkSize(size);
   }
 
   const ClosestPointSearch& search() const

@@ -36,6 +36,9 @@ struct Tessellation
 class CADModel
 {
 public:
+  /// Deflection of drawings, as a part of the model's size.
+  static constexpr double drawingTolerance = 1e-3;
+
   /// The model that `bytes` (from toBytes) holds; ids and coordinates are those of the model that
   /// was written. Throws Error where the bytes are not a model.
   static std::shared_ptr<const CADModel> fromBytes(const std::vector<char>& bytes);

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <vector>
 
 namespace cadrefine
 {
@@ -48,6 +50,10 @@ void checkReadable(const std::string& path)
   {
     throw Error(path + ": is a directory, not a CAD file");
   }
+  if (status.type() != std::filesystem::file_type::regular)
+  {
+    throw Error(path + ": is a device or a pipe, not a CAD file"); // may have no end
+  }
   errno = 0;
   if (!std::ifstream(path, std::ios::binary))
   {
@@ -86,6 +92,30 @@ bool looksLikeBrep(const std::string& text)
          text.find("\nOpen CASCADE Topology") != std::string::npos;
 }
 
+bool isBinary(CADFormat format, const std::string& text)
+{
+  return format == CADFormat::Brep && text.find("CASCADE Topology V") == std::string::npos;
+}
+
+/// Throws Error where a whole page of a text is zeros: interrupted copies and downloads leave such
+/// holes. Work: reads the file once, up to there.
+void checkHoles(const std::string& path)
+{
+  constexpr std::size_t page = 4096;
+  std::ifstream file(path, std::ios::binary);
+  std::vector<char> block(page);
+  for (std::uint64_t at = 0; file; at += page)
+  {
+    file.read(block.data(), page);
+    const bool full = file.gcount() == static_cast<std::streamsize>(page);
+    if (full && std::all_of(block.begin(), block.end(), [](char c) { return c == 0; }))
+    {
+      throw Error(path + ": the file is damaged: it holds zeros instead of text from byte " +
+                  std::to_string(at) + " on");
+    }
+  }
+}
+
 bool looksLike(CADFormat format, const std::string& text)
 {
   switch (format)
@@ -118,6 +148,10 @@ CADFormat checkFile(const std::string& path)
   if (!looksLike(format, text))
   {
     throw Error(path + ": does not begin like a file in " + nameOf(format) + " format");
+  }
+  if (!isBinary(format, text))
+  {
+    checkHoles(path);
   }
   return format;
 }

@@ -14,7 +14,8 @@ enum class CADFormat
 };
 
 /// The format of the file, by its extension. Throws Error where it is missing, is no file, may not
-/// be read, is empty, has another extension or does not begin as such a file does.
+/// be read, is empty, has another extension, does not begin as such a file does, or is a text with
+/// a hole. Work: reads the file once; memory: a page.
 CADFormat checkFile(const std::string& path);
 
 } // namespace cadrefine

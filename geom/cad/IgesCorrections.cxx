@@ -76,47 +76,58 @@ TopoDS_Shape transferred(IGESControl_Reader& reader, const Handle(IGESData_IGESE
   return TransferBRep::ShapeResult(process, entity);
 }
 
-/// Places a subfigure by its scale, its translation and, after these, its transformation
-/// (IGES 5.3, 4.104).
-TopoDS_Shape placeSubfigure(
-  IGESControl_Reader& reader, const Handle(IGESBasic_SingularSubfigure) & figure);
-
-TopoDS_Shape makeSubfigure(
-  IGESControl_Reader& reader, const Handle(IGESBasic_SubfigureDef) & definition)
-{
-  for (int i = 1; i <= definition->NbEntities(); ++i)
-  {
-    const auto inner =
-      Handle(IGESBasic_SingularSubfigure)::DownCast(definition->AssociatedEntity(i));
-    if (!inner.IsNull())
-    {
-      placeSubfigure(reader, inner);
-    }
-  }
-  return transferred(reader, definition);
-}
-
 void bind(
   IGESControl_Reader& reader, const Handle(IGESData_IGESEntity) & entity, const TopoDS_Shape& shape)
 {
   TransferBRep::SetShapeResult(reader.WS()->TransferReader()->TransientProcess(), entity, shape);
 }
 
-TopoDS_Shape placeSubfigure(
-  IGESControl_Reader& reader, const Handle(IGESBasic_SingularSubfigure) & figure)
+/// Places subfigures, those inside of others first, and each once.
+class SubfigurePlacer
 {
-  const TopoDS_Shape shape = makeSubfigure(reader, figure->Subfigure());
-  if (shape.IsNull())
+public:
+  explicit SubfigurePlacer(IGESControl_Reader& reader) : reader_(reader) {}
+
+  /// By its scale, its translation and, after these, its transformation (IGES 5.3, 4.104).
+  void place(const Handle(IGESBasic_SingularSubfigure) & figure)
   {
-    return {};
+    if (!seen_.insert(figure.get()).second)
+    {
+      return;
+    }
+    const TopoDS_Shape shape = make(figure->Subfigure());
+    if (!shape.IsNull())
+    {
+      gp_Trsf own;
+      own.SetScaleFactor(figure->HasScaleFactor() ? figure->ScaleFactor() : 1);
+      own.SetTranslationPart(gp_Vec(figure->Translation()));
+      bind(reader_, figure, BRepBuilderAPI_Transform(shape, placeOf(figure) * own, true).Shape());
+    }
   }
-  gp_Trsf own;
-  own.SetScaleFactor(figure->HasScaleFactor() ? figure->ScaleFactor() : 1);
-  own.SetTranslationPart(gp_Vec(figure->Translation()));
-  const TopoDS_Shape placed = BRepBuilderAPI_Transform(shape, placeOf(figure) * own, true).Shape();
-  bind(reader, figure, placed);
-  return placed;
-}
+
+private:
+  /// Null where there is no definition.
+  TopoDS_Shape make(const Handle(IGESBasic_SubfigureDef) & definition)
+  {
+    if (definition.IsNull())
+    {
+      return {};
+    }
+    for (int i = 1; i <= definition->NbEntities(); ++i)
+    {
+      const auto inner =
+        Handle(IGESBasic_SingularSubfigure)::DownCast(definition->AssociatedEntity(i));
+      if (!inner.IsNull())
+      {
+        place(inner);
+      }
+    }
+    return transferred(reader_, definition);
+  }
+
+  IGESControl_Reader& reader_;
+  std::set<const IGESBasic_SingularSubfigure*> seen_;
+};
 
 /// The basis of an offset surface that is none itself, and the sum of the distances from it.
 struct OffsetChain
@@ -199,6 +210,7 @@ void composeMatrices(const Handle(IGESData_IGESModel) & model)
 void makeOwnShapes(IGESControl_Reader& reader, const std::set<int>& numbers)
 {
   reader.WS()->TransferReader()->BeginTransfer();
+  SubfigurePlacer placer(reader);
   for (const int number : numbers)
   {
     const Handle(IGESData_IGESEntity) entity = reader.IGESModel()->Entity(number);
@@ -208,7 +220,7 @@ void makeOwnShapes(IGESControl_Reader& reader, const std::set<int>& numbers)
     }
     else if (const auto figure = Handle(IGESBasic_SingularSubfigure)::DownCast(entity))
     {
-      placeSubfigure(reader, figure);
+      placer.place(figure);
     }
   }
 }

@@ -1,5 +1,6 @@
 #include "IgesParameterCheck.h"
 
+#include "ModelCheck.h"
 #include "Vector3.h"
 
 #include <algorithm>
@@ -47,8 +48,18 @@ std::string checkNumbers(const Values& values)
       return "parameter " + std::to_string(i) + " is '" + values[i].substr(0, 30) +
              "', not a number";
     }
+    if (!(std::abs(numberAt(values, i)) <= largestCoordinate))
+    {
+      return "parameter " + std::to_string(i) + " is " + values[i].substr(0, 30) +
+             ", which is beyond 1e50";
+    }
   }
   return {};
+}
+
+bool isInteger(const std::string& value)
+{
+  return value.find_first_not_of("0123456789+-") == std::string::npos;
 }
 
 /// One parameter direction of a spline: its last index and its degree.
@@ -109,6 +120,10 @@ std::string checkSpline(const Values& values, std::size_t directions)
   if (values.size() < header)
   {
     return "has " + std::to_string(values.size()) + " parameters only";
+  }
+  if (!std::all_of(values.begin() + 1, values.begin() + 1 + 2 * directions, isInteger))
+  {
+    return "its counts and degrees are no integers";
   }
   long poles = 1;
   std::size_t needed = header;

@@ -1,7 +1,7 @@
 // 1. Check the parameters of every geometry entity.
 // 2. Wrap the parameters anew, at the separators, of entities whose lines run too far or have no
 //    end.
-// 3. Find what is made of broken entities, directly or not.
+// 3. Find what is made of itself, and what is made of broken entities, directly or not.
 // 4. Write a temporary file, with null entities (type 0) in place of the broken ones, if anything
 //    is wrong.
 
@@ -13,8 +13,12 @@
 #include "IgesTypes.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdlib>
+#include <cstring>
+#include <fcntl.h>
 #include <filesystem>
+#include <iterator>
 #include <unistd.h>
 
 namespace cadrefine
@@ -22,18 +26,21 @@ namespace cadrefine
 namespace
 {
 
-std::string temporaryFile()
+constexpr int solidType = 186;
+constexpr int shellType = 514;
+
+/// A file without a name, so that none is left behind wherever the process may die; its descriptor.
+int temporaryFile()
 {
-  constexpr int suffixLength = 4;
-  std::string name = (std::filesystem::temp_directory_path() / "cadrefine-XXXXXX.igs").string();
-  const int descriptor = mkstemps(name.data(), suffixLength);
+  const std::string folder = std::filesystem::temp_directory_path().string();
+  std::string name = folder + "/cadrefine-XXXXXX";
+  const int descriptor = mkostemp(name.data(), O_CLOEXEC);
   if (descriptor < 0)
   {
-    throw Error(
-      "cannot make a temporary file in " + std::filesystem::temp_directory_path().string());
+    throw Error("cannot make a temporary file in " + folder + ": " + std::strerror(errno));
   }
-  close(descriptor);
-  return name;
+  unlink(name.c_str());
+  return descriptor;
 }
 
 /// Parameters without a terminator are whole where as many are there as the type needs, and the
@@ -83,6 +90,62 @@ std::set<int> findMisplaced(const std::vector<IgesEntry>& entries, const std::se
   return misplaced;
 }
 
+/// Indices of the entities that `parts`, turned round where `backwards`, lead back to, or through.
+/// Entities without parts are taken away until there are none (Kahn, "Topological sorting of large
+/// networks", 1962). Work and memory: linear.
+std::set<std::size_t> findUnsorted(const std::vector<std::vector<int>>& parts, bool backwards)
+{
+  std::vector<std::vector<std::size_t>> users(parts.size());
+  std::vector<std::size_t> open(parts.size(), 0);
+  for (std::size_t i = 0; i < parts.size(); ++i)
+  {
+    for (const int part : parts[i])
+    {
+      const std::size_t other = static_cast<std::size_t>(part) / 2;
+      if (part % 2 == 1 && other < parts.size())
+      {
+        users[backwards ? i : other].push_back(backwards ? other : i);
+        ++open[backwards ? other : i];
+      }
+    }
+  }
+  std::vector<std::size_t> ready;
+  std::set<std::size_t> left;
+  for (std::size_t i = 0; i < parts.size(); ++i)
+  {
+    left.insert(left.end(), i);
+    if (open[i] == 0)
+    {
+      ready.push_back(i);
+    }
+  }
+  while (!ready.empty())
+  {
+    const std::size_t i = ready.back();
+    ready.pop_back();
+    left.erase(i);
+    for (const std::size_t user : users[i])
+    {
+      if (--open[user] == 0)
+      {
+        ready.push_back(user);
+      }
+    }
+  }
+  return left;
+}
+
+/// Indices of the entities that are made of themselves, directly or through others.
+std::vector<std::size_t> findCircles(const std::vector<std::vector<int>>& parts)
+{
+  const std::set<std::size_t> above = findUnsorted(parts, false);
+  const std::set<std::size_t> below = findUnsorted(parts, true);
+  std::vector<std::size_t> circles;
+  std::set_intersection(
+    above.begin(), above.end(), below.begin(), below.end(), std::back_inserter(circles));
+  return circles;
+}
+
 void note(std::vector<std::string>& faults, int count, const std::string& what)
 {
   if (count > 0)
@@ -96,6 +159,7 @@ void note(std::vector<std::string>& faults, int count, const std::string& what)
 RepairedIges::RepairedIges(const std::string& path) : text_(readIgesText(path)), path_(path)
 {
   checkEntries();
+  checkReferences();
   const std::set<int> misplaced = findMisplaced(text_.entries, broken_);
   broken_.insert(misplaced.begin(), misplaced.end());
   dependents_ = findDependents(text_.entries, parts_, broken_);
@@ -125,8 +189,7 @@ void RepairedIges::checkEntries()
     }
     if (!reason.empty())
     {
-      unread_.push_back({ entry.number, igesTypeName(entry.type), reason });
-      broken_.insert(entry.number);
+      setAside(entry, reason);
       continue;
     }
     overruns += entry.overrun ? 1 : 0;
@@ -140,6 +203,37 @@ void RepairedIges::checkEntries()
   note(text_.faults, unterminated, "have no terminator");
 }
 
+void RepairedIges::setAside(const IgesEntry& entry, const std::string& reason)
+{
+  if (broken_.insert(entry.number).second)
+  {
+    unread_.push_back({ entry.number, igesTypeName(entry.type), reason });
+  }
+}
+
+/// Open CASCADE follows circles until its stack is full.
+void RepairedIges::checkReferences()
+{
+  for (const std::size_t i : findCircles(parts_))
+  {
+    setAside(text_.entries[i], "is made of itself");
+  }
+  for (std::size_t i = 0; i < parts_.size(); ++i)
+  {
+    const IgesEntry& entry = text_.entries[i];
+    const auto isShell = [&](int part)
+    {
+      const std::size_t index = static_cast<std::size_t>(part) / 2;
+      return part == entry.matrix ||
+             (index < text_.entries.size() && text_.entries[index].type == shellType);
+    };
+    if (entry.type == solidType && !std::all_of(parts_[i].begin(), parts_[i].end(), isShell))
+    {
+      setAside(entry, "is made of something that is no shell");
+    }
+  }
+}
+
 void RepairedIges::write()
 {
   IgesText repaired = text_;
@@ -151,17 +245,16 @@ void RepairedIges::write()
       entry.data = { std::string("0") + repaired.terminator };
     }
   }
-  path_ = temporaryFile();
-  temporary_ = true;
+  temporary_ = temporaryFile();
+  path_ = "/proc/self/fd/" + std::to_string(temporary_);
   writeIgesText(repaired, path_);
 }
 
 RepairedIges::~RepairedIges()
 {
-  if (temporary_)
+  if (temporary_ >= 0)
   {
-    std::error_code ignored;
-    std::filesystem::remove(path_, ignored);
+    close(temporary_);
   }
 }
 

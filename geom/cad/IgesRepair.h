@@ -17,7 +17,8 @@ class RepairedIges
 {
 public:
   /// Open CASCADE 7.6 crashes on some malformed parameters, so geometry with parameters that are
-  /// no numbers, too few of them, or impossible degrees, knots or weights becomes a null entity.
+  /// no numbers, too few of them, or impossible degrees, knots or weights becomes a null entity,
+  /// and so does what is made of itself.
   /// Repaired are: parameter lines that run one column too far; parameters without a terminator,
   /// where none is missing; and what readIgesText calls faults. Nothing is written, and the file
   /// itself is read, where nothing is wrong.
@@ -41,11 +42,13 @@ public:
 
 private:
   void checkEntries();
+  void checkReferences();
+  void setAside(const IgesEntry& entry, const std::string& reason);
   void write();
 
   IgesText text_;
   std::string path_;
-  bool temporary_ = false;
+  int temporary_ = -1; ///< Descriptor of the file written, -1: none.
   std::vector<UnreadEntity> unread_;
   std::vector<std::vector<int>> parts_;
   std::set<int> broken_;

@@ -5,7 +5,6 @@
 #include <cctype>
 #include <cstdlib>
 #include <fstream>
-#include <iterator>
 
 namespace cadrefine
 {
@@ -14,18 +13,30 @@ namespace
 
 constexpr std::size_t fieldColumns = 8;
 
-std::vector<std::string> splitLines(const std::string& path)
+/// The next line, which may end in LF, CR or CR LF; of one that is far too long, the start. False
+/// at the end of the file.
+bool readLine(std::streambuf& file, std::string& line)
 {
-  std::ifstream file(path, std::ios::binary);
-  const std::string all{ std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>() };
-  std::vector<std::string> lines;
-  for (std::size_t from = 0; from < all.size();)
+  constexpr std::size_t longest = 1000;
+  constexpr int end = std::streambuf::traits_type::eof();
+  line.clear();
+  int c = file.sbumpc();
+  if (c == end)
   {
-    const std::size_t to = std::min(all.find_first_of("\r\n", from), all.size());
-    lines.push_back(all.substr(from, to - from));
-    from = to + (all.compare(to, 2, "\r\n") == 0 ? 2 : 1);
+    return false;
   }
-  return lines;
+  for (; c != end && c != '\r' && c != '\n'; c = file.sbumpc())
+  {
+    if (line.size() < longest)
+    {
+      line += static_cast<char>(c);
+    }
+  }
+  if (c == '\r' && file.sgetc() == '\n')
+  {
+    file.sbumpc();
+  }
+  return true;
 }
 
 bool isSectionLetter(char c)
@@ -154,9 +165,11 @@ IgesSections readIgesSections(const std::string& path)
 {
   IgesSections sections;
   Counts counts;
-  for (std::string& line : splitLines(path))
+  std::filebuf file;
+  file.open(path, std::ios::in | std::ios::binary);
+  for (std::string line; readLine(file, line);)
   {
-    sortLine(std::move(line), sections, counts);
+    sortLine(line, sections, counts);
   }
   noteLines(counts, sections.faults);
   noteTerminate(counts.terminate, sections);

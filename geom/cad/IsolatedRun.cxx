@@ -1,6 +1,9 @@
-// 1. Fork. The child silences itself, limits its time, works, and writes one letter (+ done, - an
-//    error), the length and the bytes (or the error's text) to a pipe.
-// 2. The parent reads the pipe to its end. An answer cut short tells that the child died.
+// 1. Fork. The child silences itself, limits its time and memory, works, and writes one letter
+//    (+ done, - an error, m out of memory), the length and the bytes (or the error's text) to a
+//    pipe.
+// 2. The parent reads the pipe until the answer is whole, and kills a child that stands still. An
+// answer cut short
+//    tells that the child died.
 // The child leaves through _exit: it runs no handlers and flushes no buffers of the parent.
 
 #include "IsolatedRun.h"
@@ -9,10 +12,14 @@
 
 #include <cerrno>
 #include <csignal>
-#include <cstdint>
 #include <cstring>
+#include <ctime>
 #include <exception>
 #include <fcntl.h>
+#include <fstream>
+#include <new>
+#include <poll.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -24,6 +31,7 @@ namespace
 
 constexpr char done = '+';
 constexpr char failed = '-';
+constexpr char outOfMemory = 'm';
 constexpr std::size_t headSize = 1 + sizeof(std::uint64_t);
 
 void writeAll(int descriptor, const char* data, std::size_t size)
@@ -49,34 +57,69 @@ void answer(int descriptor, char kind, const char* data, std::size_t size)
   writeAll(descriptor, data, size);
 }
 
-void setUpChild(int cpuSeconds)
+/// Address space of this process, in bytes; 0 where the system does not tell.
+std::uint64_t addressSpace()
 {
+  std::uint64_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  return pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+}
+
+void limitMemory(std::uint64_t megabytes)
+{
+  rlimit memory{};
+  const std::uint64_t now = addressSpace();
+  if (megabytes > 0 && now > 0 && getrlimit(RLIMIT_AS, &memory) == 0)
+  {
+    const rlim_t most = now + (megabytes << 20U);
+    memory.rlim_cur = memory.rlim_max == RLIM_INFINITY ? most : std::min(most, memory.rlim_max);
+    setrlimit(RLIMIT_AS, &memory);
+  }
+}
+
+void setUpChild(const RunLimits& limits)
+{
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
   for (const int signal : { SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGXCPU, SIGTERM })
   {
     std::signal(signal, SIG_DFL);
   }
   const rlimit noCore{ 0, 0 };
   setrlimit(RLIMIT_CORE, &noCore);
-  const auto seconds = static_cast<rlim_t>(cpuSeconds);
+  const auto seconds = static_cast<rlim_t>(limits.cpuSeconds);
   const rlimit time{ seconds, seconds + 1 };
   setrlimit(RLIMIT_CPU, &time);
+  limitMemory(limits.megabytes);
   const int nowhere = open("/dev/null", O_WRONLY);
   dup2(nowhere, STDOUT_FILENO);
   dup2(nowhere, STDERR_FILENO);
 }
 
-[[noreturn]] void runChild(
-  int descriptor, int cpuSeconds, const std::function<std::vector<char>()>& work)
+void answerError(int descriptor, const std::string& text)
 {
-  setUpChild(cpuSeconds);
+  answer(descriptor, failed, text.data(), text.size());
+}
+
+[[noreturn]] void runChild(int descriptor, const std::string& context, const RunLimits& limits,
+  const std::function<std::vector<char>()>& work)
+{
+  setUpChild(limits);
   try
   {
     const std::vector<char> result = work();
     answer(descriptor, done, result.data(), result.size());
   }
+  catch (const Error& error)
+  {
+    answerError(descriptor, error.what());
+  }
+  catch (const std::bad_alloc&)
+  {
+    answer(descriptor, outOfMemory, nullptr, 0);
+  }
   catch (const std::exception& error)
   {
-    answer(descriptor, failed, error.what(), std::strlen(error.what()));
+    answerError(descriptor, context + ": the file is damaged: " + error.what());
   }
   catch (...)
   {
@@ -85,26 +128,92 @@ void setUpChild(int cpuSeconds)
   _exit(0);
 }
 
-std::vector<char> readAll(int descriptor)
+/// Seconds of computing of a process that has not been waited for.
+double cpuSecondsOf(pid_t process)
+{
+  clockid_t clock{};
+  timespec time{};
+  const bool known = clock_getcpuclockid(process, &clock) == 0 && clock_gettime(clock, &time) == 0;
+  return known ? static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec) : 0;
+}
+
+/// Tells whether a process still computes, by looking at it once a second.
+class IdleWatch
+{
+public:
+  IdleWatch(pid_t process, int idleSeconds) : process_(process), most_(idleSeconds) {}
+
+  /// To be called after a second without news; true where that makes too many of them.
+  bool isIdle()
+  {
+    constexpr double little = 1e-3;
+    const double now = cpuSecondsOf(process_);
+    idle_ = now > last_ + little ? 0 : idle_ + 1;
+    last_ = now;
+    return idle_ >= most_;
+  }
+
+private:
+  pid_t process_;
+  int most_;
+  int idle_ = 0;
+  double last_ = 0;
+};
+
+bool isComplete(const std::vector<char>& bytes)
+{
+  std::uint64_t length = 0;
+  if (bytes.size() >= headSize)
+  {
+    std::memcpy(&length, bytes.data() + 1, sizeof(length));
+  }
+  return bytes.size() >= headSize && bytes.size() - headSize == length;
+}
+
+struct Received
 {
   std::vector<char> bytes;
+  bool idle = false; ///< The child stood still, and was killed.
+};
+
+Received readAll(int descriptor, pid_t child, int idleSeconds)
+{
+  constexpr int oneSecond = 1000;
+  IdleWatch watch(child, idleSeconds);
+  Received received;
   std::vector<char> buffer(1 << 16);
-  for (;;)
+  while (!isComplete(received.bytes))
   {
+    pollfd waiting{ descriptor, POLLIN, 0 };
+    if (poll(&waiting, 1, oneSecond) == 0)
+    {
+      received.idle = received.idle || watch.isIdle();
+      if (received.idle)
+      {
+        kill(child, SIGKILL);
+      }
+      continue;
+    }
     const ssize_t count = read(descriptor, buffer.data(), buffer.size());
     if (count == 0 || (count < 0 && errno != EINTR))
     {
-      return bytes;
+      break;
     }
-    bytes.insert(bytes.end(), buffer.begin(), buffer.begin() + (count > 0 ? count : 0));
+    received.bytes.insert(
+      received.bytes.end(), buffer.begin(), buffer.begin() + (count > 0 ? count : 0));
   }
+  return received;
 }
 
-std::string causeOf(int status, int cpuSeconds)
+std::string causeOf(int status, const RunLimits& limits, bool idle)
 {
+  if (idle)
+  {
+    return "reading it stands still";
+  }
   if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL))
   {
-    return "Open CASCADE came to no end within " + std::to_string(cpuSeconds) + " s";
+    return "Open CASCADE came to no end within " + std::to_string(limits.cpuSeconds) + " s";
   }
   return WIFSIGNALED(status)
            ? "Open CASCADE crashes on it (signal " + std::to_string(WTERMSIG(status)) + ")"
@@ -113,8 +222,8 @@ std::string causeOf(int status, int cpuSeconds)
 
 } // namespace
 
-std::vector<char> runIsolated(
-  const std::string& context, int cpuSeconds, const std::function<std::vector<char>()>& work)
+std::vector<char> runIsolated(const std::string& context, const RunLimits& limits,
+  const std::function<std::vector<char>()>& work)
 {
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0)
@@ -125,11 +234,11 @@ std::vector<char> runIsolated(
   if (child == 0)
   {
     close(ends[0]);
-    runChild(ends[1], cpuSeconds, work);
+    runChild(ends[1], context, limits, work);
   }
   const int forkError = errno;
   close(ends[1]);
-  const std::vector<char> bytes = child < 0 ? std::vector<char>() : readAll(ends[0]);
+  const Received received = child < 0 ? Received() : readAll(ends[0], child, limits.idleSeconds);
   close(ends[0]);
   if (child < 0)
   {
@@ -139,14 +248,15 @@ std::vector<char> runIsolated(
   while (waitpid(child, &status, 0) < 0 && errno == EINTR)
   {
   }
-  std::uint64_t length = 0;
-  if (bytes.size() >= headSize)
+  const std::vector<char>& bytes = received.bytes;
+  if (!isComplete(bytes))
   {
-    std::memcpy(&length, bytes.data() + 1, sizeof(length));
+    throw Error(context + ": the file is damaged: " + causeOf(status, limits, received.idle));
   }
-  if (bytes.size() < headSize || bytes.size() - headSize != length)
+  if (bytes.front() == outOfMemory)
   {
-    throw Error(context + ": the file is damaged: " + causeOf(status, cpuSeconds));
+    throw Error(context + ": the file is damaged: reading it takes more than " +
+                std::to_string(limits.megabytes) + " MiB of memory");
   }
   const auto payload = bytes.begin() + headSize;
   if (bytes.front() != done)

@@ -1,7 +1,8 @@
 // 1. Give faces without edges their border (FaceBounding.cxx).
 // 2. Sort: solids and closed shells stay as they are; faces that are open to others; edges outside
 //    of faces.
-// 3. Sew the open faces, unless they are one shell already (FaceSewing.cxx).
+// 3. Leave out open faces that are there twice (RepeatedFaces.cxx); sew the others, unless they are
+//    one shell already (FaceSewing.cxx).
 // 4. Heal what Open CASCADE's own checker finds broken; make solids of closed shells, which turns
 //    them outward.
 // 5. See that every edge has its curve in space.
@@ -172,6 +173,9 @@ PreparedShape prepareShape(const TopoDS_Shape& shape, LookMap& looks)
   Surfaces surfaces = collectSurfaces(bounded.shape);
   if (!surfaces.openFaces.empty())
   {
+    const std::size_t given = surfaces.openFaces.size();
+    surfaces.openFaces = distinctFaces(surfaces.openFaces);
+    prepared.repeatedFaces = static_cast<int>(given - surfaces.openFaces.size());
     const SewnFaces sewn = sewFaces(surfaces.openFaces, looks);
     prepared.sewingTolerance = surfaces.openFaces.size() > 1 ? sewn.tolerance : 0;
     surfaces.whole.push_back(sewn.shape);

@@ -15,7 +15,8 @@ struct PreparedShape
 {
   TopoDS_Shape shape; ///< Null where there is neither face nor curve.
   double sewingTolerance = 0;
-  int removedFaces = 0; ///< Faces without border and without end.
+  int removedFaces = 0;  ///< Faces without border and without end.
+  int repeatedFaces = 0; ///< Open faces left out since the same one is there already.
 };
 
 /// The model made of `shape`: free faces and open shells sewn, broken ones healed, closed shells
@@ -33,6 +34,11 @@ struct BoundedFaces
 /// Faces without an edge are the whole of their surface: they get its border and seams, or, where
 /// it has no end, are removed.
 BoundedFaces boundFaces(const TopoDS_Shape& shape, LookMap& looks);
+
+/// The faces that equal none before them bit by bit, geometry and loops. (Sewing takes a time that
+/// grows with the cube of the number of faces in one place, and cannot tell them apart.) Work and
+/// memory: one copy of each face.
+std::vector<TopoDS_Shape> distinctFaces(const std::vector<TopoDS_Shape>& faces);
 
 struct SewnFaces
 {

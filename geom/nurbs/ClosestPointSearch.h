@@ -54,8 +54,8 @@ struct SearchScope
 class ClosestPointSearch
 {
 public:
-  /// Keeps a reference to `model`, which must outlive the search. Throws Error where a degree is
-  /// above 25, or control points are too few, not finite or of a weight that is not positive.
+  /// Keeps a reference to `model`, which must outlive the search. Throws Error as checkModel
+  /// does.
   explicit ClosestPointSearch(const NurbsModel& model);
   ~ClosestPointSearch();
   ClosestPointSearch(const ClosestPointSearch&) = delete;

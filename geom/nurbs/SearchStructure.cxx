@@ -1,12 +1,10 @@
 #include "SearchStructure.h"
 
-#include "BernsteinBasis.h"
-#include "Error.h"
 #include "LeafBuilder.h"
+#include "ModelCheck.h"
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 
 namespace cadrefine
 {
@@ -17,34 +15,6 @@ constexpr int mostLeavesOfModel = 400000;
 constexpr int fewestLeavesOfPatch = 64;
 /// Of the model's size: points nearer to each other than this are one.
 constexpr double sameTolerance = 1e-12;
-
-std::string nameOf(EntityId id)
-{
-  const char* kinds[] = { "vertex ", "edge ", "face " };
-  return kinds[id.dimension] + std::to_string(id.index);
-}
-
-void checkPatch(const PatchView& view, std::size_t points, EntityId id)
-{
-  if (view.degreeU < 0 || view.degreeV < 0 || view.degreeU > maximumDegree ||
-      view.degreeV > maximumDegree)
-  {
-    throw Error(
-      "CAD model: " + nameOf(id) + " has a degree outside 0 to " + std::to_string(maximumDegree));
-  }
-  const bool fits = points == static_cast<std::size_t>(view.count());
-  const auto isGood = [](const ControlPoint& p)
-  {
-    return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]) &&
-           std::isfinite(p[3]) && p[3] > 0;
-  };
-  if (!fits || !std::all_of(view.points, view.points + view.count(), isGood))
-  {
-    throw Error("CAD model: " + nameOf(id) +
-                " has control points that are too few, not finite or "
-                "of a weight that is not positive");
-  }
-}
 
 /// Fills a SearchStructure, entity by entity.
 class StructureBuilder
@@ -123,24 +93,20 @@ private:
   void addEdge(int index)
   {
     const NurbsEdge& edge = model_.edges[index];
-    const EntityId id = { 1, index };
-    const int entity = addEntity(id);
+    const int entity = addEntity({ 1, index });
     structure_.entities[entity].sharp = edge.sharp;
     structure_.entities[entity].face = edge.faces.empty() ? -1 : edge.faces.front();
     startGrid(entity, static_cast<int>(edge.segments.size()), 1);
     for (const BezierCurve& segment : edge.segments)
     {
-      const PatchView view = viewOf(segment);
-      checkPatch(view, segment.points.size(), id);
-      addPatch({ view, { segment.t0, segment.t1, 0.0, 0.0 }, entity, {} }, nullptr);
+      addPatch({ viewOf(segment), { segment.t0, segment.t1, 0.0, 0.0 }, entity, {} }, nullptr);
     }
   }
 
   void addFace(int index)
   {
     const NurbsFace& face = model_.faces[index];
-    const EntityId id = { 2, index };
-    const int entity = addEntity(id);
+    const int entity = addEntity({ 2, index });
     if (!face.loops.empty())
     {
       structure_.entities[entity].trim = std::make_unique<TrimRegion>(face.loops);
@@ -150,11 +116,9 @@ private:
     for (std::size_t i = 0; i < face.patches.size(); ++i)
     {
       const BezierPatch& patch = face.patches[i];
-      const PatchView view = viewOf(patch);
-      checkPatch(view, patch.points.size(), id);
       const int row = static_cast<int>(i) / columns;
       const int column = static_cast<int>(i) % columns;
-      addPatch({ view, { patch.u0, patch.u1, patch.v0, patch.v1 }, entity,
+      addPatch({ viewOf(patch), { patch.u0, patch.u1, patch.v0, patch.v1 }, entity,
                  { row > 0, row + 1 < face.patchesU, column > 0, column + 1 < columns } },
         structure_.entities[entity].trim.get());
     }
@@ -293,6 +257,7 @@ const SearchPatch& SearchStructure::patchAt(
 
 SearchStructure::SearchStructure(const NurbsModel& nurbsModel) : model(nurbsModel)
 {
+  checkModel(model);
   StructureBuilder(*this).build();
 }
 

@@ -71,7 +71,7 @@ struct SearchEntity
 /// Built once for a model; immutable. Memory: about 350 bytes a leaf.
 struct SearchStructure
 {
-  /// Throws Error where a degree is above maximumDegree or the control points do not fit it.
+  /// Throws Error as checkModel does.
   explicit SearchStructure(const NurbsModel& model);
 
   /// The patch of an entity that holds these of its parameters, the first of several.

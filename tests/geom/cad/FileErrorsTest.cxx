@@ -39,6 +39,29 @@ TEST_F(FileErrors, Directory)
   expectError(this->folder.file("folder.igs"), "directory");
 }
 
+TEST_F(FileErrors, Pipe)
+{
+  const std::string path = this->folder.file("pipe.igs");
+  ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
+  expectError(path, "is a device or a pipe");
+}
+
+TEST_F(FileErrors, Hole)
+{
+  constexpr std::uintmax_t gigabyte = 1000000000;
+  const std::string start = "Nothing follows" + std::string(57, ' ') + "S      1\n";
+  for (const std::string& path :
+    { this->folder.write("a.igs", start), this->folder.write("a.step", "ISO-10303-21;\n"),
+      this->folder.write("a.brep", "DBRep_DrawableShape\n\nCASCADE Topology V1, (c)\n") })
+  {
+    std::filesystem::resize_file(path, gigabyte);
+    expectError(path, "zeros instead of text from byte 4096 on");
+  }
+  const std::string empty = this->folder.write("b.igs", "");
+  std::filesystem::resize_file(empty, gigabyte);
+  expectError(empty, "does not begin like");
+}
+
 TEST_F(FileErrors, NoPermission)
 {
   const std::string path = this->folder.write("secret.igs", "text");

@@ -9,17 +9,19 @@
 #include <csignal>
 #include <iostream>
 #include <stdexcept>
+#include <unistd.h>
 
 namespace
 {
 
 using cadrefine::runIsolated;
+using cadrefine::RunLimits;
 
-std::string errorOf(int seconds, const std::function<std::vector<char>()>& work)
+std::string errorOf(const RunLimits& limits, const std::function<std::vector<char>()>& work)
 {
   try
   {
-    runIsolated("file", seconds, work);
+    runIsolated("file", limits, work);
   }
   catch (const cadrefine::Error& error)
   {
@@ -35,14 +37,14 @@ TEST(IsolatedRun, BringsBackManyBytes)
   {
     bytes[i] = static_cast<char>(i % 251);
   }
-  EXPECT_EQ(runIsolated("file", 60, [&] { return bytes; }), bytes);
-  EXPECT_TRUE(runIsolated("file", 60, [] { return std::vector<char>(); }).empty());
+  EXPECT_EQ(runIsolated("file", { 60 }, [&] { return bytes; }), bytes);
+  EXPECT_TRUE(runIsolated("file", { 60 }, [] { return std::vector<char>(); }).empty());
 }
 
 TEST(IsolatedRun, KeepsItsOutputToItself)
 {
   testing::internal::CaptureStdout();
-  runIsolated("file", 60,
+  runIsolated("file", { 60 },
     []
     {
       std::cout << "chatter" << std::endl;
@@ -53,14 +55,16 @@ TEST(IsolatedRun, KeepsItsOutputToItself)
 
 TEST(IsolatedRun, PassesErrorsOn)
 {
-  EXPECT_EQ(errorOf(60, []() -> std::vector<char> { throw cadrefine::Error("reason"); }), "reason");
-  EXPECT_EQ(errorOf(60, []() -> std::vector<char> { throw std::runtime_error("why"); }), "why");
-  EXPECT_NE(errorOf(60, []() -> std::vector<char> { throw 1; }), "");
+  EXPECT_EQ(
+    errorOf({ 60 }, []() -> std::vector<char> { throw cadrefine::Error("reason"); }), "reason");
+  EXPECT_EQ(errorOf({ 60 }, []() -> std::vector<char> { throw std::runtime_error("why"); }),
+    "file: the file is damaged: why");
+  EXPECT_NE(errorOf({ 60 }, []() -> std::vector<char> { throw 1; }), "");
 }
 
 TEST(IsolatedRun, SurvivesACrash)
 {
-  const std::string error = errorOf(60,
+  const std::string error = errorOf({ 60 },
     []
     {
       std::raise(SIGSEGV);
@@ -70,9 +74,36 @@ TEST(IsolatedRun, SurvivesACrash)
   EXPECT_NE(error.find("signal 11"), std::string::npos) << error;
 }
 
+TEST(IsolatedRun, EndsWhatTakesTooMuchMemory)
+{
+  const auto fill = []
+  {
+    std::vector<std::vector<char>> blocks;
+    for (int i = 0; i < 300; ++i)
+    {
+      blocks.emplace_back(1 << 20, 'x');
+    }
+    return blocks.back();
+  };
+  const std::string error = errorOf({ 60, 100 }, fill);
+  EXPECT_NE(error.find("more than 100 MiB of memory"), std::string::npos) << error;
+  EXPECT_EQ(errorOf({ 60, 1000 }, fill), "");
+}
+
+TEST(IsolatedRun, EndsWhatStandsStill)
+{
+  const std::string error = errorOf({ 60, 0, 1 },
+    []
+    {
+      pause();
+      return std::vector<char>();
+    });
+  EXPECT_NE(error.find("stands still"), std::string::npos) << error;
+}
+
 TEST(IsolatedRun, EndsWhatNeverEnds)
 {
-  const std::string error = errorOf(1,
+  const std::string error = errorOf({ 1 },
     []
     {
       for (volatile int i = 0;; i = i + 1)
