@@ -96,9 +96,11 @@ std::string checkKnots(const Values& values, std::size_t from, long count)
       return "the knots decrease at parameter " + std::to_string(i);
     }
   }
-  const bool empty =
-    numberAt(values, from) >= numberAt(values, from + static_cast<std::size_t>(count) - 1);
-  return empty ? "all knots are equal" : "";
+  // Open CASCADE takes parameters as near to each other as that for one.
+  constexpr double least = 1e-9;
+  const double range =
+    numberAt(values, from + static_cast<std::size_t>(count) - 1) - numberAt(values, from);
+  return range <= 0 ? "all knots are equal" : range < least ? "the knots lie within 1e-9" : "";
 }
 
 std::string checkWeights(const Values& values, std::size_t from, long count)

@@ -1,0 +1,18 @@
+# Damaged CAD files: a test with a part of them, and a program that reads many and prints a table.
+add_library(badcad STATIC
+  badcad/BadIges.cxx
+  badcad/BadShapes.cxx
+  badcad/Mutation.cxx
+  badcad/ReadProbe.cxx
+  cad/IgesCases.cxx
+  cad/IgesWriter.cxx
+  cad/TestFiles.cxx)
+target_include_directories(badcad PUBLIC badcad cad)
+target_include_directories(badcad SYSTEM PUBLIC ${OpenCASCADE_INCLUDE_DIR})
+target_link_libraries(badcad PUBLIC CADRefineCad ${data_exchange} TKXSBase TKPrim TKTopAlgo TKBRep GTest::gtest
+  PRIVATE CADRefineWarnings)
+
+add_executable(badcad_table badcad/BadCADTable.cxx)
+target_link_libraries(badcad_table PRIVATE badcad CADRefineWarnings)
+
+cadrefine_geom_test(badcad_tests SOURCES badcad/BadCADTest.cxx LINKS badcad)

@@ -1,0 +1,151 @@
+// Reads many damaged files, and prints what became of them:
+//   badcad_table corpus            the files made by programs (BadFiles.h)
+//   badcad_table COUNT SEED FILE... COUNT mutations of each file, the first with seed SEED
+// A row of the table for each kind or file; before it a line for each outcome that is bad or dear.
+// Exits with 1 where any outcome is bad.
+
+#include "BadFiles.h"
+#include "Mutation.h"
+#include "ReadProbe.h"
+#include "TestFiles.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <functional>
+#include <iterator>
+
+namespace
+{
+
+using badcad::BadFile;
+using badcad::Ending;
+
+struct Row
+{
+  std::string name;
+  int inputs = 0;
+  int models = 0;
+  int errors = 0;
+  int childCrashes = 0; ///< Of the errors.
+  int childTimeOuts = 0;
+  int childMemory = 0;
+  int bad = 0;
+  double megabytes = 0;
+  double seconds = 0;
+};
+
+const char* nameOf(Ending ending)
+{
+  const char* const names[] = { "model", "error", "unclear error", "useless model",
+    "crash of the reader", "time-out" };
+  return names[static_cast<int>(ending)];
+}
+
+void count(Row& row, const badcad::ReadOutcome& outcome)
+{
+  ++row.inputs;
+  row.models += outcome.ending == Ending::Model ? 1 : 0;
+  row.errors += outcome.ending == Ending::Error ? 1 : 0;
+  row.childCrashes += outcome.hadCrash() ? 1 : 0;
+  row.childTimeOuts += outcome.hadTimeOut() ? 1 : 0;
+  row.childMemory += outcome.hadNoMemory() ? 1 : 0;
+  row.bad += outcome.isGood() ? 0 : 1;
+  row.megabytes = std::max(row.megabytes, outcome.megabytes);
+  row.seconds = std::max(row.seconds, outcome.seconds);
+}
+
+void printRow(const Row& row)
+{
+  std::printf("| %s | %d | %d | %d | %d | %d | %d | %d | %.0f | %.1f |\n", row.name.c_str(),
+    row.inputs, row.models, row.errors, row.childCrashes, row.childTimeOuts, row.childMemory,
+    row.bad, row.megabytes, row.seconds);
+  std::fflush(stdout);
+}
+
+/// Reads files as `make` gives them, until that gives one without a name.
+Row readAll(const std::string& name, const std::function<BadFile(int)>& make)
+{
+  constexpr double wallSeconds = 600; // the machine may be busy; computing is what counts
+  constexpr double dearSeconds = 10;
+  constexpr double dearMegabytes = 1024;
+  const cadtest::TemporaryFolder folder;
+  Row row;
+  row.name = name;
+  for (int i = 0;; ++i)
+  {
+    const BadFile file = make(i);
+    if (file.name.empty())
+    {
+      break;
+    }
+    const badcad::ReadOutcome outcome =
+      badcad::probe(folder.write("case" + file.extension, file.text), wallSeconds);
+    count(row, outcome);
+    if (!outcome.isGood() || outcome.hadCrash() || outcome.seconds > dearSeconds ||
+        outcome.megabytes > dearMegabytes)
+    {
+      std::fprintf(stderr, "%s (%s): %s, %.1f s, %.0f MiB: %s\n", file.name.c_str(), name.c_str(),
+        nameOf(outcome.ending), outcome.seconds, outcome.megabytes, outcome.text.c_str());
+    }
+  }
+  printRow(row);
+  return row;
+}
+
+int readCorpus()
+{
+  const std::vector<std::pair<const char*, std::vector<BadFile>>> all{ { "IGES, made by programs",
+                                                                         badcad::badIgesFiles() },
+    { "STEP, made by programs", badcad::badStepFiles() },
+    { "BREP, made by programs", badcad::badBrepFiles() },
+    { "bad shapes in each format", badcad::badShapes() },
+    { "files that take long", badcad::dearFiles() } };
+  int bad = 0;
+  for (const auto& [name, files] : all)
+  {
+    const auto& list = files;
+    bad += readAll(name,
+      [&](int i) {
+        return i < static_cast<int>(list.size()) ? list[static_cast<std::size_t>(i)] : BadFile();
+      }).bad;
+  }
+  return bad;
+}
+
+int readMutations(const std::string& path, int inputs, int seed)
+{
+  std::ifstream file(path, std::ios::binary);
+  const std::string text{ std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>() };
+  const std::filesystem::path name(path);
+  return readAll(name.filename().string(),
+    [&](int i)
+    {
+      return i >= inputs ? BadFile()
+                         : BadFile{ "seed " + std::to_string(seed + i), name.extension().string(),
+                             badcad::mutate(text, static_cast<std::uint64_t>(seed + i)) };
+    })
+    .bad;
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+  const bool corpus = argc == 2 && std::string(argv[1]) == "corpus";
+  if (!corpus && argc < 4)
+  {
+    std::fprintf(stderr, "usage: badcad_table corpus | COUNT SEED FILE...\n");
+    return 2;
+  }
+  std::printf("| Files | Inputs | Models | Errors | of them crashes in the child | time-outs in "
+              "the child | out of memory in the child | Bad endings | Most memory (MiB) | Slowest "
+              "(s of computing) |\n|---|---|---|---|---|---|---|---|---|---|\n");
+  int bad = corpus ? readCorpus() : 0;
+  for (int i = 3; i < argc; ++i)
+  {
+    bad += readMutations(argv[i], std::atoi(argv[1]), std::atoi(argv[2]));
+  }
+  return bad == 0 ? 0 : 1;
+}
