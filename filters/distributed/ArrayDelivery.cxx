@@ -1,11 +1,10 @@
 #include "ArrayDelivery.h"
 
 #include "Agreement.h"
-#include "Marshalling.h"
+#include "ArrayBytes.h"
 
 #include <vtkCellData.h>
 #include <vtkFieldData.h>
-#include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkTable.h>
 
@@ -18,13 +17,7 @@ using Bytes = std::vector<char>;
 
 Bytes pack(vtkDataSetAttributes* attributes)
 {
-  if (attributes->GetNumberOfTuples() == 0)
-  {
-    return {};
-  }
-  vtkNew<vtkTable> table;
-  table->GetRowData()->PassData(attributes);
-  return marshal(table);
+  return attributes->GetNumberOfTuples() == 0 ? Bytes() : bytesOf(attributes);
 }
 
 /// The tuples of all tables in a row.
@@ -60,7 +53,7 @@ void unpack(const std::vector<Bytes>& incoming, vtkDataSetAttributes* attributes
   {
     if (!bytes.empty())
     {
-      tables.push_back(unmarshal<vtkTable>(bytes));
+      tables.push_back(arraysOf(bytes));
     }
   }
   append(tables, attributes);

@@ -6,14 +6,12 @@
 #include "WeightedPartition.h"
 
 #include <vtkAppendFilter.h>
-#include <vtkCellData.h>
-#include <vtkFieldData.h>
 #include <vtkNew.h>
-#include <vtkPointData.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
 #include <numeric>
+#include <string>
 #include <utility>
 
 namespace cadrefine
@@ -115,22 +113,91 @@ private:
   std::vector<vtkIdType>::const_iterator end_;
 };
 
-std::vector<char> pack(const ConvertedMesh& part, vtkPointSet* input)
+/// The parts of a piece, one for each rank.
+struct Parts
 {
-  vtkNew<vtkUnstructuredGrid> grid;
-  grid->ShallowCopy(makePointSet(grid, part.mesh));
-  copyArrays(input, part, grid);
-  grid->GetFieldData()->Initialize();
-  return marshal(grid);
+  Delivery delivery;
+  std::vector<std::vector<char>> cells; ///< And points, without arrays.
+  std::vector<std::vector<GlobalId>> pointIds;
+  std::vector<std::vector<GlobalId>> cellIds;
+
+  explicit Parts(int ranks) : delivery(ranks), cells(ranks), pointIds(ranks), cellIds(ranks) {}
+};
+
+std::vector<GlobalId> joined(const std::vector<std::vector<GlobalId>>& lists)
+{
+  std::vector<GlobalId> all;
+  for (const auto& list : lists)
+  {
+    all.insert(all.end(), list.begin(), list.end());
+  }
+  return all;
 }
 
-/// The appended parts lose which arrays are the global ids.
-void markGlobalIds(vtkDataSetAttributes* source, vtkDataSetAttributes* output)
+std::vector<char> pack(const SimplexMesh& part)
 {
-  if (vtkDataArray* ids = source->GetGlobalIds())
+  const vtkNew<vtkUnstructuredGrid> grid;
+  return marshal(makePointSet(grid, part));
+}
+
+Parts makeParts(const DistributedMesh& mesh, vtkPointSet* input, const std::vector<int>& rankOfCell,
+  int rankCount)
+{
+  std::vector<std::vector<vtkIdType>> cellsTo(rankCount);
+  for (std::size_t cell = 0; cell < rankOfCell.size(); ++cell)
   {
-    output->SetActiveAttribute(ids->GetName(), vtkDataSetAttributes::GLOBALIDS);
+    cellsTo[rankOfCell[cell]].push_back(static_cast<vtkIdType>(cell));
   }
+  Parts parts(rankCount);
+  PartMaker maker(mesh);
+  for (int rank = 0; rank < rankCount; ++rank)
+  {
+    const ConvertedMesh part = maker.make(cellsTo[rank]);
+    parts.delivery[rank] = selectionOf(input, part);
+    if (!cellsTo[rank].empty())
+    {
+      parts.cells[rank] = pack(part.mesh);
+      parts.pointIds[rank] = part.mesh.ids;
+      for (const auto& ids : part.cellIds)
+      {
+        parts.cellIds[rank].insert(parts.cellIds[rank].end(), ids.begin(), ids.end());
+      }
+    }
+  }
+  return parts;
+}
+
+vtkSmartPointer<vtkPointSet> appendParts(const std::vector<std::vector<char>>& parts)
+{
+  vtkNew<vtkAppendFilter> append;
+  for (const auto& bytes : parts)
+  {
+    if (!bytes.empty())
+    {
+      append->AddInputData(unmarshal<vtkUnstructuredGrid>(bytes));
+    }
+  }
+  auto result = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  if (append->GetNumberOfInputConnections(0) > 0)
+  {
+    append->Update();
+    result->ShallowCopy(append->GetOutput());
+  }
+  return result;
+}
+
+/// A rank without points does not know how the arrays of ids are called elsewhere.
+void agreeOnNamesOfIds(RankExchange& exchange, vtkPointSet* input, MeshArrays& arrays)
+{
+  const int root = static_cast<int>(
+    exchange.min(input->GetNumberOfPoints() > 0 ? exchange.rank() : exchange.size() - 1));
+  const auto fromRoot = [&](std::string& name)
+  {
+    const std::vector<char> text = exchange.broadcast({ name.begin(), name.end() }, root);
+    name.assign(text.begin(), text.end());
+  };
+  fromRoot(arrays.vertexIdName);
+  fromRoot(arrays.cellIdName);
 }
 
 } // namespace
@@ -152,50 +219,23 @@ Redistribution redistribute(RankExchange& exchange, const DistributedMesh& mesh,
   const std::vector<std::int64_t>& weights)
 {
   const std::vector<int> ranks = partitionByWeight(exchange, cellCentres(mesh.mesh()), weights);
-  std::vector<std::vector<char>> outgoing(exchange.size());
-  Delivery delivery(exchange.size());
+  Parts parts(exchange.size());
+  attempt(exchange, [&] { parts = makeParts(mesh, input, ranks, exchange.size()); });
+  Redistribution result;
+  result.delivery = std::move(parts.delivery);
+  ConvertedMesh ids;
+  ids.mesh.ids = joined(exchange.allToAll(parts.pointIds));
+  ids.cellIds[0] = joined(exchange.allToAll(parts.cellIds));
+  const auto cells = exchange.allToAll(parts.cells);
+  MeshArrays arrays = deliver(exchange, arraysOf(input), result.delivery);
+  agreeOnNamesOfIds(exchange, input, arrays);
   attempt(exchange,
     [&]
     {
-      std::vector<std::vector<vtkIdType>> cellsTo(exchange.size());
-      for (std::size_t cell = 0; cell < ranks.size(); ++cell)
-      {
-        cellsTo[ranks[cell]].push_back(static_cast<vtkIdType>(cell));
-      }
-      PartMaker maker(mesh);
-      for (int rank = 0; rank < exchange.size(); ++rank)
-      {
-        const ConvertedMesh part = maker.make(cellsTo[rank]);
-        delivery[rank] = selectionOf(input, part);
-        if (!cellsTo[rank].empty())
-        {
-          outgoing[rank] = pack(part, input);
-        }
-      }
+      result.mesh = appendParts(cells);
+      setArrays(arrays, ids, result.mesh);
     });
-  const auto incoming = exchange.allToAll(outgoing);
-  auto result = vtkSmartPointer<vtkUnstructuredGrid>::New();
-  attempt(exchange,
-    [&]
-    {
-      vtkNew<vtkAppendFilter> append;
-      for (const auto& bytes : incoming)
-      {
-        if (!bytes.empty())
-        {
-          append->AddInputData(unmarshal<vtkUnstructuredGrid>(bytes));
-        }
-      }
-      if (append->GetNumberOfInputConnections(0) > 0)
-      {
-        append->Update();
-        result->ShallowCopy(append->GetOutput());
-        markGlobalIds(input->GetPointData(), result->GetPointData());
-        markGlobalIds(input->GetCellData(), result->GetCellData());
-      }
-    });
-  result->GetFieldData()->PassData(input->GetFieldData());
-  return { result, std::move(delivery) };
+  return result;
 }
 
 } // namespace cadrefine
