@@ -3,6 +3,7 @@
 #include "Agreement.h"
 #include "CADModel.h"
 #include "GeometryMemory.h"
+#include "InputCheck.h"
 #include "InputParts.h"
 #include "RankExchange.h"
 #include "RunStatistics.h"
@@ -67,6 +68,7 @@ void vtkSimplexMeshAlgorithm::Run(
   {
     model = this->FindModel(exchange, inputs[1]);
   }
+  cadrefine::attempt(exchange, [&] { cadrefine::checkInput(vtkPointSet::GetData(inputs[0])); });
   const cadrefine::InputParts parts =
     cadrefine::splitInput(vtkPointSet::GetData(inputs[0]), this->GetCellArraysRead());
   bool isReused = true;

@@ -2,6 +2,7 @@
 
 #include "Facets.h"
 #include "LargeMemory.h"
+#include "PieceCheck.h"
 #include "VertexNumbering.h"
 
 #include <algorithm>
@@ -185,6 +186,7 @@ DistributedMesh makeDistributedMesh(RankExchange& exchange, vtkPointSet* input, 
   DistributedMesh result;
   result.converted = convert(exchange, input, order);
   result.shared = findShared(exchange, result.mesh());
+  checkPieces(exchange, result);
   if (exchange.any(!haveIds(result.converted)))
   {
     numberCells(exchange, result.shared, result.converted);

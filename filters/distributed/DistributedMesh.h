@@ -26,7 +26,8 @@ struct DistributedMesh
   std::vector<char> ownedPoints() const;
 };
 
-/// Reads a data set (see convert) and finds the shared vertices. Collective.
+/// Reads a data set (see convert) and finds the shared vertices. Collective. Throws Error, on all
+/// ranks, where the pieces do not make one mesh (see checkPieces).
 DistributedMesh makeDistributedMesh(
   RankExchange& exchange, vtkPointSet* input, CellOrder order = CellOrder::First);
 

@@ -7,6 +7,7 @@
 #include "FacetMarking.h"
 #include "GlobalNumbering.h"
 #include "LargeMemory.h"
+#include "PieceCheck.h"
 
 #include <algorithm>
 #include <iterator>
@@ -34,25 +35,11 @@ std::vector<Index> combineMarks(RankExchange& exchange, RefinementPlan& plan)
   return fresh;
 }
 
-std::vector<GlobalId> firstIdsOfChildren(RankExchange& exchange,
-  const std::vector<GlobalId>& parents, const std::vector<std::int64_t>& weights)
-{
-  try
-  {
-    return denseOffsets(exchange, parents, weights).numbers;
-  }
-  catch (const AgreedError&)
-  {
-    throw AgreedError(
-      "the mesh lists a cell twice: two cells have the same vertices, or the same global "
-      "id (the filter Clean Cells to Grid merges cells)");
-  }
-}
-
 /// Ids of the children: parents in the order of their ids, the children of each in a row.
-std::array<std::vector<GlobalId>, 4> numberChildren(RankExchange& exchange,
-  const std::array<std::vector<GlobalId>, 4>& parentIds, const ChildRanges& firstChildren)
+std::array<std::vector<GlobalId>, 4> numberChildren(
+  RankExchange& exchange, const DistributedMesh& mesh, const ChildRanges& firstChildren)
 {
+  const auto& parentIds = mesh.converted.cellIds;
   const std::size_t cells = std::accumulate(parentIds.begin(), parentIds.end(), std::size_t{ 0 },
     [](std::size_t sum, const std::vector<GlobalId>& list) { return sum + list.size(); });
   std::vector<GlobalId> parents;
@@ -68,7 +55,15 @@ std::array<std::vector<GlobalId>, 4> numberChildren(RankExchange& exchange,
       weights.push_back(firsts[c + 1] - firsts[c]);
     }
   }
-  const auto firstIds = firstIdsOfChildren(exchange, parents, weights);
+  std::vector<GlobalId> firstIds;
+  try
+  {
+    firstIds = denseOffsets(exchange, parents, weights).numbers;
+  }
+  catch (const AgreedError&)
+  {
+    complainOfRepeatedCells(exchange, mesh.mesh(), parentIds);
+  }
   std::array<std::vector<GlobalId>, 4> ids;
   auto parent = firstIds.begin();
   for (int d = 0; d < 4; ++d)
@@ -173,7 +168,7 @@ RefinementTrace refine(RankExchange& exchange, DistributedMesh& mesh, const Refi
                          : splitMarked(mesh.mesh(), plan.table, plan.marks, midpoints, ids);
   }
   const RunStatistics::Stopwatch watch(statistics, "seconds numbering");
-  mesh.converted.cellIds = numberChildren(exchange, mesh.converted.cellIds, split.firstChildren);
+  mesh.converted.cellIds = numberChildren(exchange, mesh, split.firstChildren);
   mesh.mesh() = std::move(split.mesh);
   mesh.converted.pointOf.clear();
   mesh.converted.cellOf = {};

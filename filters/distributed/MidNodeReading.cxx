@@ -2,7 +2,6 @@
 
 #include "Error.h"
 
-#include <cmath>
 #include <string>
 #include <utility>
 
@@ -36,7 +35,6 @@ public:
     result.table = std::move(table);
     for (const vtkIdType point : pointOf_)
     {
-      checkFinite(points_[point], point);
       result_.pointOf.push_back(point);
       result.points.push_back(points_[point]);
       result.ids.push_back(ids_[point]);
@@ -95,18 +93,6 @@ bool isOfSecondOrder(
     throw Error("the mesh has cells of first and of second order; they do not meet in their nodes");
   }
   return second;
-}
-
-void checkFinite(const Point3& point, vtkIdType number)
-{
-  for (const double x : point)
-  {
-    if (!std::isfinite(x))
-    {
-      throw Error(
-        "the mesh has a coordinate that is not finite (point " + std::to_string(number) + ")");
-    }
-  }
 }
 
 void readMidNodes(const std::vector<Point3>& points, const std::vector<GlobalId>& ids,

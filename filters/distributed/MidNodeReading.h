@@ -32,9 +32,6 @@ void appendNodes(int dimension, const Point* points, NodesOfCells& nodes)
 bool isOfSecondOrder(
   RankExchange& exchange, const ConvertedMesh& converted, const NodesOfCells& nodes);
 
-/// Throws Error for a coordinate that is not finite, of point `number` of the data set.
-void checkFinite(const Point3& point, vtkIdType number);
-
 /// Gives the mesh the mid nodes of its edges, and appends their points to pointOf, given the points
 /// and ids of the data set. Throws Error where cells of this rank do not agree on a node's place.
 void readMidNodes(const std::vector<Point3>& points, const std::vector<GlobalId>& ids,

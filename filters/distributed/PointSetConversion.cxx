@@ -2,25 +2,20 @@
 
 #include "Agreement.h"
 #include "ArrayAccess.h"
+#include "CellReading.h"
 #include "Error.h"
+#include "GlobalIdReading.h"
 #include "GlobalNumbering.h"
 #include "LargeMemory.h"
 #include "MidNodeReading.h"
 #include "RadixOrder.h"
 
-#include <vtkCellArray.h>
 #include <vtkCellData.h>
-#include <vtkCellType.h>
-#include <vtkCellTypes.h>
-#include <vtkIdList.h>
-#include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPointSet.h>
-#include <vtkTypeInt64Array.h>
-#include <vtkUnsignedCharArray.h>
-#include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <string>
 #include <utility>
@@ -29,159 +24,6 @@ namespace cadrefine
 {
 namespace
 {
-
-/// A cell type that CADRefine takes, or with a dimension of -1 one that it does not.
-struct CellKind
-{
-  int dimension = -1;
-  bool secondOrder = false;
-};
-
-CellKind kindOf(int cellType)
-{
-  switch (cellType)
-  {
-    case VTK_VERTEX:
-      return { 0, false };
-    case VTK_LINE:
-      return { 1, false };
-    case VTK_TRIANGLE:
-      return { 2, false };
-    case VTK_TETRA:
-      return { 3, false };
-    case VTK_QUADRATIC_EDGE:
-      return { 1, true };
-    case VTK_QUADRATIC_TRIANGLE:
-      return { 2, true };
-    case VTK_QUADRATIC_TETRA:
-      return { 3, true };
-    default:
-      return {};
-  }
-}
-
-/// A readable name such as "hexahedron" for a cell type.
-std::string nameOf(int cellType)
-{
-  std::string name = vtkCellTypes::GetClassNameFromTypeId(cellType);
-  name = name.rfind("vtk", 0) == 0 ? name.substr(3) : name;
-  std::transform(name.begin(), name.end(), name.begin(), ::tolower);
-  return name;
-}
-
-bool isGhost(vtkUnsignedCharArray* ghosts, vtkIdType cell)
-{
-  return ghosts && (ghosts->GetValue(cell) & vtkDataSetAttributes::DUPLICATECELL);
-}
-
-void checkCell(int type, const CellKind& kind, CellOrder order, vtkIdType cell)
-{
-  const auto holds = [&]
-  { return "the mesh holds a " + nameOf(type) + " (cell " + std::to_string(cell) + "); "; };
-  if (kind.dimension < 0)
-  {
-    throw Error(holds() +
-                "CADRefine takes triangles and tetrahedra (the filters Tetrahedralize and "
-                "Triangulate make them)");
-  }
-  if (kind.secondOrder && order == CellOrder::First)
-  {
-    throw Error(holds() + "this filter takes cells of first order: refine the mesh of first order, "
-                          "and choose Quadratic Cells in the last step");
-  }
-}
-
-template<class Point, std::size_t Corners>
-void appendCell(const Point* points, std::size_t expected, Simplices<Corners>& cells)
-{
-  if (cells.empty())
-  {
-    reserveLong(cells, expected);
-  }
-  auto& cell = cells.emplace_back();
-  std::transform(
-    points, points + Corners, cell.begin(), [](Point point) { return static_cast<Index>(point); });
-}
-
-/// Appends cell `number` of the data set; `expected` is how many may follow.
-template<class Point>
-void appendCell(
-  int dimension, const Point* points, vtkIdType number, std::size_t expected, ConvertedMesh& result)
-{
-  auto& numbers = result.cellOf[dimension];
-  if (numbers.empty())
-  {
-    reserveLong(numbers, expected);
-  }
-  numbers.push_back(number);
-  switch (dimension)
-  {
-    case 0:
-      return appendCell(points, expected, result.mesh.vertices);
-    case 1:
-      return appendCell(points, expected, result.mesh.segments);
-    case 2:
-      return appendCell(points, expected, result.mesh.triangles);
-    default:
-      return appendCell(points, expected, result.mesh.tetrahedra);
-  }
-}
-
-/// Calls use(cell, type, points) for every cell, `points` being a pointer and a count.
-template<class Use>
-void forEachCell(vtkPointSet* input, const Use& use)
-{
-  const vtkIdType count = input->GetNumberOfCells();
-  auto* grid = vtkUnstructuredGrid::SafeDownCast(input);
-  if (grid && count > 0 && grid->GetCells()->IsStorage64Bit())
-  {
-    const auto* offsets = grid->GetCells()->GetOffsetsArray64()->GetPointer(0);
-    const auto* corners = grid->GetCells()->GetConnectivityArray64()->GetPointer(0);
-    const unsigned char* types = grid->GetCellTypesArray()->GetPointer(0);
-    for (vtkIdType c = 0; c < count; ++c)
-    {
-      use(c, types[c], corners + offsets[c], offsets[c + 1] - offsets[c]);
-    }
-    return;
-  }
-  vtkNew<vtkIdList> buffer;
-  const vtkIdType* points = nullptr;
-  vtkIdType pointCount = 0;
-  for (vtkIdType c = 0; c < count; ++c)
-  {
-    input->GetCellPoints(c, pointCount, points, buffer);
-    use(c, input->GetCellType(c), points, pointCount);
-  }
-}
-
-/// Reads the cells, with the numbers of the data set's points for vertices.
-NodesOfCells readCells(vtkPointSet* input, CellOrder order, ConvertedMesh& result)
-{
-  vtkUnsignedCharArray* ghosts = input->GetCellGhostArray();
-  const vtkIdType total = input->GetNumberOfCells();
-  NodesOfCells nodes;
-  forEachCell(input,
-    [&](vtkIdType cell, int type, const auto* points, vtkIdType count)
-    {
-      if (isGhost(ghosts, cell) || type == VTK_EMPTY_CELL)
-      {
-        return;
-      }
-      const bool isPolyVertex = type == VTK_POLY_VERTEX;
-      const bool isSegment = type == VTK_POLY_LINE && count == 2;
-      const CellKind kind = kindOf(isPolyVertex ? VTK_VERTEX : isSegment ? VTK_LINE : type);
-      checkCell(type, kind, order, cell);
-      for (vtkIdType part = 0; part < (isPolyVertex ? count : 1); ++part)
-      {
-        appendCell(kind.dimension, points + part, cell, total - cell, result);
-      }
-      if (kind.secondOrder)
-      {
-        appendNodes(kind.dimension, points, nodes);
-      }
-    });
-  return nodes;
-}
 
 /// Points alone: a cell of dimension 0 each, without a cell in the data set.
 void addLonePoints(vtkPointSet* input, ConvertedMesh& result)
@@ -213,29 +55,25 @@ std::vector<Point3> readPoints(vtkPointSet* input)
   return points;
 }
 
-std::vector<GlobalId> readIds(vtkDataArray* array)
+/// The ids of points, and the array that they are from, if any.
+struct PointIds
 {
-  std::vector<GlobalId> ids(array ? array->GetNumberOfTuples() : 0);
-  if (!ids.empty())
-  {
-    copyValues(array, ids.data());
-  }
-  return ids;
-}
+  std::vector<GlobalId> ids;
+  vtkDataArray* given = nullptr;
+};
 
 /// The data set's point ids where every rank with points has them, otherwise from coordinates.
-std::vector<GlobalId> pointIds(
-  RankExchange& exchange, vtkPointSet* input, const std::vector<Point3>& points)
+PointIds pointIds(RankExchange& exchange, vtkPointSet* input, const std::vector<Point3>& points)
 {
   vtkDataArray* given = input->GetPointData()->GetGlobalIds();
   if (!exchange.any(!given && !points.empty()))
   {
-    return readIds(given);
+    return { readGlobalIds(given), given };
   }
   std::vector<Key<3>> keys(points.size());
   std::transform(points.begin(), points.end(), keys.begin(),
     [](const Point3& point) { return coordinateKey(point); });
-  return numberDistinct(exchange, keys).numbers;
+  return { numberDistinct(exchange, keys).numbers };
 }
 
 template<class Use, std::size_t Corners>
@@ -311,21 +149,56 @@ void checkCells(const Simplices<Corners>& cells, const std::vector<vtkIdType>& c
   }
 }
 
+/// The sixth power of a longer length overflows: cells are judged by squares of volumes.
+constexpr double largestCoordinate = 0x1p170;
+
+void checkCoordinates(const Point3& point, vtkIdType number)
+{
+  for (const double x : point)
+  {
+    if (!(std::abs(x) <= largestCoordinate))
+    {
+      throw Error(std::string("the mesh has a coordinate that is ") +
+                  (std::isfinite(x) ? "beyond 1.5e51" : "not finite") + " (point " +
+                  std::to_string(number) + ")");
+    }
+  }
+}
+
+void checkPoint(const Point3& point, const PointIds& ids, vtkIdType number)
+{
+  checkCoordinates(point, number);
+  if (ids.given)
+  {
+    checkGlobalId(ids.ids[number], ids.given, number, "point");
+  }
+}
+
 /// Makes vertices of the points that cells use, and makes the cells name them.
-void makeVertices(
-  const std::vector<Point3>& points, const std::vector<GlobalId>& ids, ConvertedMesh& result)
+void makeVertices(const std::vector<Point3>& points, const PointIds& ids, ConvertedMesh& result)
 {
   std::vector<unsigned char> used(points.size(), 0);
   forEachCorner(result.mesh, [&](Index point) { used[point] = 1; });
-  const std::vector<Index> vertexOf = numberVertices(ids, used);
+  const std::vector<Index> vertexOf = numberVertices(ids.ids, used);
   for (std::size_t p = 0; p < points.size(); ++p)
   {
+    const auto point = static_cast<vtkIdType>(p);
+    if (!used[p])
+    {
+      continue;
+    }
+    checkPoint(points[p], ids, point);
     if (vertexOf[p] == static_cast<Index>(result.pointOf.size()))
     {
-      checkFinite(points[p], static_cast<vtkIdType>(p));
-      result.pointOf.push_back(static_cast<vtkIdType>(p));
+      result.pointOf.push_back(point);
       result.mesh.points.push_back(points[p]);
-      result.mesh.ids.push_back(ids[p]);
+      result.mesh.ids.push_back(ids.ids[p]);
+    }
+    else if (points[p] != result.mesh.points[vertexOf[p]])
+    {
+      throw Error("the points " + std::to_string(result.pointOf[vertexOf[p]]) + " and " +
+                  std::to_string(p) + " of the mesh have the same global id, " +
+                  std::to_string(ids.ids[p]) + ", and lie at different places");
     }
   }
   forEachCorner(result.mesh, [&](Index& corner) { corner = vertexOf[corner]; });
@@ -342,13 +215,20 @@ void readCellIds(RankExchange& exchange, vtkPointSet* input, ConvertedMesh& resu
   {
     return;
   }
-  const std::vector<GlobalId> idOf = readIds(given);
-  for (int d = 0; d < 4; ++d)
-  {
-    reserveLong(result.cellIds[d], result.cellOf[d].size());
-    std::transform(result.cellOf[d].begin(), result.cellOf[d].end(),
-      std::back_inserter(result.cellIds[d]), [&](vtkIdType cell) { return idOf[cell]; });
-  }
+  const std::vector<GlobalId> idOf = readGlobalIds(given);
+  attempt(exchange,
+    [&]
+    {
+      for (int d = 0; d < 4; ++d)
+      {
+        reserveLong(result.cellIds[d], result.cellOf[d].size());
+        for (const vtkIdType cell : result.cellOf[d])
+        {
+          checkGlobalId(idOf[cell], given, cell, "cell");
+          result.cellIds[d].push_back(idOf[cell]);
+        }
+      }
+    });
 }
 
 } // namespace
@@ -367,6 +247,10 @@ ConvertedMesh convert(RankExchange& exchange, vtkPointSet* input, CellOrder orde
     addLonePoints(input, result);
   }
   result.mesh.dimension = highestDimension(exchange, result);
+  if (result.mesh.dimension < 0)
+  {
+    throw Error("the mesh has no cells but empty ones and such as are marked as ghosts or hidden");
+  }
   if (result.mesh.dimension == 1)
   {
     throw Error("the mesh is one of lines; CADRefine takes triangles and tetrahedra");
@@ -376,7 +260,15 @@ ConvertedMesh convert(RankExchange& exchange, vtkPointSet* input, CellOrder orde
   attempt(exchange, [&] { makeVertices(points, ids, result); });
   if (order == CellOrder::FirstOrSecond && isOfSecondOrder(exchange, result, nodes))
   {
-    attempt(exchange, [&] { readMidNodes(points, ids, nodes, result); });
+    attempt(exchange,
+      [&]
+      {
+        readMidNodes(points, ids.ids, nodes, result);
+        for (std::size_t v = result.mesh.points.size(); v < result.pointOf.size(); ++v)
+        {
+          checkPoint(points[result.pointOf[v]], ids, result.pointOf[v]);
+        }
+      });
   }
   readCellIds(exchange, input, result);
   return result;

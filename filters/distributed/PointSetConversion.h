@@ -39,19 +39,23 @@ enum class CellOrder
 };
 
 /// Reads tetrahedra, triangles, lines and vertices from a vtkUnstructuredGrid or vtkPolyData on
-/// each rank. Ghost cells and points that no cell uses are left out; points with the same global id
-/// on a rank become one vertex. Vertices come in the order of the points. Ids come from the data
-/// set's global ids if every rank has them, and otherwise from coordinates (vertices) and vertices
-/// (cells): they then do not depend on the partition, and points that coincide are one vertex.
-/// Collective. Of cells of second order the corners make the mesh; of their other points one for
-/// each edge is taken, that of the first cell that has the edge.
+/// each rank. Cells that are marked as ghosts or hidden and points that no cell uses are left out,
+/// marks of points do not count; points with the same global id on a rank become one vertex.
+/// Vertices come in the order of the points. Ids come from the data set's global ids if every rank
+/// has them, and otherwise from coordinates (vertices) and vertices (cells): they then do not
+/// depend on the partition, and points that coincide are one vertex. Collective. Of cells of second
+/// order the corners make the mesh; of their other points one for each edge is taken, that of the
+/// first cell that has the edge.
 ///
 /// Without cells, every point becomes a cell of dimension 0. The mesh's dimension is that of its
 /// cells of highest dimension on any rank, and 0 for points alone.
 ///
-/// Throws Error on all ranks for any other cell (named), for a mesh without points, for a mesh of
-/// lines, for coordinates that are not finite, for a cell that names a vertex twice, for cells of
-/// both orders in one mesh, for cells of second order that do not meet in their mid nodes.
+/// Throws Error on all ranks for any other cell (named), for a mesh without points, for a mesh
+/// whose cells are all left out, for a mesh of lines, for coordinates that are not finite or beyond
+/// 2^170, for a cell that names a vertex twice, too few or too many points, or one that is not
+/// there, for a global id that is none (see readGlobalIds) or that points at different places have,
+/// for cells of both orders in one mesh, for cells of second order that do not meet in their mid
+/// nodes.
 ConvertedMesh convert(
   RankExchange& exchange, vtkPointSet* input, CellOrder order = CellOrder::First);
 

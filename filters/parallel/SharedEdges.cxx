@@ -163,6 +163,8 @@ template SharedItems findSharedSimplices<2>(RankExchange&, const SharedVertices&
   const std::vector<GlobalId>&, const std::vector<std::array<Index, 2>>&);
 template SharedItems findSharedSimplices<3>(RankExchange&, const SharedVertices&,
   const std::vector<GlobalId>&, const std::vector<std::array<Index, 3>>&);
+template SharedItems findSharedSimplices<4>(RankExchange&, const SharedVertices&,
+  const std::vector<GlobalId>&, const std::vector<std::array<Index, 4>>&);
 
 SharedVertices sharedWithMidpoints(
   const SharedVertices& vertices, const SharedEdges& edges, const std::vector<Index>& midpointOf)

@@ -15,7 +15,8 @@ using SharedEdges = SharedItems;
 /// Facets (triangles of a mesh of tetrahedra) held by several ranks.
 using SharedFacets = SharedItems;
 
-/// Finds the simplices, given by N local vertices each (edges: 2, facets: 3), that other ranks hold
+/// Finds the simplices, given by N local vertices each (edges: 2, facets: 3,
+/// tetrahedra: 4), that other ranks hold
 /// too. Collective.
 ///
 /// @param exchange the ranks.
@@ -38,6 +39,8 @@ extern template SharedItems findSharedSimplices<2>(RankExchange&, const SharedVe
   const std::vector<GlobalId>&, const std::vector<std::array<Index, 2>>&);
 extern template SharedItems findSharedSimplices<3>(RankExchange&, const SharedVertices&,
   const std::vector<GlobalId>&, const std::vector<std::array<Index, 3>>&);
+extern template SharedItems findSharedSimplices<4>(RankExchange&, const SharedVertices&,
+  const std::vector<GlobalId>&, const std::vector<std::array<Index, 4>>&);
 
 /// The shared points among the vertices and the midpoints of edges: the shared vertices, and the
 /// midpoints of shared edges. `midpointOf` gives the number of the midpoint of each edge, larger

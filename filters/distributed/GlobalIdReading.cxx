@@ -1,0 +1,69 @@
+#include "GlobalIdReading.h"
+
+#include "Error.h"
+
+#include <vtkArrayDispatch.h>
+#include <vtkDataArray.h>
+#include <vtkDataArrayRange.h>
+#include <vtkVariant.h>
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+
+namespace cadrefine
+{
+namespace
+{
+
+constexpr GlobalId bound = GlobalId{ 1 } << 62;
+
+template<class Value>
+GlobalId idOf(Value value)
+{
+  if constexpr (std::is_floating_point_v<Value>)
+  {
+    const bool isId = value >= 0 && value < static_cast<Value>(bound) && std::floor(value) == value;
+    return isId ? static_cast<GlobalId>(value) : -1;
+  }
+  else if constexpr (std::is_unsigned_v<Value>)
+  {
+    return value < static_cast<std::uint64_t>(bound) ? static_cast<GlobalId>(value) : -1;
+  }
+  else
+  {
+    return value >= 0 && static_cast<GlobalId>(value) < bound ? static_cast<GlobalId>(value) : -1;
+  }
+}
+
+} // namespace
+
+std::vector<GlobalId> readGlobalIds(vtkDataArray* array)
+{
+  std::vector<GlobalId> ids(array ? array->GetNumberOfValues() : 0);
+  const auto read = [&](auto* typed)
+  {
+    const auto range = vtk::DataArrayValueRange(typed);
+    std::transform(range.begin(), range.end(), ids.begin(),
+      [](auto value) { return idOf<decltype(value)>(value); });
+  };
+  if (array && !vtkArrayDispatch::Dispatch::Execute(array, read))
+  {
+    read(array);
+  }
+  return ids;
+}
+
+void checkGlobalId(GlobalId id, vtkDataArray* array, vtkIdType place, const std::string& item)
+{
+  if (id < 0)
+  {
+    throw Error(item + " " + std::to_string(place) + " of the mesh has " +
+                array->GetVariantValue(place).ToString() + " as global id (array " +
+                (array->GetName() ? array->GetName() : "without a name") +
+                "); global ids are whole numbers from 0 to 2^62 - 1. Without that array CADRefine "
+                "makes ids of its own");
+  }
+}
+
+} // namespace cadrefine
