@@ -10,6 +10,7 @@
 #include <vtkSignedCharArray.h>
 #include <vtkUnsignedCharArray.h>
 
+#include <cmath>
 #include <limits>
 #include <sstream>
 #include <string>
@@ -24,6 +25,10 @@ constexpr double noParameter = std::numeric_limits<double>::quiet_NaN();
 vtkDataArray* requireArray(vtkPointSet* input, const char* name, int components)
 {
   vtkDataArray* array = input->GetPointData()->GetArray(name);
+  if (!array && input->GetPointData()->HasArray(name))
+  {
+    throw Error(std::string("the point array ") + name + " is not one of numbers");
+  }
   if (!array && input->GetNumberOfPoints() > 0)
   {
     throw Error(std::string("the mesh has no point array ") + name +
@@ -38,29 +43,46 @@ vtkDataArray* requireArray(vtkPointSet* input, const char* name, int components)
   return array;
 }
 
-std::string entityText(double dimension, double index)
+std::string atPoint(vtkIdType point)
 {
-  std::ostringstream text;
-  text << "(" << dimension << ", " << index << ")";
-  return text.str();
+  return " (point " + std::to_string(point) + ")";
 }
 
-/// The arrays may be of any type: what is no number is refused like what is out of range.
-EntityId readEntity(double dimension, double index, const CADModel& model)
+/// The arrays may be of any type: what is no whole number is refused like what is out of range.
+EntityId readEntity(double dimension, double index, const CADModel& model, vtkIdType point)
 {
-  if (dimension < 0)
+  if (dimension == -1)
   {
     return {};
   }
   const bool known = (dimension == 0 || dimension == 1 || dimension == 2) && index >= 0 &&
-                     index < model.count(static_cast<int>(dimension));
+                     index < model.count(static_cast<int>(dimension)) && std::floor(index) == index;
   if (!known)
   {
-    throw Error("the point arrays CADDimension and CADEntity name an entity " +
-                entityText(dimension, index) +
-                " that the CAD model does not have; were they made with another CAD file?");
+    std::ostringstream entity;
+    entity << "(" << dimension << ", " << index << ")";
+    throw Error("the point arrays CADDimension and CADEntity name an entity " + entity.str() +
+                " that the CAD model does not have; were they made with another CAD file?" +
+                atPoint(point));
   }
   return { static_cast<std::int8_t>(dimension), static_cast<std::int32_t>(index) };
+}
+
+void checkPlace(
+  EntityId entity, const std::array<double, 2>& parameters, double distance, vtkIdType point)
+{
+  if (!(distance >= 0))
+  {
+    throw Error(
+      "the point array CADDistance has a value that is negative or no number" + atPoint(point));
+  }
+  const bool finite = std::isfinite(parameters[0]) && std::isfinite(parameters[1]);
+  if (entity.dimension > 0 && !finite)
+  {
+    throw Error("the point array CADParameters has a value that is not finite for a point on the "
+                "CAD" +
+                atPoint(point));
+  }
 }
 
 template<class Array>
@@ -105,9 +127,13 @@ Classification readClassification(
   {
     const vtkIdType point = pointOf[v];
     result.entities[v] =
-      readEntity(dimensions->GetTuple1(point), entities->GetTuple1(point), model);
+      readEntity(dimensions->GetTuple1(point), entities->GetTuple1(point), model, point);
     parameters->GetTuple(point, result.parameters[v].data());
-    result.distances[v] = result.entities[v] ? distances->GetTuple1(point) : 0;
+    if (result.entities[v])
+    {
+      result.distances[v] = distances->GetTuple1(point);
+      checkPlace(result.entities[v], result.parameters[v], result.distances[v], point);
+    }
   }
   return result;
 }

@@ -24,7 +24,7 @@ std::vector<double> valuesOf(
   vtkDataArray* array = arrays.ofCells->GetArray(criterion.array.c_str());
   if (!array)
   {
-    throw Error("the mesh has no cell array " + criterion.array + " to mark cells by");
+    throw Error("the mesh has no cell array " + criterion.array + " of numbers to mark cells by");
   }
   if (array->GetNumberOfComponents() != 1)
   {

@@ -1,5 +1,6 @@
 #include "MeshSummary.h"
 
+#include "Error.h"
 #include "MeshPlane.h"
 #include "Orientation.h"
 #include "Quality.h"
@@ -90,6 +91,13 @@ QualitySummary summariseQuality(RankExchange& exchange, const DistributedMesh& m
 std::string warningOfInvalidCells(RankExchange& exchange, const DistributedMesh& mesh)
 {
   const std::int64_t count = summariseQuality(exchange, mesh).invalidCells;
+  const std::int64_t cells = countMesh(exchange, mesh).cells;
+  if (2 * count > cells)
+  {
+    throw Error("more than half of the cells are inverted or degenerate (" + std::to_string(count) +
+                " of " + std::to_string(cells) +
+                "); if the mesh is turned the other way, exchange two points of each cell");
+  }
   return count == 0 ? std::string()
                     : "the input mesh has " + std::to_string(count) +
                         " inverted or degenerate cells; those that moving vertices can mend are "

@@ -32,8 +32,10 @@ CellQualities measureQuality(RankExchange& exchange, const DistributedMesh& mesh
 /// The same without the entries of the cells: for tetrahedra several times as fast.
 QualitySummary summariseQuality(RankExchange& exchange, const DistributedMesh& mesh);
 
-/// What to tell the user of invalid cells in the input; empty where there are none. The same on
-/// every rank; collective.
+/// What to tell the user of invalid cells in an input whose vertices are going to move; empty where
+/// there are none. Throws Error where more than half of the cells are invalid: the mesh is turned
+/// the other way, or is none, and moving vertices would make valid cells of it but no shape. The
+/// same on every rank; collective.
 std::string warningOfInvalidCells(RankExchange& exchange, const DistributedMesh& mesh);
 
 /// Adds a field array of one value to `output`.

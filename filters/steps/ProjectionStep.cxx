@@ -11,9 +11,6 @@
 #include <vtkPointSet.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
-#include <sstream>
 #include <string>
 #include <utility>
 
@@ -38,38 +35,20 @@ ProjectionResult projectCells(
   return projectBoundary(context.exchange, mesh, projector, boundary, options);
 }
 
-/// Diagonal of the box round the vertices of all ranks.
-double findSize(RankExchange& exchange, const std::vector<Point3>& points)
+/// Why no vertex lies on the CAD.
+std::string reasonOfNone(std::int64_t projectedPoints, const ProjectionOptions& options)
 {
-  const double infinity = std::numeric_limits<double>::infinity();
-  std::vector<double> low(3, infinity);
-  std::vector<double> high(3, -infinity);
-  for (const Point3& point : points)
+  const std::string none = "no vertex was put onto the CAD: ";
+  if (projectedPoints == 0)
   {
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      low[axis] = std::min(low[axis], point[axis]);
-      high[axis] = std::max(high[axis], point[axis]);
-    }
+    return none + "there is no boundary in the region (Region)";
   }
-  low = exchange.min(low);
-  high = exchange.max(high);
-  return std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
-}
-
-/// A mesh in other units, or elsewhere, would look like one that is exact: its error is 0.
-void warnOfNothingProjected(
-  const StepContext& context, const DistributedMesh& mesh, const ProjectionOptions& options)
-{
-  const double size = findSize(context.exchange, mesh.mesh().points);
-  if (context.exchange.rank() == 0)
-  {
-    std::ostringstream text;
-    text << "no vertex of the mesh" << (options.region ? " in the region" : "")
-         << " lies on the CAD. The mesh measures " << size << " across, the CAD "
-         << context.model.size() << "; are they in the same unit and place?";
-    context.warn(text.str());
-  }
+  return none + (options.maximumDistance > 0
+                    ? "all of the boundary is farther from it than MaximumDistance, or stands "
+                      "across it"
+                    : "all of the boundary is farther from it than its longest edges, or stands "
+                      "across it; do mesh and CAD have the same place and unit of length "
+                      "(MaximumDistance lets vertices go farther)?");
 }
 
 } // namespace
@@ -113,11 +92,12 @@ StepResult projectMesh(const StepContext& context, vtkPointSet* input, Projectio
   output->GetPointData()->SetActiveScalars(arrays::entity);
   summariseMesh(exchange, mesh, summariseQuality(exchange, mesh), output);
   summariseProjection(exchange, mesh, result.classification, result.projectedPoints, output);
-  summariseConflicts(exchange, mesh, result.conflicts, output);
-  if (output->GetFieldData()->GetArray("CADVertices")->GetTuple1(0) == 0)
+  if (exchange.rank() == 0 &&
+      output->GetFieldData()->GetArray("CADVertices")->GetComponent(0, 0) == 0)
   {
-    warnOfNothingProjected(context, mesh, options);
+    context.warn(reasonOfNone(result.projectedPoints, options));
   }
+  summariseConflicts(exchange, mesh, result.conflicts, output);
   return { output, std::move(route) };
 }
 

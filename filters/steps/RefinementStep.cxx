@@ -122,6 +122,10 @@ private:
 
   void lookForInvalidCells()
   {
+    if (!options_.projectNewVertices)
+    {
+      return;
+    }
     const std::string warning = warningOfInvalidCells(exchange_, mesh_);
     hasInvalidCells_ = !warning.empty();
     if (hasInvalidCells_ && exchange_.rank() == 0)

@@ -7,9 +7,12 @@
 #include <GCPnts_TangentialDeflection.hxx>
 #include <Geom_Surface.hxx>
 #include <Poly_Triangulation.hxx>
+#include <Precision.hxx>
 #include <TopLoc_Location.hxx>
 #include <TopoDS.hxx>
 #include <gp_Vec.hxx>
+
+#include <algorithm>
 
 namespace cadrefine
 {
@@ -21,6 +24,12 @@ constexpr double angularDeflection = 0.35; // radians
 Point3 toPoint(const gp_Pnt& p)
 {
   return { p.X(), p.Y(), p.Z() };
+}
+
+/// Open CASCADE refuses a smaller one.
+double allowed(double deflection)
+{
+  return std::max(deflection, Precision::Confusion());
 }
 
 /// Zero where the surface has none.
@@ -51,7 +60,8 @@ Tessellation tessellateFace(const TopoDS_Face& face, double deflection)
   constexpr bool relative = false;
   constexpr bool parallel = false;
   const TopoDS_Face copy = TopoDS::Face(BRepBuilderAPI_Copy(face, copyGeometry).Shape());
-  const BRepMesh_IncrementalMesh mesher(copy, deflection, relative, angularDeflection, parallel);
+  const BRepMesh_IncrementalMesh mesher(
+    copy, allowed(deflection), relative, angularDeflection, parallel);
   TopLoc_Location location;
   const Handle(Poly_Triangulation) mesh = BRep_Tool::Triangulation(copy, location);
   Tessellation result;
@@ -73,7 +83,7 @@ Tessellation tessellateFace(const TopoDS_Face& face, double deflection)
 Tessellation tessellateEdge(const TopoDS_Edge& edge, double deflection)
 {
   const BRepAdaptor_Curve curve(edge);
-  const GCPnts_TangentialDeflection polyline(curve, angularDeflection, deflection);
+  const GCPnts_TangentialDeflection polyline(curve, angularDeflection, allowed(deflection));
   Tessellation result;
   for (int i = 1; i <= polyline.NbPoints(); ++i)
   {

@@ -60,7 +60,7 @@ TEST(Reach, aMeshElsewhereIsToldOf)
   const Outcome outcome = filters.attempt<vtkProjectOntoCAD>(mesh, [](vtkProjectOntoCAD*) {});
   EXPECT_TRUE(outcome.succeeded);
   ASSERT_EQ(outcome.warnings.size(), 1u);
-  EXPECT_NE(outcome.warnings[0].find("no vertex of the mesh lies on the CAD"), std::string::npos)
+  EXPECT_NE(outcome.warnings[0].find("no vertex was put onto the CAD"), std::string::npos)
     << outcome.warnings[0];
 }
 
