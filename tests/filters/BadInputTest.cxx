@@ -16,7 +16,6 @@
 #include <vtkPolyData.h>
 #include <vtkUnstructuredGrid.h>
 
-#include <cmath>
 #include <limits>
 
 namespace cadrefine
@@ -102,26 +101,10 @@ TEST_F(BadInput, emptyRegion)
   expectFailure(outcome, "region is empty");
 }
 
-TEST_F(BadInput, hexahedra)
-{
-  expectProjectionFails(withCell(VTK_HEXAHEDRON, { 0, 1, 2, 3, 4, 5, 6, 7 }), "hexahedron");
-}
-
 TEST_F(BadInput, quadraticTetrahedra)
 {
   expectProjectionFails(
     withCell(VTK_QUADRATIC_TETRA, { 0, 1, 2, 3, 4, 5, 6, 7, 8, 9 }), "quadratictetra");
-}
-
-TEST_F(BadInput, cellThatNamesAPointTwice)
-{
-  expectProjectionFails(withCell(VTK_TETRA, { 0, 1, 2, 1 }), "names a point twice");
-}
-
-TEST_F(BadInput, noPoints)
-{
-  expectProjectionFails(vtkNew<vtkUnstructuredGrid>(), "no points");
-  expectProjectionFails(vtkNew<vtkPolyData>(), "no points");
 }
 
 TEST_F(BadInput, pointsWithoutCellsThatUseThem)
@@ -138,20 +121,6 @@ TEST_F(BadInput, linesOnly)
   mesh.triangles.clear();
   mesh.segments = { { 0, 1 }, { 1, 2 } };
   expectProjectionFails(cadtest::toGrid(mesh), "lines");
-}
-
-TEST_F(BadInput, coordinateThatIsNotFinite)
-{
-  for (const double bad :
-    { std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity() })
-  {
-    Grid grid = goodMesh();
-    if (isLast())
-    {
-      grid->GetPoints()->SetPoint(5, bad, 0, 0);
-    }
-    expectProjectionFails(grid, "not finite");
-  }
 }
 
 TEST_F(BadInput, withoutClassification)
@@ -234,18 +203,6 @@ TEST_F(BadInput, markingArrayWithThreeComponents)
   cadtest::addArrays(grid);
   expectProjectedMeshFails<vtkRefineWithCAD>(filters.project(grid), "3 components",
     [](vtkRefineWithCAD* filter) { filter->SetMarkingArray("Colour"); });
-}
-
-TEST_F(BadInput, cellThatIsListedTwice)
-{
-  Grid grid = goodMesh();
-  if (isLast())
-  {
-    vtkNew<vtkIdList> points;
-    grid->GetCellPoints(0, points);
-    grid->InsertNextCell(VTK_TETRA, points);
-  }
-  expectProjectedMeshFails<vtkRefineWithCAD>(filters.project(grid), "lists a cell twice");
 }
 
 TEST_F(BadInput, pointsAloneCannotBeRefined)

@@ -7,19 +7,23 @@
 #include <BRepAlgoAPI_Fuse.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_Transform.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCone.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRepPrimAPI_MakeTorus.hxx>
+#include <BRep_Builder.hxx>
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
 #include <TopTools_ListOfShape.hxx>
+#include <TopoDS_Compound.hxx>
 #include <gp.hxx>
 #include <gp_Ax2.hxx>
 #include <gp_Ax3.hxx>
 #include <gp_Circ.hxx>
 #include <gp_Pln.hxx>
+#include <gp_Trsf.hxx>
 
 #include <cmath>
 
@@ -57,6 +61,30 @@ TopoDS_Shape partWithCavity()
     BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(1.5, 1.5, 0), gp::DZ()), 0.2, 2).Shape();
   const TopoDS_Shape cavity = BRepPrimAPI_MakeSphere(gp_Pnt(0.7, 0.7, 1), 0.3).Shape();
   return BRepAlgoAPI_Cut(BRepAlgoAPI_Cut(box(2, 2, 2), hole).Shape(), cavity).Shape();
+}
+
+TopoDS_Shape moved(const TopoDS_Shape& shape, const cadrefine::Vector3& by)
+{
+  gp_Trsf move;
+  move.SetTranslation({ by[0], by[1], by[2] });
+  return BRepBuilderAPI_Transform(shape, move, true).Shape();
+}
+
+TopoDS_Shape scaled(const TopoDS_Shape& shape, double factor)
+{
+  gp_Trsf scale;
+  scale.SetScale(gp::Origin(), factor);
+  return BRepBuilderAPI_Transform(shape, scale, true).Shape();
+}
+
+TopoDS_Shape together(const TopoDS_Shape& a, const TopoDS_Shape& b)
+{
+  TopoDS_Compound both;
+  BRep_Builder builder;
+  builder.MakeCompound(both);
+  builder.Add(both, a);
+  builder.Add(both, b);
+  return both;
 }
 
 TopoDS_Shape circle(double radius)

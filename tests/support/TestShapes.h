@@ -3,6 +3,7 @@
 
 #include "CADModel.h"
 #include "TestFiles.h"
+#include "Vector3.h"
 
 #include <TopoDS_Shape.hxx>
 
@@ -36,6 +37,12 @@ TopoDS_Shape boxWithoutCorner(double x, double y, double z, double radius);
 TopoDS_Shape cubesAtAnEdge();
 /// Three unit squares that have an edge in common, on the z axis.
 TopoDS_Shape threeSheets();
+
+/// The shape, moved; or scaled about the origin.
+TopoDS_Shape moved(const TopoDS_Shape& shape, const cadrefine::Vector3& by);
+TopoDS_Shape scaled(const TopoDS_Shape& shape, double factor);
+/// Two shapes as one, not joined.
+TopoDS_Shape together(const TopoDS_Shape& a, const TopoDS_Shape& b);
 
 /// Writes `shape` into the folder with this extension (".step", ".igs", ".brep"); the file's path.
 std::string writeInto(
