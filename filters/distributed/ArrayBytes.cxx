@@ -1,5 +1,6 @@
 #include "ArrayBytes.h"
 
+#include "ArrayTransfer.h"
 #include "Error.h"
 #include "Marshalling.h"
 
@@ -130,11 +131,7 @@ void read(Reader& reader, vtkDataSetAttributes* attributes)
   {
     std::memcpy(array->GetVoidPointer(0), values, size);
   }
-  const int added = attributes->AddArray(array);
-  if (attribute >= 0)
-  {
-    attributes->SetActiveAttribute(added, attribute);
-  }
+  addAs(attribute, array, attributes);
 }
 
 } // namespace
@@ -179,7 +176,11 @@ vtkSmartPointer<vtkTable> arraysOf(const std::vector<char>& bytes)
   const std::vector<char> rest = reader.rest();
   if (!rest.empty())
   {
-    table->GetRowData()->PassData(unmarshal<vtkTable>(rest)->GetRowData());
+    const auto others = unmarshal<vtkTable>(rest);
+    for (vtkIdType c = 0; c < others->GetNumberOfColumns(); ++c)
+    {
+      addAs(-1, others->GetColumn(c), table->GetRowData());
+    }
   }
   return table;
 }

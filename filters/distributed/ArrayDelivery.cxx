@@ -8,6 +8,9 @@
 #include <vtkPointData.h>
 #include <vtkTable.h>
 
+#include <algorithm>
+#include <numeric>
+
 namespace cadrefine
 {
 namespace
@@ -20,29 +23,43 @@ Bytes pack(vtkDataSetAttributes* attributes)
   return attributes->GetNumberOfTuples() == 0 ? Bytes() : bytesOf(attributes);
 }
 
-/// The tuples of all tables in a row.
+/// The array of that name, type and number of components; null where there is none.
+vtkAbstractArray* arrayLike(vtkAbstractArray* array, vtkTable* table)
+{
+  vtkAbstractArray* other =
+    array->GetName() ? table->GetRowData()->GetAbstractArray(array->GetName()) : nullptr;
+  return other && other->GetDataType() == array->GetDataType() &&
+             other->GetNumberOfComponents() == array->GetNumberOfComponents()
+           ? other
+           : nullptr;
+}
+
+/// The tuples of all tables in a row, of the arrays that all have.
 void append(const std::vector<vtkSmartPointer<vtkTable>>& tables, vtkDataSetAttributes* attributes)
 {
   if (tables.empty())
   {
     return;
   }
-  vtkDataSetAttributes::FieldList fields;
-  vtkIdType total = 0;
-  for (const auto& table : tables)
+  const vtkIdType total = std::accumulate(tables.begin(), tables.end(), vtkIdType{ 0 },
+    [](vtkIdType sum, vtkTable* table) { return sum + table->GetNumberOfRows(); });
+  vtkDataSetAttributes* first = tables.front()->GetRowData();
+  for (int a = 0; a < first->GetNumberOfArrays(); ++a)
   {
-    fields.IntersectFieldList(table->GetRowData());
-    total += table->GetNumberOfRows();
-  }
-  attributes->CopyAllOn();
-  attributes->CopyAllocate(fields, total);
-  attributes->SetNumberOfTuples(total);
-  vtkIdType next = 0;
-  for (std::size_t t = 0; t < tables.size(); ++t)
-  {
-    const vtkIdType rows = tables[t]->GetNumberOfRows();
-    attributes->CopyData(fields, tables[t]->GetRowData(), static_cast<int>(t), next, rows, 0);
-    next += rows;
+    vtkAbstractArray* array = first->GetAbstractArray(a);
+    if (!std::all_of(
+          tables.begin(), tables.end(), [&](vtkTable* table) { return arrayLike(array, table); }))
+    {
+      continue;
+    }
+    const auto all = emptyLike(array, total);
+    vtkIdType next = 0;
+    for (vtkTable* table : tables)
+    {
+      all->InsertTuples(next, table->GetNumberOfRows(), 0, arrayLike(array, table));
+      next += table->GetNumberOfRows();
+    }
+    addAs(first->IsArrayAnAttribute(a), all, attributes);
   }
 }
 

@@ -50,21 +50,6 @@ bool isCarried(vtkDataSetAttributes* attributes, vtkAbstractArray* array)
            std::string(array->GetName()) != vtkDataSetAttributes::GhostArrayName());
 }
 
-vtkSmartPointer<vtkAbstractArray> emptyLike(vtkAbstractArray* array, vtkIdType count)
-{
-  auto result = vtkSmartPointer<vtkAbstractArray>::Take(array->NewInstance());
-  result->SetName(array->GetName());
-  result->SetNumberOfComponents(array->GetNumberOfComponents());
-  result->CopyComponentNames(array);
-  result->SetNumberOfTuples(count);
-  if (vtkDataArray::SafeDownCast(result))
-  {
-    preferHugePages(result->GetVoidPointer(0),
-      static_cast<std::size_t>(result->GetNumberOfValues()) * result->GetDataTypeSize());
-  }
-  return result;
-}
-
 /// Adds make(array) for each array that is carried over, as scalars, vectors, ... if it was these.
 template<class Make>
 void carryOver(vtkDataSetAttributes* source, vtkDataSetAttributes* target, const Make& make)
@@ -74,12 +59,7 @@ void carryOver(vtkDataSetAttributes* source, vtkDataSetAttributes* target, const
     vtkAbstractArray* array = source->GetAbstractArray(a);
     if (isCarried(source, array))
     {
-      const int added = target->AddArray(make(array));
-      const int attribute = source->IsArrayAnAttribute(a);
-      if (attribute >= 0)
-      {
-        target->SetActiveAttribute(added, attribute);
-      }
+      addAs(source->IsArrayAnAttribute(a), make(array), target);
     }
   }
 }
@@ -230,6 +210,30 @@ MeshArrays emptyArrays(const std::string& vertexIdName, const std::string& cellI
 }
 
 } // namespace
+
+vtkSmartPointer<vtkAbstractArray> emptyLike(vtkAbstractArray* array, vtkIdType count)
+{
+  auto result = vtkSmartPointer<vtkAbstractArray>::Take(array->NewInstance());
+  result->SetName(array->GetName());
+  result->SetNumberOfComponents(array->GetNumberOfComponents());
+  result->CopyComponentNames(array);
+  result->SetNumberOfTuples(count);
+  if (vtkDataArray::SafeDownCast(result))
+  {
+    preferHugePages(result->GetVoidPointer(0),
+      static_cast<std::size_t>(result->GetNumberOfValues()) * result->GetDataTypeSize());
+  }
+  return result;
+}
+
+void addAs(int attribute, vtkAbstractArray* array, vtkDataSetAttributes* target)
+{
+  const int added = target->AddArray(array);
+  if (attribute >= 0)
+  {
+    target->SetActiveAttribute(added, attribute);
+  }
+}
 
 MeshArrays arraysOf(vtkPointSet* input)
 {

@@ -10,7 +10,9 @@
 #include <string>
 #include <vector>
 
+class vtkAbstractArray;
 class vtkCellData;
+class vtkDataSetAttributes;
 class vtkFieldData;
 class vtkPointData;
 class vtkPointSet;
@@ -28,6 +30,12 @@ struct MeshArrays
   std::string vertexIdName;
   std::string cellIdName;
 };
+
+/// An array of the same type, name and components, with so many tuples of any value.
+vtkSmartPointer<vtkAbstractArray> emptyLike(vtkAbstractArray* array, vtkIdType count);
+
+/// Adds the array as this attribute (VTK's scalars, vectors, ...; -1: as none).
+void addAs(int attribute, vtkAbstractArray* array, vtkDataSetAttributes* target);
 
 /// The arrays of a data set, shared with it; cell arrays where it has cells.
 MeshArrays arraysOf(vtkPointSet* input);

@@ -31,18 +31,13 @@ void split(const std::vector<std::string>& names, vtkDataSetAttributes* geometry
   }
 }
 
-/// Adds the arrays, as scalars, vectors, ... if they were these. (PassData would remove the
-/// scalars, vectors, ... that `target` has.)
+/// Adds the arrays; what is active (as scalars, ...) stays so unless one of them takes its place.
+/// (PassData would take it away.)
 void addArrays(vtkDataSetAttributes* source, vtkDataSetAttributes* target)
 {
   for (int a = 0; a < source->GetNumberOfArrays(); ++a)
   {
-    const int added = target->AddArray(source->GetAbstractArray(a));
-    const int attribute = source->IsArrayAnAttribute(a);
-    if (attribute >= 0)
-    {
-      target->SetActiveAttribute(added, attribute);
-    }
+    addAs(source->IsArrayAnAttribute(a), source->GetAbstractArray(a), target);
   }
 }
 
@@ -76,17 +71,12 @@ void joinOutput(
 {
   const MeshArrays fields = result.route.follow(exchange, parts.fields);
   output->CopyStructure(result.mesh);
-  addArrays(fields.ofVertices, output->GetPointData());
-  addArrays(fields.ofCells, output->GetCellData());
+  output->GetPointData()->PassData(fields.ofVertices);
+  output->GetCellData()->PassData(fields.ofCells);
   output->GetFieldData()->PassData(fields.ofMesh);
   addArrays(result.mesh->GetPointData(), output->GetPointData());
   addArrays(result.mesh->GetCellData(), output->GetCellData());
   output->GetFieldData()->PassData(result.mesh->GetFieldData());
-  if (result.mesh->GetCellData()->GetScalars())
-  {
-    // ParaView colours by the active scalars, those of points first.
-    output->GetPointData()->SetActiveScalars(nullptr);
-  }
 }
 
 } // namespace cadrefine
