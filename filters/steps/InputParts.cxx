@@ -71,12 +71,17 @@ void joinOutput(
 {
   const MeshArrays fields = result.route.follow(exchange, parts.fields);
   output->CopyStructure(result.mesh);
-  output->GetPointData()->PassData(fields.ofVertices);
-  output->GetCellData()->PassData(fields.ofCells);
+  addArrays(fields.ofVertices, output->GetPointData());
+  addArrays(fields.ofCells, output->GetCellData());
   output->GetFieldData()->PassData(fields.ofMesh);
   addArrays(result.mesh->GetPointData(), output->GetPointData());
   addArrays(result.mesh->GetCellData(), output->GetCellData());
   output->GetFieldData()->PassData(result.mesh->GetFieldData());
+  if (result.mesh->GetCellData()->GetScalars())
+  {
+    // ParaView colours by the active scalars, those of points first.
+    output->GetPointData()->SetActiveScalars(nullptr);
+  }
 }
 
 } // namespace cadrefine
