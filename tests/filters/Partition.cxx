@@ -4,7 +4,6 @@
 #include <vtkCellData.h>
 #include <vtkCellType.h>
 #include <vtkDataArray.h>
-#include <vtkFieldData.h>
 #include <vtkIdList.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -12,8 +11,6 @@
 #include <vtkPolyData.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
-
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
@@ -120,17 +117,6 @@ std::vector<char> packed(vtkPointSet* piece)
     appendRecord(message, 'c', globalId(piece->GetCellData(), c), cellBytes(piece, c));
   }
   return message;
-}
-
-std::map<std::string, double> fieldValues(vtkPointSet* mesh)
-{
-  std::map<std::string, double> values;
-  vtkFieldData* fields = mesh->GetFieldData();
-  for (int a = 0; a < fields->GetNumberOfArrays(); ++a)
-  {
-    values[fields->GetArrayName(a)] = fields->GetArray(a)->GetTuple1(0);
-  }
-  return values;
 }
 
 void unpack(const std::vector<char>& message, CanonicalMesh& mesh)
@@ -341,22 +327,6 @@ CanonicalMesh gather(cadrefine::RankExchange& exchange, vtkPointSet* piece)
     unpack(message, mesh);
   }
   return mesh;
-}
-
-void expectSame(cadrefine::RankExchange& exchange, vtkPointSet* piece, vtkPointSet* serial)
-{
-  const CanonicalMesh mesh = gather(exchange, piece);
-  if (exchange.rank() > 0)
-  {
-    return;
-  }
-  cadrefine::RankExchange alone(nullptr);
-  const CanonicalMesh expected = gather(alone, serial);
-  EXPECT_EQ(mesh.contradictions, 0);
-  EXPECT_TRUE(mesh.points == expected.points);
-  EXPECT_TRUE(mesh.cells == expected.cells);
-  EXPECT_EQ(mesh.points.size(), static_cast<std::size_t>(serial->GetNumberOfPoints()));
-  EXPECT_EQ(fieldValues(piece), fieldValues(serial));
 }
 
 cadrefine::SimplexMesh toMesh(const CanonicalMesh& canonical)

@@ -45,10 +45,6 @@ struct CanonicalMesh
 /// Puts the pieces together on rank 0 (on others the result is empty). Collective.
 CanonicalMesh gather(cadrefine::RankExchange& exchange, vtkPointSet* piece);
 
-/// On rank 0: put together, the pieces are the mesh of one rank, bit for bit, with the same field
-/// data. (On other ranks `serial` is not looked at.) Collective.
-void expectSame(cadrefine::RankExchange& exchange, vtkPointSet* piece, vtkPointSet* serial);
-
 /// Triangles and tetrahedra of the mesh; ids are the global ids.
 cadrefine::SimplexMesh toMesh(const CanonicalMesh& canonical);
 

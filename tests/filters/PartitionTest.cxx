@@ -5,6 +5,7 @@
 #include "FilterRun.h"
 #include "MeshChecks.h"
 #include "ParallelTest.h"
+#include "SamePieces.h"
 #include "TestMeshes.h"
 #include "TestShapes.h"
 

@@ -6,6 +6,7 @@
 #include "ParallelTest.h"
 #include "Partition.h"
 #include "RandomProblem.h"
+#include "SamePieces.h"
 #include "TestShapes.h"
 
 #include <algorithm>
