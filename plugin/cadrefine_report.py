@@ -38,6 +38,7 @@ class Report:
         self.stopped = None
         self.seconds = {}
         self.measured = {}
+        self.warnings = []
 
     def describe_input(self, pipeline):
         cad = pipeline.cad_values()
@@ -66,6 +67,9 @@ class Report:
         self.terminal.say(table.row(step, self.terminal.style))
         if step.get("conflicts"):
             self.terminal.say(f"Vertices in conflict (CADConflict is 1): {step['conflicts']}")
+        for warning in session.messages.warnings[len(self.warnings):]:
+            self.terminal.say(self.terminal.style(f"Warning: {warning}", "yellow"))
+            self.warnings.append(warning)
 
     def finish(self, pipeline, total):
         self.seconds["total"] = total
@@ -79,7 +83,7 @@ class Report:
     def content(self):
         """The report as one JSON object."""
         return finite({**self.input, **self.measured, "no_cad": self.options.no_cad, "steps": self.steps,
-                       "stopped": self.stopped, "seconds": self.seconds})
+                       "stopped": self.stopped, "warnings": self.warnings, "seconds": self.seconds})
 
 
 def as_list(value):

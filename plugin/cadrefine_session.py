@@ -43,22 +43,33 @@ for path in {paths!r}:
 INTERRUPTED = b"cadrefine: interrupted, nothing was written\n"
 
 
+# The filters whose warnings are for the user. (What the CAD Reader warns of is in its field data.)
+WARNING = ("vtkProjectOntoCAD", "vtkCADGeometricError", "vtkRefineWithCAD", "vtkMeshValidity")
+
+
 class Failure(Exception):
     """Bad input: one line that names the file and the reason."""
 
 
 class Messages:
-    """The errors that VTK raised on this rank since they were last taken."""
+    """What VTK said on this rank: errors since they were last taken, and warnings of the filters, each once."""
 
     def __init__(self):
         self.errors = []
+        self.warnings = []
 
     def observe(self):
         @calldata_type("string0")
         def collect(_window, _event, text):
             self.errors.append(text)
 
+        @calldata_type("string0")
+        def collect_warning(_window, _event, text):
+            if any(f"\n{name} (" in text for name in WARNING) and reason_of(text) not in self.warnings:
+                self.warnings.append(reason_of(text))
+
         vtkOutputWindow.GetInstance().AddObserver("ErrorEvent", collect)
+        vtkOutputWindow.GetInstance().AddObserver("WarningEvent", collect_warning)
 
     def take(self):
         errors, self.errors = [reason_of(text) for text in self.errors if text.strip()], []
@@ -70,7 +81,7 @@ messages = Messages()
 
 def reason_of(text):
     """'ERROR: In file.cxx, line 3\\nvtkFoo (0x1234): reason' without what only a developer wants."""
-    text = text.split("\n", 1)[1] if text.startswith("ERROR: In ") and "\n" in text else text
+    text = text.split("\n", 1)[1] if text.startswith(("ERROR: In ", "Warning: In ")) and "\n" in text else text
     head, separator, tail = text.partition("): ")
     if separator and head.startswith("vtk") and " (0x" in head and "\n" not in head:
         text = tail

@@ -166,6 +166,18 @@ class Driver(unittest.TestCase):
             self.assertEqual(json.load(file)["steps"][0]["conflicts"], 0)
         self.assertNotIn("in conflict", fitting.output)
 
+    def test_mesh_in_another_unit(self):
+        """Would look like a mesh without error."""
+        mesh, path = meshio.read(WING[0]), self.path("millimetres.vtu")
+        meshio.write(path, meshio.Mesh(1000 * mesh.points, {"tetra": mesh.cells_dict["tetra"]}))
+        run = driver.Run(RANKS, path, WING[1], "--steps", "0", "--report", self.path("report.json"))
+        self.assertEqual((run.status, run.errors), (0, []))
+        self.assertIn("Warning: no vertex was put onto the CAD: ", run.output)
+        with open(self.path("report.json"), encoding="utf-8") as file:
+            warnings = json.load(file)["warnings"]
+        self.assertEqual(len(warnings), 1)
+        self.assertIn("same place and unit", warnings[0])
+
     def test_without_cad_the_error_stays(self):
         report = driver.report_of(RANKS, *WING, "--no-cad", "--method", "uniform", "--steps", "2")
         first, last = report["steps"][0], report["steps"][-1]
