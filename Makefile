@@ -85,7 +85,7 @@ tidy: build ## Run clang-tidy on the sources
 
 .PHONY: pictures
 pictures: build ## Make the pictures of the documentation anew (docs/images)
-	@xvfb-run --auto-servernum pvpython docs/pictures.py
+	@xvfb-run --auto-servernum --server-args="-screen 0 1280x1024x24 -noreset" pvpython docs/pictures.py
 	@/usr/bin/python3 -B docs/window_pictures.py
 	@dot -Tsvg docs/images/architecture.dot -o docs/images/architecture.svg
 

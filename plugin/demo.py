@@ -32,7 +32,7 @@ FILES = (
 
 
 def command(arguments):
-    display = [] if os.environ.get("DISPLAY") else ["xvfb-run", "--auto-servernum"]
+    display = [] if os.environ.get("DISPLAY") else ["xvfb-run", "--auto-servernum", "--server-args=-screen 0 1280x1024x24 -noreset"]
     return [*display, "mpirun", "-np", str(RANKS), "pvbatch", os.path.join(HERE, "cadrefine.py"), *arguments]
 
 

@@ -116,7 +116,7 @@ def main():
     cases = page.cases()
     options = parse(sys.argv[1:], list(cases))
     if options.pictures and not os.environ.get("DISPLAY"):
-        os.execvp("xvfb-run", ["xvfb-run", "--auto-servernum", sys.executable, *sys.argv])
+        os.execvp("xvfb-run", ["xvfb-run", "--auto-servernum", "--server-args=-screen 0 1280x1024x24 -noreset", sys.executable, *sys.argv])
     for name in options.cases or cases:
         run = Run(cases[name], options)
         seconds = processor_seconds(cases[name], options) if options.publish else None

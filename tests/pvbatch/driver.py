@@ -23,6 +23,10 @@ def data(name):
     return os.path.join(DATA, name)
 
 
+# Without -noreset the server starts anew when one rank leaves, and the next one may come just then.
+XVFB = ["xvfb-run", "--auto-servernum", "--server-args=-screen 0 1280x1024x24 -noreset"]
+
+
 class Run:
     """One run of the driver: exit statuses of all ranks, standard output and the lines of standard error."""
 
@@ -33,7 +37,7 @@ class Run:
         for name in without:
             environment.pop(name, None)
         with tempfile.TemporaryDirectory() as folder:
-            command = ["xvfb-run", "--auto-servernum"] * display + self.command(ranks, folder, arguments)
+            command = (XVFB if display else []) + self.command(ranks, folder, arguments)
             result = subprocess.run(command, env=environment, capture_output=True,
                                     text=True, timeout=TIMEOUT, stdin=subprocess.DEVNULL, check=False)
             self.statuses = [read_status(os.path.join(folder, name)) for name in sorted(os.listdir(folder))]

@@ -137,7 +137,7 @@ class Window:
 class Display:
     """An X server whose screen is the file Xvfb_screen0 of a folder. Its number comes from the process's: the lowest
     free one, which Xvfb and xvfb-run would take, may be that of a server that is just ending and takes its socket
-    along."""
+    along. It does not start anew when its last client leaves, since the next one might come just then (-noreset)."""
 
     numbers = itertools.count(100 + os.getpid() % 30000 * 2)
 
@@ -149,7 +149,7 @@ class Display:
     def start(self, name, folder, screen):
         """The name stays empty where it is taken."""
         self.server = subprocess.Popen(["Xvfb", name, "-displayfd", "1", "-screen", "0", screen, "-fbdir", folder,
-                                        "-nolisten", "tcp"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+                                        "-nolisten", "tcp", "-noreset"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
         if self.server.stdout.readline():
             self.name = name
         else:
