@@ -9,6 +9,7 @@
 #include <vtkXMLUnstructuredGridWriter.h>
 
 #include <cstdlib>
+#include <iostream>
 
 int main(int argc, char** argv)
 {
@@ -28,6 +29,10 @@ int main(int argc, char** argv)
   adapt->SetMaximumSteps(std::atoi(argv[3]));
   adapt->SetErrorMarking(vtkAdaptToCAD::BULK);
   adapt->Update();
+  if (adapt->GetOutput()->GetNumberOfCells() == 0) // VTK has told the reason
+  {
+    return EXIT_FAILURE;
+  }
   vtkTable::SafeDownCast(adapt->GetOutputDataObject(1))->Dump(14);
 
   vtkNew<vtkXMLUnstructuredGridWriter> writer;

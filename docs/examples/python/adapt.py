@@ -23,6 +23,8 @@ def grid_of(points, tetrahedra):
     return grid
 
 
+if len(sys.argv) != 4:
+    sys.exit("usage: adapt.py MESH CAD OUTPUT")
 mesh = meshio.read(sys.argv[1])
 cad = vtkCADReader()
 cad.SetFileName(sys.argv[2])
