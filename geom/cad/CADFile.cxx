@@ -141,14 +141,14 @@ std::vector<char> readBytes(const std::string& path, CADFormat format)
   return bytes;
 }
 
-/// Far more than reading takes (measured: up to 0.5 s and 40 MiB for each megabyte), and yet little
-/// for a small file.
+/// Far more than reading takes, and yet little for a small file. Measured: mostly up to 0.5 s and
+/// 40 MiB for each megabyte; 12 s a megabyte of a terrain of many small faces.
 RunLimits limitsFor(const std::string& path)
 {
   constexpr double day = 86400;
   const double megabytes = 1e-6 * static_cast<double>(std::filesystem::file_size(path));
   RunLimits limits;
-  limits.cpuSeconds = static_cast<int>(std::min(day, 15 + 5 * megabytes));
+  limits.cpuSeconds = static_cast<int>(std::min(day, 20 + 60 * megabytes));
   limits.megabytes = static_cast<std::uint64_t>(2048 + 100 * megabytes);
   return limits;
 }
