@@ -70,6 +70,23 @@ sanitizers: packages ## Run the tests of the numerical core with address and und
 	@cmake --build --preset sanitizers --parallel $(JOBS)
 	@ctest --preset sanitizers --parallel $(JOBS)
 
+FUZZ_SECONDS := 600
+.PHONY: fuzz
+fuzz: packages ## Fuzz the parsers for FUZZ_SECONDS each; what they find is left in build/fuzz/findings
+	@.ci/install-packages clang libclang-rt-14-dev
+	@cmake --preset fuzz $(CONFIGURE)
+	@cmake --build --preset fuzz --parallel $(JOBS)
+	@tests/fuzz/run $(FUZZ_SECONDS)
+
+CAD_SAMPLES = data/naca0012_blunt.igs data/three_arcs.igs data/three_arcs_nurbs.igs data/aeroplane.igs \
+  data/cylinder.brep /usr/share/doc/libdeal.ii-doc/examples/step-54/input/DTMB-5415_bulbous_bow.iges \
+  $(addprefix /usr/share/opencascade/data/,iges/bearing.iges iges/hammer.iges step/screw.step step/linkrods.step \
+  occ/bottle.brep occ/face1.brep occ/fuse.brep occ/mal_vis.brep occ/Room.brep occ/solid.brep occ/wing.brep)
+.PHONY: bad-cad
+bad-cad: build ## Read damaged CAD files by the hundred: a table of what became of them
+	@build/release/tests/geom/badcad_table corpus
+	@build/release/tests/geom/badcad_table 100 1000 $(CAD_SAMPLES)
+
 .PHONY: format
 format: packages ## Format the sources
 	@clang-format -i $(SOURCES)

@@ -13,6 +13,7 @@
 #include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepLib.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRep_Builder.hxx>
 #include <Geom_CylindricalSurface.hxx>
@@ -233,6 +234,11 @@ std::vector<BadFile> badBrepFiles()
 {
   std::vector<BadFile> files;
   const std::string text = textOf(BRepPrimAPI_MakeBox(1, 2, 3).Shape(), ".brep");
+  // Both went through to the mesher and to the search, and killed the process that used the model.
+  addChanged(files, text, ".brep",
+    { { "Ve\n1e-07\n0 ", "Ve\n1e-07\nnan " }, { "Ve\n1e-07\n0 ", "Ve\n1e-07\n1e200 " } });
+  addChanged(files, textOf(BRepPrimAPI_MakeCylinder(1, 2).Shape(), ".brep"), ".brep",
+    { { " 0 6.28318530717959", " 0 185707963267949" }, { " 0 6.28318530717959", " 0 1e300" } });
   const std::string ball = textOf(BRepPrimAPI_MakeSphere(1).Shape(), ".brep");
   for (const char* section : { "Locations ", "Curve2ds ", "Curves ", "Polygon3D ",
          "PolygonOnTriangulations ", "Surfaces ", "Triangulations ", "\nTShapes " })
