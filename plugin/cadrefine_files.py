@@ -35,16 +35,17 @@ class Results:
         return files[-1]
 
     def keep(self):
-        """Puts all results in their places, undisturbed by signals; the file that names others last."""
+        """Puts all results in their places; the file that names others last. The signals that would end the run come too
+        late from here on."""
         if not session.speaks():
             return
-        signal.pthread_sigmask(signal.SIG_BLOCK, SIGNALS)
+        for number in SIGNALS:
+            signal.signal(number, signal.SIG_IGN)  # For all threads; a mask would be for this one.
         for place in list(self.made):
             if place.endswith(".pvtu"):
                 remove_pieces(place)
             move(place + ".part", os.path.dirname(os.path.abspath(place)), last=os.path.basename(place))
             del self.made[place]
-        signal.pthread_sigmask(signal.SIG_UNBLOCK, SIGNALS)
 
     def discard(self):
         if session.speaks():
