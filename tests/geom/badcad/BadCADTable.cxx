@@ -67,7 +67,7 @@ void printRow(const Row& row)
 /// Reads files as `make` gives them, until that gives one without a name.
 Row readAll(const std::string& name, const std::function<BadFile(int)>& make)
 {
-  constexpr double wallSeconds = 600; // the machine may be busy; computing is what counts
+  constexpr double wallSeconds = 3600; // the machine may be busy; computing is what counts
   constexpr double dearSeconds = 10;
   constexpr double dearMegabytes = 1024;
   const cadtest::TemporaryFolder folder;
