@@ -1,6 +1,7 @@
 // Open CASCADE's own files, text or binary. They carry no unit.
 
 #include "OccGuard.h"
+#include "OccProgress.h"
 #include "ShapeReaders.h"
 
 #include <BRepTools.hxx>
@@ -15,6 +16,7 @@ namespace cadrefine
 ReadShape readBrep(const std::string& path)
 {
   ReadShape result;
+  const Handle(OccProgress) progress = new OccProgress;
   std::ifstream file(path, std::ios::binary);
   std::string start(30, '\0');
   file.read(start.data(), static_cast<std::streamsize>(start.size()));
@@ -22,7 +24,7 @@ ReadShape readBrep(const std::string& path)
   file.seekg(0);
   if (start.find("Open CASCADE Topology") != std::string::npos)
   {
-    BinTools::Read(result.shape, file);
+    BinTools::Read(result.shape, file, progress->Start());
   }
   else
   {
@@ -30,7 +32,7 @@ ReadShape readBrep(const std::string& path)
     file.exceptions(std::ios::failbit | std::ios::badbit);
     try
     {
-      BRepTools::Read(result.shape, file, BRep_Builder());
+      BRepTools::Read(result.shape, file, BRep_Builder(), progress->Start());
     }
     catch (const std::ios::failure&)
     {

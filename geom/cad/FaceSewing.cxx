@@ -1,3 +1,4 @@
+#include "OccProgress.h"
 #include "ShapePreparation.h"
 
 #include <BRepBndLib.hxx>
@@ -36,7 +37,8 @@ Handle(BRepBuilderAPI_Sewing) sewWith(const TopoDS_Shape& faces, double toleranc
   {
     sewing->Add(face.Value());
   }
-  sewing->Perform();
+  const Handle(OccProgress) progress = new OccProgress;
+  sewing->Perform(progress->Start());
   return sewing;
 }
 

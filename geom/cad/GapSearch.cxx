@@ -6,6 +6,8 @@
 
 #include "GapSearch.h"
 
+#include "IsolatedRun.h"
+
 #include <BRepAdaptor_Curve.hxx>
 #include <BRepBndLib.hxx>
 #include <BRepBuilderAPI_MakeVertex.hxx>
@@ -103,6 +105,7 @@ std::vector<Gap> findGaps(const ShapeIndex& index, double modelSize)
     const double limit = std::min(widest * modelSize, longest * a.length);
     Bnd_Box near = a.box;
     near.Enlarge(limit);
+    noteProgress();
     for (std::size_t j = i + 1; j < edges.size(); ++j)
     {
       const OpenEdge& b = edges[j];

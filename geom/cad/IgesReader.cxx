@@ -16,6 +16,7 @@
 #include "IgesRoots.h"
 #include "IgesTypes.h"
 #include "OccGuard.h"
+#include "OccProgress.h"
 #include "ShapeReaders.h"
 
 #include <IGESControl_Reader.hxx>
@@ -66,7 +67,8 @@ void transfer(IGESControl_Reader& reader, const std::vector<int>& roots)
   {
     list->Append(reader.IGESModel()->Entity(numberOf(root)));
   }
-  reader.TransferList(list);
+  const Handle(OccProgress) progress = new OccProgress;
+  reader.TransferList(list, progress->Start());
 }
 
 /// Numbers in the model of the roots and of all that they are made of.

@@ -1,15 +1,16 @@
 // 1. Fork. The child silences itself, limits its time and memory, works, and writes one letter
 //    (+ done, - an error, m out of memory), the length and the bytes (or the error's text) to a
 //    pipe.
-// 2. The parent reads the pipe until the answer is whole, and kills a child that stands still. An
-// answer cut short
-//    tells that the child died.
+// 2. The child counts its steps in memory that the parent sees.
+// 3. The parent reads the pipe until the answer is whole, and kills a child that stands still or
+//    takes too long for a step. An answer cut short tells that the child died.
 // The child leaves through _exit: it runs no handlers and flushes no buffers of the parent.
 
 #include "IsolatedRun.h"
 
 #include "Error.h"
 
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
@@ -19,6 +20,7 @@
 #include <fstream>
 #include <new>
 #include <poll.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -33,6 +35,40 @@ constexpr char done = '+';
 constexpr char failed = '-';
 constexpr char outOfMemory = 'm';
 constexpr std::size_t headSize = 1 + sizeof(std::uint64_t);
+
+using Count = std::atomic<std::uint64_t>;
+static_assert(Count::is_always_lock_free, "it is shared between processes");
+
+/// A number that this process and the children that it forks see.
+class SharedCount
+{
+public:
+  SharedCount()
+    : memory_(
+        mmap(nullptr, sizeof(Count), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0))
+  {
+    count_ = memory_ == MAP_FAILED ? nullptr : new (memory_) Count(0);
+  }
+  SharedCount(const SharedCount&) = delete;
+  SharedCount& operator=(const SharedCount&) = delete;
+  ~SharedCount()
+  {
+    if (count_ != nullptr)
+    {
+      munmap(memory_, sizeof(Count));
+    }
+  }
+
+  /// Null where the system gives no such memory.
+  Count* get() const { return count_; }
+
+private:
+  void* memory_;
+  Count* count_ = nullptr;
+};
+
+/// Of the child; null in other processes.
+Count* stepsDone = nullptr;
 
 void writeAll(int descriptor, const char* data, std::size_t size)
 {
@@ -137,27 +173,42 @@ double cpuSecondsOf(pid_t process)
   return known ? static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec) : 0;
 }
 
-/// Tells whether a process still computes, by looking at it once a second.
-class IdleWatch
+/// Tells whether a process still computes and comes on, by looking at it once a second.
+class Watch
 {
 public:
-  IdleWatch(pid_t process, int idleSeconds) : process_(process), most_(idleSeconds) {}
+  Watch(pid_t process, const RunLimits& limits, const Count& steps)
+    : process_(process), limits_(limits), steps_(steps)
+  {
+  }
 
-  /// To be called after a second without news; true where that makes too many of them.
-  bool isIdle()
+  /// To be called after a second without news. Why the process is to be ended; "" where it is not.
+  std::string look()
   {
     constexpr double little = 1e-3;
     const double now = cpuSecondsOf(process_);
     idle_ = now > last_ + little ? 0 : idle_ + 1;
     last_ = now;
-    return idle_ >= most_;
+    const std::uint64_t steps = steps_;
+    stepStart_ = steps == lastSteps_ ? stepStart_ : now;
+    lastSteps_ = steps;
+    if (idle_ >= limits_.idleSeconds)
+    {
+      return "reading it stands still";
+    }
+    return limits_.stepSeconds > 0 && now - stepStart_ > limits_.stepSeconds
+             ? "one step came to no end within " + std::to_string(limits_.stepSeconds) + " s"
+             : "";
   }
 
 private:
   pid_t process_;
-  int most_;
+  const RunLimits& limits_;
+  const Count& steps_;
   int idle_ = 0;
   double last_ = 0;
+  double stepStart_ = 0; ///< When a new count was seen first, which is late by a second at most.
+  std::uint64_t lastSteps_ = 0;
 };
 
 bool isComplete(const std::vector<char>& bytes)
@@ -173,13 +224,12 @@ bool isComplete(const std::vector<char>& bytes)
 struct Received
 {
   std::vector<char> bytes;
-  bool idle = false; ///< The child stood still, and was killed.
+  std::string cause; ///< Why the child was killed; "" where it was not.
 };
 
-Received readAll(int descriptor, pid_t child, int idleSeconds)
+Received readAll(int descriptor, pid_t child, Watch watch)
 {
   constexpr int oneSecond = 1000;
-  IdleWatch watch(child, idleSeconds);
   Received received;
   std::vector<char> buffer(1 << 16);
   while (!isComplete(received.bytes))
@@ -187,8 +237,8 @@ Received readAll(int descriptor, pid_t child, int idleSeconds)
     pollfd waiting{ descriptor, POLLIN, 0 };
     if (poll(&waiting, 1, oneSecond) == 0)
     {
-      received.idle = received.idle || watch.isIdle();
-      if (received.idle)
+      received.cause = received.cause.empty() ? watch.look() : received.cause;
+      if (!received.cause.empty())
       {
         kill(child, SIGKILL);
       }
@@ -205,12 +255,8 @@ Received readAll(int descriptor, pid_t child, int idleSeconds)
   return received;
 }
 
-std::string causeOf(int status, const RunLimits& limits, bool idle)
+std::string causeOf(int status, const RunLimits& limits)
 {
-  if (idle)
-  {
-    return "reading it stands still";
-  }
   if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL))
   {
     return "Open CASCADE came to no end within " + std::to_string(limits.cpuSeconds) + " s";
@@ -222,11 +268,20 @@ std::string causeOf(int status, const RunLimits& limits, bool idle)
 
 } // namespace
 
+void noteProgress()
+{
+  if (stepsDone != nullptr)
+  {
+    ++*stepsDone;
+  }
+}
+
 std::vector<char> runIsolated(const std::string& context, const RunLimits& limits,
   const std::function<std::vector<char>()>& work)
 {
+  const SharedCount steps;
   int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0)
+  if (steps.get() == nullptr || pipe2(ends, O_CLOEXEC) != 0)
   {
     throw Error(context + ": cannot be read: " + std::strerror(errno));
   }
@@ -234,11 +289,13 @@ std::vector<char> runIsolated(const std::string& context, const RunLimits& limit
   if (child == 0)
   {
     close(ends[0]);
+    stepsDone = steps.get();
     runChild(ends[1], context, limits, work);
   }
   const int forkError = errno;
   close(ends[1]);
-  const Received received = child < 0 ? Received() : readAll(ends[0], child, limits.idleSeconds);
+  const Received received =
+    child < 0 ? Received() : readAll(ends[0], child, Watch(child, limits, *steps.get()));
   close(ends[0]);
   if (child < 0)
   {
@@ -251,7 +308,8 @@ std::vector<char> runIsolated(const std::string& context, const RunLimits& limit
   const std::vector<char>& bytes = received.bytes;
   if (!isComplete(bytes))
   {
-    throw Error(context + ": the file is damaged: " + causeOf(status, limits, received.idle));
+    throw Error(context + ": the file is damaged: " +
+                (received.cause.empty() ? causeOf(status, limits) : received.cause));
   }
   if (bytes.front() == outOfMemory)
   {

@@ -2,6 +2,8 @@
 
 #include "NurbsExtraction.h"
 
+#include "IsolatedRun.h"
+
 #include <BRep_Tool.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
@@ -35,10 +37,12 @@ void extractGeometry(const ShapeIndex& index, NurbsModel& model)
   for (const TopoDS_Face& face : index.faces())
   {
     model.faces.push_back(extractFace(face));
+    noteProgress();
   }
   for (const TopoDS_Edge& edge : index.edges())
   {
     model.edges.push_back(extractEdge(edge));
+    noteProgress();
   }
   for (const TopoDS_Vertex& vertex : index.vertices())
   {

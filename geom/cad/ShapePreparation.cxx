@@ -9,6 +9,8 @@
 
 #include "ShapePreparation.h"
 
+#include "OccProgress.h"
+
 #include <BRepCheck_Analyzer.hxx>
 #include <BRepLib.hxx>
 #include <BRep_Builder.hxx>
@@ -81,7 +83,8 @@ TopoDS_Shape heal(const TopoDS_Shape& shape, LookMap& looks)
     return shape;
   }
   ShapeFix_Shape fix(shape);
-  fix.Perform();
+  const Handle(OccProgress) progress = new OccProgress;
+  fix.Perform(progress->Start());
   const TopoDS_Shape fixed = fix.Shape();
   const bool lost = fixed.IsNull() || countOf(fixed, TopAbs_FACE) < countOf(shape, TopAbs_FACE);
   if (lost)

@@ -8,6 +8,7 @@
 #include "CheckLists.h"
 #include "LengthUnit.h"
 #include "OccGuard.h"
+#include "OccProgress.h"
 #include "ShapeReaders.h"
 #include "StepLooks.h"
 
@@ -152,7 +153,8 @@ ReadShape readStep(const std::string& path)
   const double millimetres = findLengthUnit(reader);
   result.report.unit = unitName(reader, millimetres);
   reader.SetSystemLengthUnit(millimetres);
-  reader.TransferRoots();
+  const Handle(OccProgress) progress = new OccProgress;
+  reader.TransferRoots(progress->Start());
   result.shape = joinShapes(reader);
   result.looks = collectStepLooks(reader.WS());
   result.report.unread = listUnread(reader);

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
+#include <ctime>
 #include <iostream>
 #include <stdexcept>
 #include <unistd.h>
@@ -101,17 +102,38 @@ TEST(IsolatedRun, EndsWhatStandsStill)
   EXPECT_NE(error.find("stands still"), std::string::npos) << error;
 }
 
+/// Computes for so many seconds, and tells so all the time or never.
+std::vector<char> compute(double seconds, bool withNotes)
+{
+  while (static_cast<double>(std::clock()) < seconds * CLOCKS_PER_SEC)
+  {
+    if (withNotes)
+    {
+      cadrefine::noteProgress();
+    }
+  }
+  return {};
+}
+
+constexpr double forEver = 1e9;
+
 TEST(IsolatedRun, EndsWhatNeverEnds)
 {
-  const std::string error = errorOf({ 1 },
-    []
-    {
-      for (volatile int i = 0;; i = i + 1)
-      {
-      }
-      return std::vector<char>();
-    });
+  const std::string error = errorOf({ 1 }, [] { return compute(forEver, false); });
   EXPECT_NE(error.find("no end within 1 s"), std::string::npos) << error;
+}
+
+TEST(IsolatedRun, EndsAStepThatNeverEnds)
+{
+  const std::string error = errorOf({ 60, 0, 20, 1 }, [] { return compute(forEver, false); });
+  EXPECT_NE(error.find("one step came to no end within 1 s"), std::string::npos) << error;
+}
+
+TEST(IsolatedRun, GivesEachStepItsTime)
+{
+  EXPECT_EQ(errorOf({ 60, 0, 20, 1 }, [] { return compute(2.5, true); }), "");
+  const std::string error = errorOf({ 2, 0, 20, 1 }, [] { return compute(forEver, true); });
+  EXPECT_NE(error.find("no end within 2 s"), std::string::npos) << error;
 }
 
 } // namespace
