@@ -114,6 +114,12 @@ ModelContent readContent(const std::string& path, CADFormat format)
   return content;
 }
 
+bool isFinite(const Point3& p)
+{
+  return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
+}
+
+/// Throws Error where a point of the drawing is not finite.
 void drawAll(const CADModel& model)
 {
   const double deflection = CADModel::drawingTolerance * model.size();
@@ -121,7 +127,12 @@ void drawAll(const CADModel& model)
   {
     for (int i = 0; i < model.count(dimension); ++i)
     {
-      model.tessellate({ dimension, i }, deflection);
+      const std::vector<Point3> points = model.tessellate({ dimension, i }, deflection).points;
+      if (!std::all_of(points.begin(), points.end(), isFinite))
+      {
+        throw Error("CAD model: " + std::string(dimension == 2 ? "face " : "edge ") +
+                    std::to_string(i) + " cannot be drawn in finite numbers");
+      }
       noteProgress();
     }
   }

@@ -1,9 +1,10 @@
 // STEP files, through Open CASCADE's reader.
 //
-// 1. Load the file; find its first length unit, and make it the unit of the transfer, so that
+// 1. See that no number is too large for double.
+// 2. Load the file; find its first length unit, and make it the unit of the transfer, so that
 //    nothing is scaled (parts in other units are scaled to this one).
-// 2. Transfer every root.
-// 3. List the entities that failed, and the faces and roots that gave no shape.
+// 3. Transfer every root.
+// 4. List the entities that failed, and the faces and roots that gave no shape.
 
 #include "CheckLists.h"
 #include "LengthUnit.h"
@@ -11,6 +12,7 @@
 #include "OccProgress.h"
 #include "ShapeReaders.h"
 #include "StepLooks.h"
+#include "StepNumbers.h"
 
 #include <STEPConstruct_UnitContext.hxx>
 #include <STEPControl_Reader.hxx>
@@ -144,6 +146,7 @@ std::vector<UnreadEntity> listUnread(STEPControl_Reader& reader)
 
 ReadShape readStep(const std::string& path)
 {
+  checkStepNumbers(path);
   STEPControl_Reader reader;
   if (reader.ReadFile(path.c_str()) != IFSelect_RetDone || reader.StepModel().IsNull())
   {

@@ -2,8 +2,11 @@
 add_library(badcad STATIC
   badcad/BadIges.cxx
   badcad/BadShapes.cxx
+  badcad/BadSplines.cxx
+  badcad/BadTexts.cxx
   badcad/Mutation.cxx
   badcad/ReadProbe.cxx
+  badcad/ShapeText.cxx
   cad/IgesCases.cxx
   cad/IgesWriter.cxx
   cad/TestFiles.cxx)

@@ -1,5 +1,6 @@
 // Reads many damaged files, and prints what became of them:
-//   badcad_table corpus            the files made by programs (BadFiles.h)
+//   badcad_table corpus [TEXT]     the files made by programs (BadFiles.h); of these kinds whose
+//                                  name holds TEXT
 //   badcad_table COUNT SEED FILE... COUNT mutations of each file, the first with seed SEED
 // A row of the table for each kind or file; before it a line for each outcome that is bad or dear.
 // Exits with 1 where any outcome is bad.
@@ -94,17 +95,37 @@ Row readAll(const std::string& name, const std::function<BadFile(int)>& make)
   return row;
 }
 
-int readCorpus()
+std::vector<BadFile> mutationsOf(const BadFile& sound, int count)
+{
+  std::vector<BadFile> files;
+  for (int seed = 1; seed <= count; ++seed)
+  {
+    files.push_back({ "seed " + std::to_string(seed), sound.extension,
+      badcad::mutate(sound.text, static_cast<std::uint64_t>(seed)) });
+  }
+  return files;
+}
+
+int readCorpus(const std::string& wanted)
 {
   const std::vector<std::pair<const char*, std::vector<BadFile>>> all{ { "IGES, made by programs",
                                                                          badcad::badIgesFiles() },
     { "STEP, made by programs", badcad::badStepFiles() },
     { "BREP, made by programs", badcad::badBrepFiles() },
+    { "splines in STEP and BREP", badcad::badSplineFiles() },
     { "bad shapes in each format", badcad::badShapes() },
+    { "random bytes", badcad::garbageFiles() },
+    { "STEP, cut off in each line", badcad::cutFiles(badcad::soundStep().text, ".step") },
+    { "BREP in binary, cut off", badcad::cutAnywhere(badcad::soundBinaryBrep(), 200) },
+    { "BREP in binary, mutations", mutationsOf(badcad::soundBinaryBrep(), 200) },
     { "files that take long", badcad::dearFiles() } };
   int bad = 0;
   for (const auto& [name, files] : all)
   {
+    if (std::string(name).find(wanted) == std::string::npos)
+    {
+      continue;
+    }
     const auto& list = files;
     bad += readAll(name,
       [&](int i) {
@@ -133,16 +154,16 @@ int readMutations(const std::string& path, int inputs, int seed)
 
 int main(int argc, char** argv)
 {
-  const bool corpus = argc == 2 && std::string(argv[1]) == "corpus";
+  const bool corpus = argc >= 2 && argc <= 3 && std::string(argv[1]) == "corpus";
   if (!corpus && argc < 4)
   {
-    std::fprintf(stderr, "usage: badcad_table corpus | COUNT SEED FILE...\n");
+    std::fprintf(stderr, "usage: badcad_table corpus [TEXT] | COUNT SEED FILE...\n");
     return 2;
   }
   std::printf("| Files | Inputs | Models | Errors | of them crashes in the child | time-outs in "
               "the child | out of memory in the child | Bad endings | Most memory (MiB) | Slowest "
               "(s of computing) |\n|---|---|---|---|---|---|---|---|---|---|\n");
-  int bad = corpus ? readCorpus() : 0;
+  int bad = corpus ? readCorpus(argc == 3 ? argv[2] : "") : 0;
   for (int i = 3; i < argc; ++i)
   {
     bad += readMutations(argv[i], std::atoi(argv[1]), std::atoi(argv[2]));

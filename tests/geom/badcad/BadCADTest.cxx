@@ -80,6 +80,27 @@ TEST_F(BadCAD, BrepMadeByPrograms)
   this->expectGoodEndings(badcad::badBrepFiles());
 }
 
+TEST_F(BadCAD, SplinesInStepAndBrep)
+{
+  this->expectGoodEndings(badcad::badSplineFiles());
+}
+
+TEST_F(BadCAD, RandomBytes)
+{
+  this->expectGoodEndings(badcad::garbageFiles());
+}
+
+TEST_F(BadCAD, BinaryBrep)
+{
+  const BadFile sound = badcad::soundBinaryBrep();
+  this->expectGoodEndings(badcad::cutAnywhere(sound, 40));
+  for (std::uint64_t seed = 1; seed <= 60; ++seed)
+  {
+    this->expectGoodEnding(
+      { "seed " + std::to_string(seed), sound.extension, badcad::mutate(sound.text, seed) });
+  }
+}
+
 TEST_F(BadCAD, ShapesThatAreNoModels)
 {
   this->expectGoodEndings(badcad::badShapes());
@@ -92,6 +113,7 @@ TEST_F(BadCAD, CutOffInEachLine)
     const std::string extension = std::filesystem::path(name).extension().string();
     this->expectGoodEndings(badcad::cutFiles(textOf(data + name), extension));
   }
+  this->expectGoodEndings(badcad::cutFiles(badcad::soundStep().text, ".step"));
 }
 
 /// A face that is there 10,000 times is read once.

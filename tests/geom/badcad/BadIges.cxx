@@ -341,6 +341,18 @@ std::vector<BadFile> dearFiles()
     nestedSubfigures(), endlessBrep() };
 }
 
+std::vector<BadFile> cutAnywhere(const BadFile& sound, int places)
+{
+  std::vector<BadFile> files;
+  for (int i = 0; i < places; ++i)
+  {
+    const std::size_t size = sound.text.size() * static_cast<std::size_t>(i) / places;
+    files.push_back({ "cut after " + std::to_string(size) + " bytes", sound.extension,
+      sound.text.substr(0, size) });
+  }
+  return files;
+}
+
 std::vector<BadFile> cutFiles(const std::string& text, const std::string& extension)
 {
   std::vector<BadFile> files;

@@ -1,11 +1,8 @@
-// Shapes of Open CASCADE that are no models, and text of STEP and BREP files with one thing
-// changed.
+// Shapes of Open CASCADE that are no models.
 
 #include "BadFiles.h"
 
-#include "Error.h"
-#include "IsolatedRun.h"
-#include "TestFiles.h"
+#include "ShapeText.h"
 
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
@@ -13,51 +10,30 @@
 #include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepLib.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
-#include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
 #include <Geom_CylindricalSurface.hxx>
+#include <Geom_Line.hxx>
 #include <Geom_Plane.hxx>
 #include <Geom_SphericalSurface.hxx>
+#include <Precision.hxx>
+#include <TopExp.hxx>
+#include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
+#include <TopoDS_Iterator.hxx>
 #include <TopoDS_Vertex.hxx>
 #include <TopoDS_Wire.hxx>
 #include <gp_Pln.hxx>
 
-#include <array>
-#include <fstream>
-#include <iterator>
 #include <utility>
 
 namespace badcad
 {
 namespace
 {
-
-/// What Open CASCADE writes, chattering; "" where it crashes.
-std::string textOf(const TopoDS_Shape& shape, const std::string& extension)
-{
-  const auto write = [&]
-  {
-    const cadtest::TemporaryFolder folder;
-    const std::string path = folder.file("shape" + extension);
-    cadtest::writeShape(shape, path);
-    std::ifstream file(path, std::ios::binary);
-    return std::vector<char>{ std::istreambuf_iterator<char>(file),
-      std::istreambuf_iterator<char>() };
-  };
-  try
-  {
-    const std::vector<char> bytes = cadrefine::runIsolated("writing", { 60 }, write);
-    return { bytes.begin(), bytes.end() };
-  }
-  catch (const cadrefine::Error&)
-  {
-    return "";
-  }
-}
 
 using Corners = std::vector<gp_Pnt>;
 
@@ -116,6 +92,27 @@ TopoDS_Wire edgeWithoutCurve()
   return wire;
 }
 
+/// A triangle with one edge more, from a corner to itself.
+TopoDS_Wire withEdgeOfNoLength(const Corners& corners)
+{
+  const BRep_Builder builder;
+  const TopoDS_Wire sound = polygon(corners, true);
+  TopoDS_Wire wire = emptyWire();
+  TopoDS_Vertex corner;
+  for (TopoDS_Iterator edge(sound); edge.More(); edge.Next())
+  {
+    builder.Add(wire, edge.Value());
+    corner = TopExp::FirstVertex(TopoDS::Edge(edge.Value()));
+  }
+  TopoDS_Edge edge;
+  builder.MakeEdge(edge, new Geom_Line(BRep_Tool::Pnt(corner), gp::DX()), Precision::Confusion());
+  builder.Range(edge, 0, 0);
+  builder.Add(edge, corner.Oriented(TopAbs_FORWARD));
+  builder.Add(edge, corner.Oriented(TopAbs_REVERSED));
+  builder.Add(wire, edge);
+  return wire;
+}
+
 TopoDS_Shape inCompounds(TopoDS_Shape shape, int depth, const gp_Trsf& step)
 {
   const BRep_Builder builder;
@@ -147,6 +144,7 @@ std::vector<std::pair<std::string, TopoDS_Shape>> shapes()
     { "a sphere without a loop", faceOn(sphere, {}) },
     { "an empty loop", flatFace({ emptyWire() }) },
     { "an edge without a curve", flatFace({ edgeWithoutCurve() }) },
+    { "an edge of length zero", flatFace({ withEdgeOfNoLength(square) }) },
     { "an open loop in a face", flatFace({ polygon(square, false) }) },
     { "a bow tie", flatFace({ polygon(bow, true) }) },
     { "a loop off its plane", flatFace({ polygon(skew, true) }) },
@@ -159,24 +157,6 @@ std::vector<std::pair<std::string, TopoDS_Shape>> shapes()
     { "a sphere of radius 1e12", BRepPrimAPI_MakeSphere(1e12).Shape() },
     { "500 compounds in each other, moved", inCompounds(box, 500, move) },
     { "500 compounds in each other, turned", inCompounds(box, 500, turn) } };
-}
-
-using Changes = std::vector<std::array<const char*, 2>>;
-
-/// The text with the first `from` made `to`, for each change, where it occurs.
-void addChanged(std::vector<BadFile>& files, const std::string& text, const std::string& extension,
-  const Changes& changes)
-{
-  for (const auto& [from, to] : changes)
-  {
-    std::string changed = text;
-    const std::size_t at = changed.find(from);
-    if (at != std::string::npos)
-    {
-      changed.replace(at, std::string(from).size(), to);
-      files.push_back({ "'" + std::string(from) + "' made '" + to + "'", extension, changed });
-    }
-  }
 }
 
 } // namespace
@@ -195,67 +175,6 @@ std::vector<BadFile> badShapes()
       }
     }
   }
-  return files;
-}
-
-std::vector<BadFile> badStepFiles()
-{
-  std::vector<BadFile> files;
-  const std::string text = textOf(BRepPrimAPI_MakeBox(1, 2, 3).Shape(), ".step");
-  addChanged(files, text, ".step",
-    { { "CARTESIAN_POINT('',(0.,0.,0.))", "CARTESIAN_POINT('',(1.E300,0.,0.))" },
-      { "CARTESIAN_POINT('',(0.,0.,0.))", "CARTESIAN_POINT('',(1.E999,0.,0.))" },
-      { "CARTESIAN_POINT('',(0.,0.,0.))", "CARTESIAN_POINT('',(nan,0.,0.))" },
-      { "CARTESIAN_POINT('',(0.,0.,0.))", "CARTESIAN_POINT('',())" },
-      { "CARTESIAN_POINT('',(0.,0.,0.))", "CARTESIAN_POINT('',(0.))" },
-      { "CARTESIAN_POINT('',(0.,0.,0.))", "CARTESIAN_POINT('',$)" },
-      { "CARTESIAN_POINT('',(0.,0.,0.))", "DIRECTION('',(0.,0.,0.))" },
-      { "DIRECTION('',(1.,0.,0.))", "DIRECTION('',(0.,0.,0.))" },
-      { "DIRECTION('',(1.,0.,0.))", "DIRECTION('',(1.E300,1.E300,0.))" },
-      { "VECTOR('',#", "VECTOR('',#99999999" }, { "LINE('',#", "LINE('',#1" },
-      { "EDGE_CURVE('',#", "EDGE_CURVE('',#1" }, { "PLANE('',#", "PLANE('',#1" },
-      { "EDGE_LOOP('',(", "EDGE_LOOP('',(#1," }, { "FACE_BOUND('',#", "FACE_BOUND('',#1" },
-      { "ADVANCED_FACE('',(", "ADVANCED_FACE('',(#1," }, { "ADVANCED_FACE('',(", "PLANE('',(" },
-      { "CLOSED_SHELL('',(", "CLOSED_SHELL('',(#15,#15," }, { "ENDSEC;", "" }, { "DATA;", "" },
-      { "HEADER;", "" }, { "#15 =", "#16 =" }, { "#15 =", "#-15 =" }, { "#15 =", "#99999999999 =" },
-      { "SI_UNIT(", "SI_UNIT($," }, { "FILE_SCHEMA", "FILE_SCHEME" } });
-  return files;
-}
-
-BadFile endlessBrep()
-{
-  std::vector<BadFile> files;
-  addChanged(files, textOf(BRepPrimAPI_MakeSphere(1).Shape(), ".brep"), ".brep",
-    { { "Surfaces 1\n4 0 0 0", "Surfaces 1\n4 1e300 0 0" } });
-  return files.at(0);
-}
-
-std::vector<BadFile> badBrepFiles()
-{
-  std::vector<BadFile> files;
-  const std::string text = textOf(BRepPrimAPI_MakeBox(1, 2, 3).Shape(), ".brep");
-  // Both went through to the mesher and to the search, and killed the process that used the model.
-  addChanged(files, text, ".brep",
-    { { "Ve\n1e-07\n0 ", "Ve\n1e-07\nnan " }, { "Ve\n1e-07\n0 ", "Ve\n1e-07\n1e200 " } });
-  addChanged(files, textOf(BRepPrimAPI_MakeCylinder(1, 2).Shape(), ".brep"), ".brep",
-    { { " 0 6.28318530717959", " 0 185707963267949" }, { " 0 6.28318530717959", " 0 1e300" } });
-  const std::string ball = textOf(BRepPrimAPI_MakeSphere(1).Shape(), ".brep");
-  for (const char* section : { "Locations ", "Curve2ds ", "Curves ", "Polygon3D ",
-         "PolygonOnTriangulations ", "Surfaces ", "Triangulations ", "\nTShapes " })
-  {
-    const std::string more = section + std::string("9"), less = section + std::string("-");
-    addChanged(files, text, ".brep",
-      { { section, more.c_str() }, { section, less.c_str() }, { section, "" },
-        { section, (section + std::string("1000000000")).c_str() } });
-  }
-  addChanged(files, ball, ".brep",
-    { { " 1 1 1", " 1 1 -1" }, { "Surfaces 1\n4", "Surfaces 1\n99" },
-      { "Surfaces 1\n4 0 0 0", "Surfaces 1\n4 nan 0 0" },
-
-      { "Surfaces 1\n4 0 0 0 0 0 1", "Surfaces 1\n4 0 0 0 0 0 0" }, { "6.28", "1e300" },
-      { "6.28", "-6.28" }, { "6.28", "nan" }, { "3.14", "99.14" }, { "1e-07", "1e300" },
-      { "1e-07", "-1" }, { "1e-07", "nan" }, { "+2 0", "+999 0" }, { "+2 0", "+1 0" },
-      { "-2 0", "-0 0" }, { "Ve\n", "So\n" }, { "Ed\n", "Ve\n" }, { "Fa\n", "Ed\n" } });
   return files;
 }
 

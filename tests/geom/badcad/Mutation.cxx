@@ -194,4 +194,12 @@ std::string mutate(const std::string& text, std::uint64_t seed)
   return result;
 }
 
+std::string garbage(std::size_t size, std::uint64_t seed)
+{
+  Random random(seed);
+  std::string bytes(size, '\0');
+  std::generate(bytes.begin(), bytes.end(), [&] { return static_cast<char>(random.below(256)); });
+  return bytes;
+}
+
 } // namespace badcad

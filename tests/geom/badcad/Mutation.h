@@ -1,6 +1,7 @@
 // Damages the text of CAD files as disks, transfers and careless writers do, and worse.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -12,5 +13,8 @@ namespace badcad
 /// another; a byte changed, lost or added; the end cut off; a line lost, doubled or swapped with
 /// another; a block copied over another; garbage.
 std::string mutate(const std::string& text, std::uint64_t seed);
+
+/// So many random bytes.
+std::string garbage(std::size_t size, std::uint64_t seed);
 
 } // namespace badcad

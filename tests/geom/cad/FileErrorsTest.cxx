@@ -108,6 +108,23 @@ TEST_F(FileErrors, FilesThatOnlyBeginWell)
   expectError(this->folder.write("a.igs", start), "");
 }
 
+/// Open CASCADE never ends on points at infinity.
+TEST_F(FileErrors, NumbersBeyondDouble)
+{
+  const std::string path = this->folder.file("box.step");
+  cadtest::writeShape(BRepPrimAPI_MakeBox(1, 2, 3).Shape(), path);
+  std::vector<std::string> lines = cadtest::linesOf(path);
+  for (std::string& line : lines)
+  {
+    if (line.find("#12 = CARTESIAN_POINT('',(0.,0.,0.))") == 0)
+    {
+      line = "#12 = CARTESIAN_POINT('it''s 1.E777',(1.E300,-2.E999,0.));";
+    }
+  }
+  cadtest::writeLines(path, lines);
+  expectError(path, "#12 holds a number that is too large, -2.E999");
+}
+
 TEST_F(FileErrors, CutShort)
 {
   for (const char* extension : { ".igs", ".step", ".brep" })

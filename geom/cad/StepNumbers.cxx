@@ -1,0 +1,89 @@
+#include "StepNumbers.h"
+
+#include "Error.h"
+
+#include <cctype>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+
+namespace cadrefine
+{
+namespace
+{
+
+/// Takes a text one character after the other.
+class NumberScan
+{
+public:
+  explicit NumberScan(const std::string& path) : path_(path) {}
+
+  void take(char c)
+  {
+    if (inString_)
+    {
+      inString_ = c != '\''; // a doubled one ends the string and begins another
+      return;
+    }
+    if (isOfWord(c))
+    {
+      word_ += c;
+      return;
+    }
+    endWord();
+    inString_ = c == '\'';
+    begins_ = c == ';' || (begins_ && std::isspace(static_cast<unsigned char>(c)) != 0);
+  }
+
+private:
+  static bool isOfWord(char c)
+  {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.' || c == '+' ||
+           c == '-' || c == '#';
+  }
+
+  static bool isNumber(const std::string& word)
+  {
+    return word.find_first_not_of("0123456789.+-Ee") == std::string::npos;
+  }
+
+  void endWord()
+  {
+    if (word_.empty())
+    {
+      return;
+    }
+    if (begins_)
+    {
+      entity_ = word_;
+      begins_ = false;
+    }
+    else if (isNumber(word_) && std::isinf(std::strtod(word_.c_str(), nullptr)))
+    {
+      throw Error(path_ + ": the file is damaged: " + entity_ +
+                  " holds a number that is too large, " + word_.substr(0, 40));
+    }
+    word_.clear();
+  }
+
+  const std::string& path_;
+  bool inString_ = false;
+  bool begins_ = true; ///< Nothing but blanks since the last ';'.
+  std::string word_;
+  std::string entity_;
+};
+
+} // namespace
+
+void checkStepNumbers(const std::string& path)
+{
+  std::ifstream file(path, std::ios::binary);
+  NumberScan scan(path);
+  for (auto at = std::istreambuf_iterator<char>(file); at != std::istreambuf_iterator<char>(); ++at)
+  {
+    scan.take(*at);
+  }
+}
+
+} // namespace cadrefine
