@@ -1,0 +1,62 @@
+#!/usr/bin/python3
+"""Bad CAD files in ParaView: the reader says why, the filter that it feeds gives nothing, and the session goes on."""
+
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import driver
+
+RANKS = int(sys.argv.pop()) if sys.argv[-1].isdigit() else 1
+SCRIPT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "bad_cad_reads.py")
+MESH = driver.data("naca0012_coarse.vtu")
+CAD = driver.data("naca0012_sharp.igs")
+
+# A spline surface whose knots are the same: Open CASCADE crashes while it reads this.
+CRASH = "9 0 0 0 0 1 1 2 2 2 2\n0 0 0 0 1 0\n1 0 0 1 1 0\n\n0 2\n0 2\n\n0 2\n1 2\n"
+
+
+def bad_files(folder):
+    """Paths, and the reason that is given of each."""
+    texts = {"empty.igs": "", "other.step": "This is no CAD.\n" * 10}
+    with open(driver.data("cylinder.brep"), encoding="ascii") as file:
+        before, after = file.read().split("Surfaces 5\n")
+    texts["crash.brep"] = before + "Surfaces 5\n" + CRASH + after[after.index("\n") + 1:]
+    for name, text in texts.items():
+        with open(os.path.join(folder, name), "w", encoding="ascii") as file:
+            file.write(text)
+    os.mkdir(os.path.join(folder, "folder.igs"))
+    reasons = {"empty.igs": "the file is empty", "other.step": "does not begin like a file in STEP format",
+               "crash.brep": "the file is damaged: Open CASCADE crashes on it", "folder.igs": "is a directory",
+               "missing.igs": "no such file"}
+    return {os.path.join(folder, name): reason for name, reason in reasons.items()}
+
+
+class BadCAD(unittest.TestCase):
+    def test_session_goes_on(self):
+        with tempfile.TemporaryDirectory() as folder:
+            bad = bad_files(folder)
+            result = os.path.join(folder, "result.json")
+            run = subprocess.run(driver.launcher(RANKS) + [SCRIPT, os.environ["CADREFINE_PLUGIN"], result, MESH, *bad,
+                                                           CAD],
+                                 env={**os.environ, **driver.ENVIRONMENT}, capture_output=True, text=True,
+                                 timeout=driver.TIMEOUT, stdin=subprocess.DEVNULL, check=False)
+            self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
+            with open(result, encoding="ascii") as file:
+                *counts, good = json.load(file)
+        for (path, reason), count in zip(bad.items(), counts):
+            with self.subTest(path):
+                told = [line for line in run.stderr.splitlines() if path in line]
+                self.assertTrue(all(f"{path}: {reason}" in line for line in told), told)
+                self.assertIn(len(told), range(1, max(1, RANKS) + 1), told)  # each rank may tell
+                self.assertEqual(count, [0, 0])
+        self.assertEqual(len(counts), len(bad))
+        self.assertGreater(good[0], 0)
+        self.assertEqual(good[1], 228)
+
+
+if __name__ == "__main__":
+    unittest.main()
