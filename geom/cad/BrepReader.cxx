@@ -6,12 +6,36 @@
 
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
 #include <BinTools.hxx>
+#include <TopExp.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Face.hxx>
 
 #include <fstream>
 
 namespace cadrefine
 {
+namespace
+{
+
+/// Open CASCADE leaves a surface out that it cannot make, and crashes on the face later.
+void checkFaces(const std::string& path, const TopoDS_Shape& shape)
+{
+  TopTools_IndexedMapOfShape faces;
+  TopExp::MapShapes(shape, TopAbs_FACE, faces);
+  for (int i = 1; i <= faces.Extent(); ++i)
+  {
+    if (BRep_Tool::Surface(TopoDS::Face(faces(i))).IsNull())
+    {
+      throw Error(path + ": the file is damaged: face " + std::to_string(i) +
+                  " has no surface that can be read");
+    }
+  }
+}
+
+} // namespace
 
 ReadShape readBrep(const std::string& path)
 {
@@ -43,6 +67,7 @@ ReadShape readBrep(const std::string& path)
   {
     throw Error(path + ": not a BREP file that can be read");
   }
+  checkFaces(path, result.shape);
   return result;
 }
 

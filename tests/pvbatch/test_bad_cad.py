@@ -3,6 +3,7 @@
 
 import json
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -15,22 +16,20 @@ SCRIPT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "bad_cad_reads
 MESH = driver.data("naca0012_coarse.vtu")
 CAD = driver.data("naca0012_sharp.igs")
 
-# A spline surface whose knots are the same: Open CASCADE crashes while it reads this.
-CRASH = "9 0 0 0 0 1 1 2 2 2 2\n0 0 0 0 1 0\n1 0 0 1 1 0\n\n0 2\n0 2\n\n0 2\n1 2\n"
+SAMPLE = "/usr/share/opencascade/data/step/screw.step"
 
 
 def bad_files(folder):
     """Paths, and the reason that is given of each."""
     texts = {"empty.igs": "", "other.step": "This is no CAD.\n" * 10}
-    with open(driver.data("cylinder.brep"), encoding="ascii") as file:
-        before, after = file.read().split("Surfaces 5\n")
-    texts["crash.brep"] = before + "Surfaces 5\n" + CRASH + after[after.index("\n") + 1:]
+    with open(SAMPLE, encoding="ascii") as file:  # control points that are none: Open CASCADE crashes
+        texts["crash.step"] = re.sub(r"(B_SPLINE_CURVE_WITH_KNOTS\('',\d+,\()#\d+", r"\1#1", file.read())
     for name, text in texts.items():
         with open(os.path.join(folder, name), "w", encoding="ascii") as file:
             file.write(text)
     os.mkdir(os.path.join(folder, "folder.igs"))
     reasons = {"empty.igs": "the file is empty", "other.step": "does not begin like a file in STEP format",
-               "crash.brep": "the file is damaged: Open CASCADE crashes on it", "folder.igs": "is a directory",
+               "crash.step": "the file is damaged: Open CASCADE crashes on it", "folder.igs": "is a directory",
                "missing.igs": "no such file"}
     return {os.path.join(folder, name): reason for name, reason in reasons.items()}
 

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -106,6 +107,19 @@ TEST_F(FileErrors, FilesThatOnlyBeginWell)
     this->folder.write("a.brep", "DBRep_DrawableShape\n\nCASCADE Topology V1\nLocations 7\n"), "");
   const std::string start = "Nothing follows" + std::string(57, ' ') + "S      1\n";
   expectError(this->folder.write("a.igs", start), "");
+}
+
+/// Open CASCADE would read the face, and crash on it.
+TEST_F(FileErrors, FaceWithoutASurface)
+{
+  const std::string path = this->folder.file("box.brep");
+  cadtest::writeShape(BRepPrimAPI_MakeBox(1, 2, 3).Shape(), path);
+  std::vector<std::string> lines = cadtest::linesOf(path);
+  const auto surfaces = std::find(lines.begin(), lines.end(), "Surfaces 6");
+  ASSERT_TRUE(surfaces != lines.end());
+  *(surfaces + 1) = "9 0 0 0 0 1 1 2 2 2 2 0 0 0 0 1 0 1 0 0 1 1 0 0 2 0 2 0 2 1 2"; // equal knots
+  cadtest::writeLines(path, lines);
+  expectError(path, "the file is damaged: face 1 has no surface that can be read");
 }
 
 /// Open CASCADE never ends on points at infinity.
