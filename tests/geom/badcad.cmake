@@ -7,6 +7,7 @@ add_library(badcad STATIC
   badcad/Mutation.cxx
   badcad/ReadProbe.cxx
   badcad/ShapeText.cxx
+  badcad/Tally.cxx
   cad/IgesCases.cxx
   cad/IgesWriter.cxx
   cad/TestFiles.cxx)

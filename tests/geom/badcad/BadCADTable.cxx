@@ -8,6 +8,7 @@
 #include "BadFiles.h"
 #include "Mutation.h"
 #include "ReadProbe.h"
+#include "Tally.h"
 #include "TestFiles.h"
 
 #include <algorithm>
@@ -22,20 +23,7 @@ namespace
 
 using badcad::BadFile;
 using badcad::Ending;
-
-struct Row
-{
-  std::string name;
-  int inputs = 0;
-  int models = 0;
-  int errors = 0;
-  int childCrashes = 0; ///< Of the errors.
-  int childTimeOuts = 0;
-  int childMemory = 0;
-  int bad = 0;
-  double megabytes = 0;
-  double seconds = 0;
-};
+using badcad::Tally;
 
 const char* nameOf(Ending ending)
 {
@@ -44,36 +32,14 @@ const char* nameOf(Ending ending)
   return names[static_cast<int>(ending)];
 }
 
-void count(Row& row, const badcad::ReadOutcome& outcome)
-{
-  ++row.inputs;
-  row.models += outcome.ending == Ending::Model ? 1 : 0;
-  row.errors += outcome.ending == Ending::Error ? 1 : 0;
-  row.childCrashes += outcome.hadCrash() ? 1 : 0;
-  row.childTimeOuts += outcome.hadTimeOut() ? 1 : 0;
-  row.childMemory += outcome.hadNoMemory() ? 1 : 0;
-  row.bad += outcome.isGood() ? 0 : 1;
-  row.megabytes = std::max(row.megabytes, outcome.megabytes);
-  row.seconds = std::max(row.seconds, outcome.seconds);
-}
-
-void printRow(const Row& row)
-{
-  std::printf("| %s | %d | %d | %d | %d | %d | %d | %d | %.0f | %.1f |\n", row.name.c_str(),
-    row.inputs, row.models, row.errors, row.childCrashes, row.childTimeOuts, row.childMemory,
-    row.bad, row.megabytes, row.seconds);
-  std::fflush(stdout);
-}
-
 /// Reads files as `make` gives them, until that gives one without a name.
-Row readAll(const std::string& name, const std::function<BadFile(int)>& make)
+Tally readAll(const std::string& name, const std::function<BadFile(int)>& make)
 {
   constexpr double wallSeconds = 3600; // the machine may be busy; computing is what counts
   constexpr double dearSeconds = 10;
   constexpr double dearMegabytes = 1024;
   const cadtest::TemporaryFolder folder;
-  Row row;
-  row.name = name;
+  Tally tally;
   for (int i = 0;; ++i)
   {
     const BadFile file = make(i);
@@ -83,7 +49,7 @@ Row readAll(const std::string& name, const std::function<BadFile(int)>& make)
     }
     const badcad::ReadOutcome outcome =
       badcad::probe(folder.write("case" + file.extension, file.text), wallSeconds);
-    count(row, outcome);
+    tally.add(outcome);
     if (!outcome.isGood() || outcome.hadCrash() || outcome.seconds > dearSeconds ||
         outcome.megabytes > dearMegabytes)
     {
@@ -91,8 +57,9 @@ Row readAll(const std::string& name, const std::function<BadFile(int)>& make)
         nameOf(outcome.ending), outcome.seconds, outcome.megabytes, outcome.text.c_str());
     }
   }
-  printRow(row);
-  return row;
+  tally.print(name);
+  std::fflush(stdout);
+  return tally;
 }
 
 std::vector<BadFile> mutationsOf(const BadFile& sound, int count)
@@ -160,9 +127,7 @@ int main(int argc, char** argv)
     std::fprintf(stderr, "usage: badcad_table corpus [TEXT] | COUNT SEED FILE...\n");
     return 2;
   }
-  std::printf("| Files | Inputs | Models | Errors | of them crashes in the child | time-outs in "
-              "the child | out of memory in the child | Bad endings | Most memory (MiB) | Slowest "
-              "(s of computing) |\n|---|---|---|---|---|---|---|---|---|---|\n");
+  badcad::Tally::printHeading();
   int bad = corpus ? readCorpus(argc == 3 ? argv[2] : "") : 0;
   for (int i = 3; i < argc; ++i)
   {

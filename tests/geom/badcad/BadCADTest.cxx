@@ -4,6 +4,7 @@
 #include "BadFiles.h"
 #include "Mutation.h"
 #include "ReadProbe.h"
+#include "Tally.h"
 #include "TestFiles.h"
 
 #include "CADFile.h"
@@ -33,19 +34,29 @@ using badcad::BadFile;
 class BadCAD : public testing::Test
 {
 protected:
-  void expectGoodEnding(const BadFile& file) const
+  /// A row of the table, whose columns badcad_table names.
+  void TearDown() override
+  {
+    if (this->tally.inputs > 0)
+    {
+      this->tally.print(testing::UnitTest::GetInstance()->current_test_info()->name());
+    }
+  }
+
+  void expectGoodEnding(const BadFile& file)
   {
     constexpr double wallSeconds = 300; // far beyond all limits of the reader itself
     constexpr double mostSeconds = 30;
     constexpr double mostMegabytes = 4096;
     const std::string path = this->folder.write("case" + file.extension, file.text);
     const badcad::ReadOutcome outcome = badcad::probe(path, wallSeconds);
+    this->tally.add(outcome);
     EXPECT_TRUE(outcome.isGood()) << file.name << ": " << outcome.text;
     EXPECT_LT(outcome.seconds, mostSeconds) << file.name << ": " << outcome.text;
     EXPECT_LT(outcome.megabytes, mostMegabytes) << file.name << ": " << outcome.text;
   }
 
-  void expectGoodEndings(const std::vector<BadFile>& files) const
+  void expectGoodEndings(const std::vector<BadFile>& files)
   {
     for (const BadFile& file : files)
     {
@@ -54,6 +65,7 @@ protected:
   }
 
   cadtest::TemporaryFolder folder;
+  badcad::Tally tally;
 };
 
 std::string textOf(const std::string& path)
