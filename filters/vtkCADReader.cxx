@@ -215,12 +215,12 @@ int vtkCADReader::RequestData(
     cadrefine::runTogether(exchange, [&] { this->Read(exchange, output); });
     return 1;
   }
-  catch (const std::exception& error)
+  catch (...)
   {
     output->Initialize();
     if (!this->Controller || this->Controller->GetLocalProcessId() == 0)
     {
-      vtkErrorMacro(<< cadrefine::reasonOf(error));
+      vtkErrorMacro(<< cadrefine::caughtReason());
     }
     return 0;
   }

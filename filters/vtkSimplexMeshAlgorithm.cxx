@@ -111,7 +111,7 @@ int vtkSimplexMeshAlgorithm::RequestData(
       });
     return 1;
   }
-  catch (const std::exception& error)
+  catch (...)
   {
     for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
     {
@@ -119,7 +119,7 @@ int vtkSimplexMeshAlgorithm::RequestData(
     }
     if (!this->Controller || this->Controller->GetLocalProcessId() == 0)
     {
-      vtkErrorMacro(<< cadrefine::reasonOf(error));
+      vtkErrorMacro(<< cadrefine::caughtReason());
     }
     return 0;
   }

@@ -1,18 +1,49 @@
 #include "Agreement.h"
 
+#include <cxxabi.h>
+
+#include <cstdlib>
+#include <exception>
 #include <new>
 
 namespace cadrefine
 {
-
-std::string reasonOf(const std::exception& error)
+namespace
 {
-  if (dynamic_cast<const std::bad_alloc*>(&error))
+
+/// Of the exception that is being handled, as it is written in a program.
+std::string caughtType()
+{
+  int status = 0;
+  const char* const mangled = abi::__cxa_current_exception_type()->name();
+  char* const name = abi::__cxa_demangle(mangled, nullptr, nullptr, &status);
+  std::string type = name ? name : mangled;
+  std::free(name);
+  return type;
+}
+
+} // namespace
+
+// Exceptions of Open CASCADE before 7.9 are no std::exception.
+std::string caughtReason()
+{
+  try
+  {
+    throw;
+  }
+  catch (const std::bad_alloc&)
   {
     return "there is not enough memory";
   }
-  const std::string text = error.what();
-  return text.empty() ? "unknown failure" : text;
+  catch (const std::exception& error)
+  {
+    const std::string text = error.what();
+    return text.empty() ? "unknown failure" : text;
+  }
+  catch (...)
+  {
+    return "unknown failure (" + caughtType() + ")";
+  }
 }
 
 } // namespace cadrefine

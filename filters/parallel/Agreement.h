@@ -3,14 +3,13 @@
 
 #include "RankExchange.h"
 
-#include <exception>
 #include <string>
 
 namespace cadrefine
 {
 
-/// For the user; never empty.
-std::string reasonOf(const std::exception& error);
+/// Of the exception, of whatever type, that is being handled; for the user; never empty.
+std::string caughtReason();
 
 /// Runs `work`, which must not communicate, and throws an AgreedError with the first failing rank's
 /// reason on all ranks where it threw on any. Collective; one reduction.
@@ -22,9 +21,9 @@ void attempt(RankExchange& exchange, const Work& work)
   {
     work();
   }
-  catch (const std::exception& error)
+  catch (...)
   {
-    reason = reasonOf(error);
+    reason = caughtReason();
   }
   exchange.agree(reason);
 }
@@ -45,9 +44,9 @@ void runTogether(RankExchange& exchange, const Work& work)
   {
     throw;
   }
-  catch (const std::exception& error)
+  catch (...)
   {
-    const std::string reason = reasonOf(error);
+    const std::string reason = caughtReason();
     exchange.fail(reason);
     throw Error(reason);
   }

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <new>
 
 namespace cadrefine
 {
@@ -40,9 +39,9 @@ std::unique_ptr<RankExchange::Link> RankExchange::Link::make(MPI_Comm parent)
   {
     return std::make_unique<Link>(own);
   }
-  catch (const std::bad_alloc& error)
+  catch (...)
   {
-    tellOthers(own, reasonOf(error).c_str());
+    tellOthers(own, caughtReason().c_str());
     throw;
   }
 }
