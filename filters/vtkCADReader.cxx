@@ -4,6 +4,7 @@
 #include "CADDrawing.h"
 #include "CADFile.h"
 #include "Error.h"
+#include "FileStamp.h"
 #include "RankExchange.h"
 #include "vtkCADModelCache.h"
 
@@ -130,6 +131,19 @@ vtkCADReader::~vtkCADReader()
   this->SetController(nullptr);
 }
 
+int vtkCADReader::ComputePipelineMTime(vtkInformation* request, vtkInformationVector** inputs,
+  vtkInformationVector* outputs, int port, vtkMTimeType* time)
+{
+  const bool isAlone = !this->Controller || this->Controller->GetNumberOfProcesses() <= 1;
+  if (isAlone && this->FileName && !this->StampRead.empty() &&
+      cadrefine::fileStamp(this->FileName) != this->StampRead)
+  {
+    this->StampRead.clear(); // Modified once for each change.
+    this->Modified();
+  }
+  return this->Superclass::ComputePipelineMTime(request, inputs, outputs, port, time);
+}
+
 int vtkCADReader::RequestInformation(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
 {
@@ -150,6 +164,7 @@ std::shared_ptr<const cadrefine::CADModel> vtkCADReader::ReadModel(
       }
       if (exchange.rank() == 0)
       {
+        this->StampRead = cadrefine::fileStamp(this->FileName); // before: it may change meanwhile
         bytes = cadrefine::readCADFile(this->FileName)->toBytes();
       }
     });

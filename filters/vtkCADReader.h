@@ -12,6 +12,12 @@
  * with it and could be repaired, a line each; CADSewingTolerance; CADGaps, the gaps that are wider:
  * width, place, and the two edges beside it.
  *
+ * Each time it executes it reads the file anew. In a single process it also executes where the file
+ * has changed on the disk since it was read last (its time, its size, or another file of that
+ * name), as an update finds out. On several ranks an update cannot find out, since all ranks or
+ * none must execute, and updates are theirs: call Modified on all of them, which in ParaView is
+ * Reload Files.
+ *
  * Rank 0 alone reads the file and broadcasts the model. A file that cannot be read is an error on
  * all ranks, reported by rank 0; what could not be read, repairs and gaps give a warning.
  */
@@ -67,6 +73,9 @@ protected:
   vtkCADReader();
   ~vtkCADReader() override;
 
+  /// Looks whether the file has changed.
+  int ComputePipelineMTime(vtkInformation* request, vtkInformationVector** inputs,
+    vtkInformationVector* outputs, int port, vtkMTimeType* time) override;
   int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
@@ -82,6 +91,7 @@ private:
 
   char* FileName = nullptr;
   double TessellationTolerance = 0.001;
+  std::string StampRead; ///< Of the file when it was read last, in a single process; empty: never.
   vtkMultiProcessController* Controller = nullptr;
 };
 

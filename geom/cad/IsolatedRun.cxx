@@ -255,15 +255,39 @@ Received readAll(int descriptor, pid_t child, Watch watch)
   return received;
 }
 
-std::string causeOf(int status, const RunLimits& limits)
+/// How a child has ended that gave no answer.
+struct End
 {
-  if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL))
+  int signal = 0;        ///< 0: of its own.
+  double cpuSeconds = 0; ///< Of computing.
+};
+
+End awaitEnd(pid_t child)
+{
+  int status = 0;
+  rusage usage{};
+  while (wait4(child, &status, 0, &usage) < 0 && errno == EINTR)
   {
-    return "Open CASCADE came to no end within " + std::to_string(limits.cpuSeconds) + " s";
   }
-  return WIFSIGNALED(status)
-           ? "Open CASCADE crashes on it (signal " + std::to_string(WTERMSIG(status)) + ")"
-           : "Open CASCADE fails on it";
+  const auto seconds = static_cast<double>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec);
+  return { WIFSIGNALED(status) ? WTERMSIG(status) : 0, seconds };
+}
+
+std::string causeOf(const End& end, const RunLimits& limits)
+{
+  const std::string signal = " (signal " + std::to_string(end.signal) + ")";
+  if (end.signal == SIGXCPU || (end.signal == SIGKILL && end.cpuSeconds + 1 > limits.cpuSeconds))
+  {
+    return "the file is damaged: Open CASCADE came to no end within " +
+           std::to_string(limits.cpuSeconds) + " s";
+  }
+  if (end.signal == SIGKILL || end.signal == SIGTERM)
+  {
+    return "cannot be read: the process that reads it was killed" + signal +
+           ", as systems do that run out of memory";
+  }
+  return end.signal > 0 ? "the file is damaged: Open CASCADE crashes on it" + signal
+                        : "the file is damaged: Open CASCADE fails on it";
 }
 
 } // namespace
@@ -301,15 +325,13 @@ std::vector<char> runIsolated(const std::string& context, const RunLimits& limit
   {
     throw Error(context + ": cannot be read: " + std::strerror(forkError));
   }
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR)
-  {
-  }
+  const End end = awaitEnd(child);
   const std::vector<char>& bytes = received.bytes;
   if (!isComplete(bytes))
   {
-    throw Error(context + ": the file is damaged: " +
-                (received.cause.empty() ? causeOf(status, limits) : received.cause));
+    throw Error(
+      context + ": " +
+      (received.cause.empty() ? causeOf(end, limits) : "the file is damaged: " + received.cause));
   }
   if (bytes.front() == outOfMemory)
   {

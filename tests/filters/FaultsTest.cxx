@@ -283,7 +283,7 @@ TEST_F(Faults, quadraticCells)
 TEST_F(Faults, adaptation)
 {
   expectAllFailTogether(
-    runOf<vtkAdaptToCAD>(ownPiece(), [](vtkAdaptToCAD* filter) { filter->SetMaximumSteps(2); }),
+    runOf<vtkAdaptToCAD>(ownPiece(), [](vtkAdaptToCAD* filter) { filter->SetMaximumSteps(1); }),
     withBalance({ "finding the boundary", "projecting", "measuring", "marking cells",
       "cutting cells", "smoothing cells" }));
 }

@@ -75,6 +75,21 @@ TEST(IsolatedRun, SurvivesACrash)
   EXPECT_NE(error.find("signal 11"), std::string::npos) << error;
 }
 
+TEST(IsolatedRun, TellsThatItWasKilled)
+{
+  for (const int signal : { SIGKILL, SIGTERM })
+  {
+    const std::string error = errorOf({ 60 },
+      [signal]
+      {
+        kill(getpid(), signal);
+        return std::vector<char>();
+      });
+    EXPECT_EQ(error.find("file: cannot be read: the process that reads it was killed"), 0u)
+      << error;
+  }
+}
+
 TEST(IsolatedRun, EndsWhatTakesTooMuchMemory)
 {
   const auto fill = []
