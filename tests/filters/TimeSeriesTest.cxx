@@ -4,11 +4,10 @@
 #include "FilterRun.h"
 #include "ParallelTest.h"
 #include "Partition.h"
-#include "Series.h"
+#include "Pipeline.h"
 #include "TestMeshes.h"
 #include "TestShapes.h"
 
-#include <vtkAdaptToCAD.h>
 #include <vtkCallbackCommand.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
@@ -64,55 +63,7 @@ void stretch(vtkUnstructuredGrid* grid, double factor)
   }
 }
 
-/// The filters one after the other on a series.
-struct Pipeline
-{
-  vtkNew<cadtest::Series> series;
-  vtkNew<vtkCADReader> cad;
-  vtkNew<vtkProjectOntoCAD> project;
-  vtkNew<vtkCADGeometricError> measure;
-  vtkNew<vtkRefineWithCAD> refine;
-  vtkNew<vtkMeshValidity> validity;
-  vtkNew<vtkAdaptToCAD> adapt;
-
-  using Setup = std::function<void(Pipeline&)>;
-
-  Pipeline(vtkPointSet* piece, const std::string& cadFile, vtkMultiProcessController* controller,
-    const Setup& setup)
-  {
-    series->setMesh(piece);
-    cad->SetController(controller);
-    cad->SetFileName(cadFile.c_str());
-    connect(project, series, controller);
-    connect(measure, project, controller);
-    connect(refine, measure, controller);
-    connect(validity, refine, controller);
-    connect(adapt, series, controller);
-    refine->SetMarkingArray("GeometricError");
-    refine->SetThreshold(0.01);
-    refine->SetLevels(2);
-    adapt->SetMaximumSteps(2);
-    adapt->SetErrorThreshold(0.01);
-    setup(*this);
-  }
-
-  std::vector<vtkSimplexMeshAlgorithm*> filters() const
-  {
-    return { project, measure, refine, validity, adapt };
-  }
-
-private:
-  void connect(
-    vtkSimplexMeshAlgorithm* filter, vtkAlgorithm* before, vtkMultiProcessController* controller)
-  {
-    filter->SetController(controller);
-    filter->SetInputConnection(0, before->GetOutputPort());
-    if (filter->GetNumberOfInputPorts() > 1)
-    {
-      filter->SetInputConnection(1, cad->GetOutputPort());
-    }
-  }
-};
+using cadtest::Pipeline;
 
 /// The series is dealt out at random, so that refining moves cells between ranks.
 class TimeSeries : public ParallelTest
