@@ -52,7 +52,7 @@ DistanceModel distanceModel(const PatchView& patch, const Point3& q, double s, d
 bool makePositiveDefinite(DistanceModel& m)
 {
   QuadraticModel& h = m.quadratic;
-  const double floor = 1e-14 * (m.lengthS + m.lengthT) + 1e-300;
+  const double floor = 1e-14 * (m.lengthS + m.lengthT) + 1e-150; // its square is not 0
   const double metricS = std::max(m.lengthS, floor);
   const double metricT = std::max(m.lengthT, floor);
   const double ss = h.ss / metricS;
