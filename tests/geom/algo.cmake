@@ -15,4 +15,4 @@ cadrefine_geom_test(algo_tests
     algo/PatchOptimiserTest.cxx
     algo/ShapeEnergyTest.cxx
     algo/UniformSplitTest.cxx
-  LINKS CADRefineTestSupport)
+  LINKS CADRefineFloatingPoint CADRefineTestSupport)

@@ -21,5 +21,5 @@ cadrefine_geom_test(cad_tests
     cad/TestFiles.cxx
     cad/UnitsTest.cxx
     cad/UnreadTest.cxx
-  LINKS CADRefineCad ${CADREFINE_IGES} ${CADREFINE_STEP} TKXSBase TKPrim TKBO TKTopAlgo TKBRep)
+  LINKS CADRefineFloatingPoint CADRefineCad ${CADREFINE_IGES} ${CADREFINE_STEP} TKXSBase TKPrim TKBO TKTopAlgo TKBRep)
 target_include_directories(cad_tests SYSTEM PRIVATE ${OpenCASCADE_INCLUDE_DIR})

@@ -7,6 +7,6 @@ cadrefine_geom_test(exact_tests
     exact/WholeModelTest.cxx
     cad/TestFiles.cxx
     ../support/TestShapes.cxx
-  LINKS CADRefineCad ${CADREFINE_IGES} ${CADREFINE_STEP} TKXSBase TKPrim TKBO TKTopAlgo TKBRep TKGeomBase TKShHealing)
+  LINKS CADRefineFloatingPoint CADRefineCad ${CADREFINE_IGES} ${CADREFINE_STEP} TKXSBase TKPrim TKBO TKTopAlgo TKBRep TKGeomBase TKShHealing)
 target_include_directories(exact_tests PRIVATE cad nurbs ../support)
 target_include_directories(exact_tests SYSTEM PRIVATE ${OpenCASCADE_INCLUDE_DIR})

@@ -11,4 +11,4 @@ cadrefine_geom_test(mesh_tests
     mesh/QualitySummaryTest.cxx
     mesh/QualityTest.cxx
     mesh/RadixOrderTest.cxx
-  LINKS CADRefineTestSupport)
+  LINKS CADRefineFloatingPoint CADRefineTestSupport)

@@ -4,4 +4,4 @@ cadrefine_geom_test(nurbs_tests
     nurbs/TestBruteForce.cxx
     nurbs/TestClosedForms.cxx
     nurbs/TestContract.cxx
-  LINKS CADRefineNurbs)
+  LINKS CADRefineFloatingPoint CADRefineNurbs)
