@@ -55,7 +55,8 @@ EntityId readEntity(double dimension, double index, const CADModel& model, vtkId
   {
     return {};
   }
-  const bool known = (dimension == 0 || dimension == 1 || dimension == 2) && index >= 0 &&
+  const bool known = (dimension == 0 || dimension == 1 || dimension == 2) &&
+                     std::isgreaterequal(index, 0.0) &&
                      index < model.count(static_cast<int>(dimension)) && std::floor(index) == index;
   if (!known)
   {
@@ -71,7 +72,7 @@ EntityId readEntity(double dimension, double index, const CADModel& model, vtkId
 void checkPlace(
   EntityId entity, const std::array<double, 2>& parameters, double distance, vtkIdType point)
 {
-  if (!(distance >= 0))
+  if (!std::isgreaterequal(distance, 0.0))
   {
     throw Error(
       "the point array CADDistance has a value that is negative or no number" + atPoint(point));

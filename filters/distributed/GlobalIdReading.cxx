@@ -23,7 +23,8 @@ GlobalId idOf(Value value)
 {
   if constexpr (std::is_floating_point_v<Value>)
   {
-    const bool isId = value >= 0 && value < static_cast<Value>(bound) && std::floor(value) == value;
+    const bool isId = std::isgreaterequal(value, Value{ 0 }) && value < static_cast<Value>(bound) &&
+                      std::floor(value) == value;
     return isId ? static_cast<GlobalId>(value) : -1;
   }
   else if constexpr (std::is_unsigned_v<Value>)

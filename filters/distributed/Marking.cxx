@@ -51,7 +51,8 @@ std::vector<double> valuesOf(
 
 void checkFraction(const MarkingCriterion& criterion)
 {
-  if (criterion.strategy != Strategy::Threshold && !(criterion.value > 0 && criterion.value <= 1))
+  if (criterion.strategy != Strategy::Threshold &&
+      !(std::isgreater(criterion.value, 0.0) && criterion.value <= 1))
   {
     throw Error(
       "the fraction by which " + criterion.array + " marks cells is not above 0 and at most 1");
@@ -69,7 +70,7 @@ std::vector<unsigned char> marksOf(RankExchange& exchange, const MarkingCriterio
   if (criterion.strategy == Strategy::Threshold)
   {
     std::transform(values.begin(), values.end(), marks.begin(),
-      [&](double value) { return value > criterion.value; });
+      [&](double value) { return std::isgreater(value, criterion.value); });
     return marks;
   }
   const double largest =

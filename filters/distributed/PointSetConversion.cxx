@@ -156,7 +156,7 @@ void checkCoordinates(const Point3& point, vtkIdType number)
 {
   for (const double x : point)
   {
-    if (!(std::abs(x) <= largestCoordinate))
+    if (!std::islessequal(std::abs(x), largestCoordinate))
     {
       throw Error(std::string("the mesh has a coordinate that is ") +
                   (std::isfinite(x) ? "beyond 1.5e51" : "not finite") + " (point " +

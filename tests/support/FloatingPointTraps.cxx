@@ -211,8 +211,9 @@ FloatingPointTraps::~FloatingPointTraps()
 
 std::vector<std::string> FloatingPointTraps::takeFindings()
 {
-  std::vector<std::string> texts;
   const Lock lock;
+  std::vector<std::string> texts;
+  texts.reserve(findings->count);
   for (int i = 0; i < findings->count; ++i)
   {
     texts.push_back(describe(findings->all[i]));
