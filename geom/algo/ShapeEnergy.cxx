@@ -164,7 +164,8 @@ ShapeEnergy::Derivatives ShapeEnergy::derivativesAt(const Point3& x) const
       lengthSlope = lengthSlope + 2.0 * (x - term.others[k]);
     }
     const Vector3 ofLength = (1 / length) * lengthSlope;
-    const Vector3 slope = ofLength - (power / r) * term.slope;
+    const Vector3 ofMeasure = (1 / r) * term.slope; // no powers of r, which overflow
+    const Vector3 slope = ofLength - power * ofMeasure;
     const double factor = 2 * eta * eta;
     for (int i = 0; i < 3; ++i)
     {
@@ -173,7 +174,7 @@ ShapeEnergy::Derivatives ShapeEnergy::derivativesAt(const Point3& x) const
       for (int j = 0; j < 3; ++j)
       {
         sum.hessian[i][j] += factor * (2 * slope[i] * slope[j] - ofLength[i] * ofLength[j] +
-                                        power * s / (r * r * r) * term.slope[i] * term.slope[j]);
+                                        power * (s / r) * ofMeasure[i] * ofMeasure[j]);
       }
     }
   }

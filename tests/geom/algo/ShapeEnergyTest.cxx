@@ -105,6 +105,29 @@ TEST_P(OneCell, isLowestWhereTheCellIsEquilateral)
   }
 }
 
+/// As far as squares of volumes are numbers.
+TEST_P(OneCell, scalesWithItsSize)
+{
+  const Point3 x = apex(0.4) + Vector3{ 0.1, 0, 0 };
+  const Vector3 expected = energy(0.1).step(x, directions());
+  for (const double size : { 0x1p-160, 0x1p-60, 0x1p60, 0x1p166 })
+  {
+    const double delta = 0.1 * std::pow(size, GetParam());
+    ShapeEnergy large(GetParam());
+    if (GetParam() == 3)
+    {
+      large.addTetrahedron(size * a, size * b, size * c, delta);
+    }
+    else
+    {
+      large.addTriangle(size * a, size * b, up, delta);
+    }
+    EXPECT_NEAR(large.at(size * x), energy(0.1).at(x), 1e-13 * energy(0.1).at(x));
+    const Vector3 step = large.step(size * x, directions());
+    EXPECT_LT(distance(step, size * expected), 1e-12 * size) << size;
+  }
+}
+
 /// An inverted cell is turned over, without an energy that is infinite in between.
 TEST_P(OneCell, leadsFromInvertedToValid)
 {
