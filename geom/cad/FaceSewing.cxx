@@ -32,7 +32,7 @@ double diagonal(const TopoDS_Shape& shape)
 
 Handle(BRepBuilderAPI_Sewing) sewWith(const TopoDS_Shape& faces, double tolerance)
 {
-  const Handle(BRepBuilderAPI_Sewing) sewing = new BRepBuilderAPI_Sewing(tolerance);
+  Handle(BRepBuilderAPI_Sewing) sewing = new BRepBuilderAPI_Sewing(tolerance);
   for (TopoDS_Iterator face(faces); face.More(); face.Next())
   {
     sewing->Add(face.Value());

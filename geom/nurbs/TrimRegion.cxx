@@ -249,13 +249,14 @@ void TrimRegion::fillCells()
       continue;
     }
     const int column = i % cellsAlong;
+    const int row = i / cellsAlong;
     if (column > 0 && cells_[i - 1] != TrimCover::cut)
     {
       cells_[i] = cells_[i - 1];
       continue;
     }
     const double u = extent_.s0 + (column + 0.5) / cellsAlong * extent_.width();
-    const double v = extent_.t0 + (i / cellsAlong + 0.5) / cellsAlong * extent_.height();
+    const double v = extent_.t0 + (row + 0.5) / cellsAlong * extent_.height();
     cells_[i] = containsByRay(u, v) ? TrimCover::in : TrimCover::out;
   }
 }

@@ -49,7 +49,7 @@ protected:
   template<class Array, class IdOf>
   Grid ballWithIds(const IdOf& idOf) const
   {
-    const Grid grid = isLast() ? ball() : Grid::New();
+    Grid grid = isLast() ? ball() : Grid::New();
     setPointIds<Array>(grid, idOf);
     return grid;
   }

@@ -59,7 +59,7 @@ public:
       filter->SetInputDataObject(1, cad_);
     }
     configure(filter.Get());
-    const Outcome outcome = execute(filter);
+    Outcome outcome = execute(filter);
     if (outcome.succeeded)
     {
       expectValid(mesh, outcome.pointSet());

@@ -112,7 +112,7 @@ int readMutations(const std::string& path, int inputs, int seed)
     {
       return i >= inputs ? BadFile()
                          : BadFile{ "seed " + std::to_string(seed + i), name.extension().string(),
-                             badcad::mutate(text, static_cast<std::uint64_t>(seed + i)) };
+                             badcad::mutate(text, static_cast<std::uint64_t>(seed) + i) };
     })
     .bad;
 }

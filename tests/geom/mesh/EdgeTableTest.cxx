@@ -30,7 +30,7 @@ TEST(EdgeTable, countsTheEdgesOfACube)
     const EdgeTable table = buildEdgeTable(cadtest::cubeMesh(n, 0.1, 1));
     const std::size_t along = 3u * n * (n + 1) * (n + 1);
     const std::size_t acrossFaces = 3u * n * n * (n + 1);
-    const std::size_t acrossBoxes = static_cast<std::size_t>(n * n * n);
+    const std::size_t acrossBoxes = 1u * n * n * n;
     EXPECT_EQ(table.edges.size(), along + acrossFaces + acrossBoxes);
   }
   EXPECT_EQ(buildEdgeTable(cadtest::squareMesh(3, 0, 1)).edges.size(), 24u + 9u);
