@@ -65,10 +65,17 @@ benchmarks: build ## Measure against other programs: tables of rates and ratios
 	@/usr/bin/python3 tests/benchmarks/refinement.py
 
 .PHONY: sanitizers
-sanitizers: packages ## Run the tests of the numerical core with address and undefined behaviour sanitizers
+sanitizers: packages ## Run the tests of geom/ and filters/ with address and undefined behaviour sanitizers; coverage
+	@.ci/install-packages gcovr
 	@cmake --preset sanitizers $(CONFIGURE)
 	@cmake --build --preset sanitizers --parallel $(JOBS)
-	@ctest --preset sanitizers --parallel $(JOBS)
+	@.ci/sanitizers --parallel $(JOBS) $(CTEST_ARGUMENTS)
+
+.PHONY: threads
+threads: packages ## Run the tests of what runs on threads with the thread sanitizer
+	@cmake --preset threads $(CONFIGURE)
+	@cmake --build --preset threads --parallel $(JOBS)
+	@ctest --preset threads --parallel $(JOBS)
 
 FUZZ_SECONDS := 600
 .PHONY: fuzz
