@@ -2,8 +2,8 @@
 
 #include "Error.h"
 
+#include <algorithm>
 #include <cctype>
-#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
@@ -12,6 +12,30 @@ namespace cadrefine
 {
 namespace
 {
+
+bool isNumber(const std::string& word)
+{
+  return word.find_first_not_of("0123456789.+-Ee") == std::string::npos;
+}
+
+/// Whether a number is at least 1e308, from the places of its digits: turned into a double it might
+/// overflow.
+bool isTooLarge(const std::string& number)
+{
+  constexpr long most = 308;
+  constexpr long beyondAll = 1000000;
+  const std::size_t end = std::min(number.find_first_of("Ee"), number.size());
+  const std::size_t point = std::min(number.find('.'), end);
+  const std::size_t first = number.find_first_of("123456789");
+  if (first >= end)
+  {
+    return false; // zero, or no number
+  }
+  const long exponent = end < number.size() ? std::strtol(&number[end] + 1, nullptr, 10) : 0;
+  const long digits = static_cast<long>(point) - static_cast<long>(first) +
+                      (first > point ? 1 : 0); // before the point
+  return digits + std::clamp(exponent, -beyondAll, beyondAll) > most;
+}
 
 /// Takes a text one character after the other.
 class NumberScan
@@ -43,11 +67,6 @@ private:
            c == '-' || c == '#';
   }
 
-  static bool isNumber(const std::string& word)
-  {
-    return word.find_first_not_of("0123456789.+-Ee") == std::string::npos;
-  }
-
   void endWord()
   {
     if (word_.empty())
@@ -59,7 +78,7 @@ private:
       entity_ = word_;
       begins_ = false;
     }
-    else if (isNumber(word_) && std::isinf(std::strtod(word_.c_str(), nullptr)))
+    else if (isNumber(word_) && isTooLarge(word_))
     {
       throw Error(path_ + ": the file is damaged: " + entity_ +
                   " holds a number that is too large, " + word_.substr(0, 40));

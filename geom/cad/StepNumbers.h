@@ -6,8 +6,8 @@
 namespace cadrefine
 {
 
-/// Throws Error where the data of a STEP file hold a number beyond the range of double (1.E999),
-/// which would become infinite: Open CASCADE computes for ever on such points and weights. Work:
+/// Throws Error where the data of a STEP file hold a number of 1e308 or more (1.E999), which
+/// would become infinite: Open CASCADE computes for ever on such points and weights. Work:
 /// reads the file once.
 void checkStepNumbers(const std::string& path);
 

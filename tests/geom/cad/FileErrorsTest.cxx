@@ -132,7 +132,7 @@ TEST_F(FileErrors, NumbersBeyondDouble)
   {
     if (line.find("#12 = CARTESIAN_POINT('',(0.,0.,0.))") == 0)
     {
-      line = "#12 = CARTESIAN_POINT('it''s 1.E777',(1.E300,-2.E999,0.));";
+      line = "#12 = CARTESIAN_POINT('it''s 1.E777',(1.E300,0.0E999,1.E-999),-2.E999);";
     }
   }
   cadtest::writeLines(path, lines);
