@@ -70,6 +70,7 @@ def run(options, results, terminal, started):
     """Project once, unless an earlier run did; then adapt; then write what is wanted."""
     for line in cadrefine_options.remarks(options):
         terminal.say(line)
+    results.claim(cadrefine_options.results(options))
     other = cadrefine_plot.load_report(options.compare_report) if options.compare_report else None
     report = reporting.Report(options, terminal)
     pipeline = Pipeline(terminal)

@@ -2,12 +2,15 @@
 
 import argparse
 import math
+import os
 
 import cadrefine_output as output
 import cadrefine_session as session
 from cadrefine_display import check_display
 from cadrefine_session import Failure
 
+RESULTS = {"output": output.FORMATS, "report": (".json",), "plot": (".png",), "screenshot": (".png",),
+           "screenshot_start": (".png",)}  # Options that name files to write, and how these end.
 DEEPEST = 8  # Recursion depth that CADGeometricError takes.
 
 
@@ -52,6 +55,10 @@ def check_fraction(name, strategy, value):
         raise Failure(f"{name}: {value:g} is not a part above 0 and at most 1")
 
 
+def option_of(name):
+    return "--" + name.replace("_", "-")
+
+
 def check(options):
     """Finds what is wrong before any work is done."""
     if (options.indicator is None) != (options.indicator_threshold is None):
@@ -71,10 +78,13 @@ def check(options):
     for path in (options.mesh, options.cad, options.compare_report):
         if path:
             session.check_readable(path)
-    endings = {"output": output.FORMATS, "report": (".json",), "plot": (".png",), "screenshot": (".png",),
-               "screenshot_start": (".png",)}
-    for name, allowed in endings.items():
-        if getattr(options, name):
-            session.check_writable(getattr(options, name), allowed)
+    places = {}
+    for name, allowed in RESULTS.items():
+        place = getattr(options, name)
+        if place:
+            session.check_writable(place, allowed)
+            other = places.setdefault(os.path.realpath(place), name)
+            if other != name:
+                raise Failure(f"{place}: is given twice, by {option_of(other)} and {option_of(name)}")
     if options.screenshot or options.screenshot_start:
         check_display()

@@ -2,7 +2,7 @@
 
 import argparse
 
-from cadrefine_checks import DEEPEST, check, depth, limit, natural, number
+from cadrefine_checks import DEEPEST, RESULTS, check, depth, limit, natural, number
 from cadrefine_help import DESCRIPTION, EPILOG, USAGE, Layout
 from cadrefine_pipeline import METHODS, STRATEGIES
 from cadrefine_session import Failure, speaks
@@ -20,6 +20,11 @@ def parse(arguments):
     options = option_parser().parse_args(arguments)
     check(options)
     return options
+
+
+def results(options):
+    """The files that shall be written."""
+    return [place for place in (getattr(options, name) for name in RESULTS) if place]
 
 
 def remarks(options):

@@ -1,14 +1,15 @@
 """Writes the last mesh, in the format that the file's name tells."""
 
 from paraview import servermanager, simple
-from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
 import cadrefine_msh
+import cadrefine_pieces
 import cadrefine_session as session
 import cadrefine_xdmf
 from cadrefine_grid import from_grid
 from cadrefine_input import local_output, silence
 from cadrefine_merge import merged_grid
+from cadrefine_session import Failure
 
 NOT_KEPT = {
     ".xdmf": "names of groups, global ids, field data",
@@ -33,19 +34,21 @@ def write(proxy, path, place):
     session.messages.take()
     try:
         if path.endswith(".pvtu"):
-            simple.SaveData(path, proxy=proxy, DataMode="Binary")
+            cadrefine_pieces.write_pieces(proxy, path)
         else:
             grid = gathered(proxy)
             if session.speaks():
                 write_grid(merged_grid(grid), path)
-    except (OSError, RuntimeError) as error:
-        session.messages.errors.append(getattr(error, "strerror", None) or str(error))
+    except OSError as error:
+        raise Failure(f"{place}: {error.strerror or error}") from None
+    except RuntimeError as error:
+        session.messages.errors.append(str(error))
     session.raise_errors(place)
 
 
 def write_grid(grid, path):
     if path.endswith(".vtu"):
-        write_vtu(grid, path)
+        cadrefine_pieces.write_grid(grid, path)
         return
     mesh = from_grid(grid)
     if path.endswith(".msh"):
@@ -53,15 +56,6 @@ def write_grid(grid, path):
     else:
         with silence():
             cadrefine_xdmf.write(path, mesh)
-
-
-def write_vtu(grid, path):
-    writer = vtkXMLUnstructuredGridWriter()
-    writer.SetInputData(grid)
-    writer.SetFileName(path)
-    writer.SetDataModeToBinary()  # VTK 9.2 cannot read appended data back where libexpat has the corrections of 2024.
-    if not writer.Write():
-        raise OSError("could not be written")
 
 
 def gathered(proxy):

@@ -40,6 +40,10 @@ plugin.cadrefineEndOnSignal({line!r} if first else b"")
 for path in {paths!r}:
     plugin.cadrefineRemoveOnSignal(path)
 """
+NOTHING_ON_SIGNALS = """
+import ctypes
+ctypes.CDLL({plugin!r}).cadrefineRemoveNothingOnSignal()
+"""
 INTERRUPTED = b"cadrefine: interrupted, nothing was written\n"
 
 
@@ -186,6 +190,11 @@ def remove_on_signal(paths):
     """A signal that ends a rank removes these files, and folders that come before what is in them."""
     run_on_all_ranks(ON_SIGNALS.format(plugin=loaded_plugin, line=INTERRUPTED,
                                        paths=[os.fsencode(os.path.abspath(path)) for path in paths]))
+
+
+def remove_nothing_on_signal():
+    """Takes back what remove_on_signal did."""
+    run_on_all_ranks(NOTHING_ON_SIGNALS.format(plugin=loaded_plugin))
 
 
 def load_plugin():

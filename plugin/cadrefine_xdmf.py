@@ -16,6 +16,7 @@ FACET_TAGS = "facet_tags"
 PLANE = "plane"  # Points in the plane, two coordinates: DOLFIN takes them for a mesh of two dimensions.
 ORDER = ("mesh", "facets", "edges", "vertices")
 
+OVERHEAD = 1 << 20  # Bytes of an HDF5 file beside its numbers, more or less.
 KINDS = {1: "Scalar", 3: "Vector", 6: "Tensor6", 9: "Tensor"}  # Of attributes, by components.
 
 
@@ -70,6 +71,7 @@ def write(path, mesh):
     for index, grid in enumerate(grids.values()):
         data.SetBlock(index, with_numbered_arrays(grid, names))
     folder, name = os.path.split(os.path.abspath(path))
+    check_space(os.path.splitext(path)[0] + ".h5", 1024 * data.GetActualMemorySize() + OVERHEAD)
     writer = vtkXdmfWriter()
     writer.SetInputData(data)
     writer.SetFileName(SERIAL + name)  # Becomes a part of the names of both files, but is none of the HDF5 file's.
@@ -79,6 +81,15 @@ def write(path, mesh):
             raise OSError("the HDF5 library reports an error")
     os.replace(os.path.join(folder, SERIAL + name), path)
     arrange(path, list(grids), names, (FACET_TAGS, tag_array(mesh.cell_data)))
+
+
+def check_space(path, size):
+    """Throws OSError where the disk cannot take a file of that size: HDF5 would crash at the end of the process."""
+    with open(path, "wb") as file:
+        try:
+            os.posix_fallocate(file.fileno(), 0, size)
+        finally:
+            os.remove(path)
 
 
 def grids_of(mesh):

@@ -57,3 +57,9 @@ void cadrefineRemoveOnSignal(const char* path)
 {
   paths = new Path{ strdup(path), paths };
 }
+
+// What was in the list stays in memory: the handler may be reading it.
+void cadrefineRemoveNothingOnSignal()
+{
+  paths = nullptr;
+}

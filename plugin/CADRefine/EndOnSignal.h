@@ -13,4 +13,7 @@ extern "C"
 
   /// Adds a file, or a folder that is empty once what was added after it is removed.
   CADREFINE_DRIVER_EXPORT void cadrefineRemoveOnSignal(const char* path);
+
+  /// Takes back all that.
+  CADREFINE_DRIVER_EXPORT void cadrefineRemoveNothingOnSignal();
 }

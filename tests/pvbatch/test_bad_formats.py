@@ -106,7 +106,7 @@ class BadFormats(unittest.TestCase):
         before = self.contents()
         self.assertLessEqual({"out.vtu", "out.pvtu", "out/out_0.vtu", "out.msh", "out.xdmf", "out.h5"}, set(before))
         steps[-2] = "1"
-        broken = {".vtu": "cadrefine_output.write_vtu", ".msh": "cadrefine_msh.write",
+        broken = {".vtu": "cadrefine_pieces.write_grid", ".msh": "cadrefine_msh.write",
                   ".xdmf": "cadrefine_xdmf.arrange"}
         runs = [{"arguments": [*steps, results[ending]], "fails": function} for ending, function in broken.items()]
         late = ["--plot", self.path("plot.png")]
