@@ -137,11 +137,13 @@ class Faults(unittest.TestCase):
         place = self.path("out.pvtu")
         first = self.start(0, *ENDLESS, "--output", place)
         self.wait_for_step(first)
+        first.send_signal(signal.SIGSTOP)  # Its mesh would become too large meanwhile.
         refused = (1, [f"cadrefine: {place}: another run is writing it"])
         self.assertEqual(self.run_to_end(0, "--output", place), refused)
         self.assertEqual(self.run_to_end(2, "--output", place), refused)
         self.assertEqual(os.listdir(place + ".part"), ["lock"])
         first.send_signal(signal.SIGTERM)
+        first.send_signal(signal.SIGCONT)
         self.assertEqual(self.end(first), (143, ["cadrefine: interrupted, nothing was written"]))
         self.assertEqual(self.run_to_end(0, "--steps", "0", "--output", place), (0, []))
 
