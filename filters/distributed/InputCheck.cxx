@@ -1,7 +1,7 @@
 #include "InputCheck.h"
 
 #include "Error.h"
-#include "MeshTypes.h"
+#include "PieceLimit.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -11,7 +11,6 @@
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 
-#include <limits>
 #include <string>
 
 namespace cadrefine
@@ -22,16 +21,6 @@ namespace
 std::string nameOf(vtkAbstractArray* array)
 {
   return array->GetName() ? array->GetName() : "without a name";
-}
-
-void checkCount(vtkIdType count, const char* what)
-{
-  constexpr vtkIdType most = std::numeric_limits<Index>::max();
-  if (count > most)
-  {
-    throw Error("one rank has " + std::to_string(count) + " " + what + "; the most is " +
-                std::to_string(most));
-  }
 }
 
 void checkLengths(vtkDataSetAttributes* attributes, vtkIdType count, const std::string& what)
@@ -98,8 +87,8 @@ void checkCells(vtkPointSet* input)
 void checkInput(vtkPointSet* input)
 {
   checkCells(input);
-  checkCount(input->GetNumberOfPoints(), "points");
-  checkCount(input->GetNumberOfCells(), "cells");
+  requireAtMost(static_cast<std::size_t>(input->GetNumberOfPoints()), "points");
+  requireAtMost(static_cast<std::size_t>(input->GetNumberOfCells()), "cells");
   checkLengths(input->GetPointData(), input->GetNumberOfPoints(), "point");
   if (input->GetNumberOfCells() > 0)
   {

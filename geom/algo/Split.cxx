@@ -1,8 +1,10 @@
 #include "Split.h"
 
 #include "LargeMemory.h"
+#include "PieceLimit.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace cadrefine
 {
@@ -29,15 +31,38 @@ SplitMesh withNewPoints(
   return result;
 }
 
-/// Children of one cell after the other: appends where those of a next cell begin.
-void countChild(std::vector<Index>& firsts, Index children)
+/// Children of one cell after the other.
+class ChildCount
 {
-  firsts.push_back(firsts.back() + children);
-}
+public:
+  explicit ChildCount(std::size_t cells)
+  {
+    reserveLong(firsts_, cells + 1);
+    firsts_.push_back(0);
+  }
+
+  void add(std::size_t children)
+  {
+    total_ += children;
+    firsts_.push_back(static_cast<Index>(total_));
+  }
+
+  /// Where those of each cell begin. Throws Error where they are too many for one rank.
+  std::vector<Index> finish()
+  {
+    requireAtMost(total_, "cells");
+    return std::move(firsts_);
+  }
+
+private:
+  std::vector<Index> firsts_;
+  std::size_t total_ = 0;
+};
 
 /// Every cell has as many children.
 std::vector<Index> evenChildren(std::size_t cells, Index children)
 {
+  requireAtMost(cells * static_cast<std::size_t>(children), "cells");
   std::vector<Index> firsts(cells + 1);
   for (std::size_t c = 0; c < firsts.size(); ++c)
   {
@@ -161,19 +186,18 @@ std::vector<Index> countParts(const std::vector<std::array<Index, Edges>>& cellE
   const EdgeOrder& order, const EdgeMarks& marks)
 {
   const auto vertexOf = [&](Index edge) { return marks[edge] ? 0 : -1; };
-  std::vector<Index> firsts{ 0 };
-  reserveLong(firsts, cellEdges.size() + 1);
+  ChildCount count(cellEdges.size());
   for (const auto& edges : cellEdges)
   {
-    Index children = 1;
+    std::size_t children = 1;
     if (std::any_of(edges.begin(), edges.end(), [&](Index edge) { return marks[edge] != 0; }))
     {
       children = 0;
       bisect(Part<Corners, Edges>{ {}, edges }, order, vertexOf, [&](const auto&) { ++children; });
     }
-    countChild(firsts, children);
+    count.add(children);
   }
-  return firsts;
+  return count.finish();
 }
 
 void splitTriangleUniformly(
@@ -245,6 +269,7 @@ Midpoints makeMidpoints(const SimplexMesh& mesh, const EdgeTable& table, const E
 {
   Midpoints result;
   const std::size_t count = marks.size() - std::count(marks.begin(), marks.end(), 0);
+  requireAtMost(mesh.points.size() + count, "points");
   reserveLong(result.edges, count);
   reserveLong(result.parentEdges, count);
   reserveLong(result.ofEdge, table.edges.size());
@@ -267,11 +292,12 @@ ChildRanges countMarkedChildren(
   const EdgeOrder order(table);
   ChildRanges firsts;
   firsts[0] = evenChildren(mesh.vertices.size(), 1);
-  firsts[1] = { 0 };
+  ChildCount ofSegments(table.ofSegments.size());
   for (const Index edge : table.ofSegments)
   {
-    countChild(firsts[1], marks[edge] ? 2 : 1);
+    ofSegments.add(marks[edge] ? 2 : 1);
   }
+  firsts[1] = ofSegments.finish();
   firsts[2] = countParts<3>(table.ofTriangles, order, marks);
   firsts[3] = countParts<4>(table.ofTetrahedra, order, marks);
   return firsts;

@@ -35,7 +35,8 @@ struct Midpoints
 
 Midpoints makeMidpoints(const SimplexMesh& mesh, const EdgeTable& table, const EdgeMarks& marks);
 
-/// How many cells splitMarked and splitUniformly make of each.
+/// How many cells splitMarked and splitUniformly make of each. Throw Error where one rank cannot
+/// hold them (PieceLimit.h).
 ChildRanges countMarkedChildren(
   const SimplexMesh& mesh, const EdgeTable& table, const EdgeMarks& marks);
 ChildRanges countUniformChildren(const SimplexMesh& mesh);

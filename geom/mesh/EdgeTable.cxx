@@ -1,11 +1,13 @@
 #include "EdgeTable.h"
 
 #include "LargeMemory.h"
+#include "PieceLimit.h"
 #include "RadixOrder.h"
 #include "VertexBuckets.h"
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <utility>
 
 namespace cadrefine
@@ -58,6 +60,8 @@ struct Side
 {
   Index other; ///< Rank of its other end.
   std::uint32_t place;
+
+  static constexpr std::size_t most = std::numeric_limits<std::uint32_t>::max();
 };
 
 /// Where the number of the edge of a side stands.
@@ -190,6 +194,8 @@ Index EdgeTable::find(Index a, Index b) const
 
 EdgeTable buildEdgeTable(const SimplexMesh& mesh)
 {
+  requireAtMost(6 * mesh.tetrahedra.size() + 3 * mesh.triangles.size() + mesh.segments.size(),
+    "sides of cells", Side::most);
   EdgeTable table;
   const std::vector<Index> order = orderByIds(mesh.ids);
   table.rankOfVertex.resize(order.size());
@@ -212,6 +218,7 @@ EdgeTable buildEdgeTable(const SimplexMesh& mesh)
   EdgeNumberer numberer(mesh, order, table);
   sides.forEach(
     [&](Index rank, const Side* first, const Side* last) { numberer(rank, first, last); });
+  requireAtMost(table.edges.size(), "edges");
   measureLengths(mesh, table);
   return table;
 }

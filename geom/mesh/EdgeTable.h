@@ -53,7 +53,8 @@ struct EdgeTable
 };
 
 /// Sorts the sides of all cells by one end, and the edges there by the other: work and memory
-/// linear in the number of cells but for a logarithm of the edges at a vertex.
+/// linear in the number of cells but for a logarithm of the edges at a vertex. Throws Error where
+/// there are more than 2^32 - 1 sides (715 million tetrahedra) or 2^31 - 1 edges.
 EdgeTable buildEdgeTable(const SimplexMesh& mesh);
 
 /// The total order by which the longest edge is chosen: by (squared length, smaller id, larger id).

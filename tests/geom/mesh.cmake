@@ -8,6 +8,7 @@ cadrefine_geom_test(mesh_tests
     mesh/EdgeTableTest.cxx
     mesh/FacetsTest.cxx
     mesh/OrientationTest.cxx
+    mesh/PieceLimitTest.cxx
     mesh/QualitySummaryTest.cxx
     mesh/QualityTest.cxx
     mesh/RadixOrderTest.cxx
