@@ -37,7 +37,7 @@ gallery: build ## Run the cases of docs/gallery.md: meshes, reports and pictures
 	@/usr/bin/python3 docs/gallery/gallery.py
 
 .PHONY: test
-test: build format-check ## Run all tests
+test: format-check build ## Run all tests
 	@ctest --preset release --parallel $(JOBS)
 
 .PHONY: install
