@@ -5,6 +5,7 @@
 #include <csignal>
 #include <cstring>
 
+#include <fcntl.h>
 #include <unistd.h>
 
 namespace
@@ -19,6 +20,7 @@ struct Path
 
 std::atomic<const Path*> paths{ nullptr };
 std::atomic<const char*> lastLine{ "" };
+std::atomic<int> standardError{ STDERR_FILENO }; ///< As it was: what libraries say may be silenced.
 
 /// Calls nothing but what POSIX allows in a handler.
 void endProcess(int signal)
@@ -31,7 +33,7 @@ void endProcess(int signal)
     }
   }
   const char* line = lastLine;
-  const auto written = write(STDERR_FILENO, line, std::strlen(line));
+  const auto written = write(standardError, line, std::strlen(line));
   _exit(written < 0 ? 1 : 128 + signal);
 }
 
@@ -40,6 +42,11 @@ void endProcess(int signal)
 void cadrefineEndOnSignal(const char* line)
 {
   lastLine = strdup(line);
+  if (standardError == STDERR_FILENO)
+  {
+    const int copy = fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 0);
+    standardError = copy < 0 ? STDERR_FILENO : copy;
+  }
   struct sigaction action = {};
   action.sa_handler = endProcess;
   sigfillset(&action.sa_mask);
