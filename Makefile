@@ -64,6 +64,10 @@ benchmarks: build ## Measure against other programs: tables of rates and ratios
 	@.ci/install-packages python3-dolfinx
 	@/usr/bin/python3 tests/benchmarks/refinement.py
 
+.PHONY: load
+load: build ## Run very large cases, many ranks, many cycles: a table of time and memory (15 GiB, half an hour)
+	@/usr/bin/python3 -B tests/benchmarks/load.py
+
 .PHONY: sanitizers
 sanitizers: packages ## Run the tests of geom/ and filters/ with address and undefined behaviour sanitizers; coverage
 	@.ci/install-packages gcovr
