@@ -105,14 +105,23 @@ TEST_F(EvenWorkTest, aFailureOnOneRankIsOneOnAll)
 class ThreadsTest : public ParallelTest
 {
 protected:
-  void SetUp() override { ASSERT_EQ(sched_getaffinity(0, sizeof(allCores), &allCores), 0); }
+  void SetUp() override
+  {
+    forgetTheUsersSettings();
+    ASSERT_EQ(sched_getaffinity(0, sizeof(allCores), &allCores), 0);
+  }
 
   void TearDown() override
   {
-    unsetenv("VTK_SMP_BACKEND_IN_USE");
-    unsetenv("VTK_SMP_MAX_THREADS");
+    forgetTheUsersSettings();
     EXPECT_EQ(sched_setaffinity(0, sizeof(allCores), &allCores), 0);
     ParallelTest::TearDown();
+  }
+
+  static void forgetTheUsersSettings()
+  {
+    unsetenv("VTK_SMP_BACKEND_IN_USE");
+    unsetenv("VTK_SMP_MAX_THREADS");
   }
 
   // To one of the cores that this rank may run on.
