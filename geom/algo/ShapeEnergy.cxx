@@ -186,7 +186,7 @@ Vector3 ShapeEnergy::step(const Point3& x, const Directions& directions) const
   const Derivatives whole = derivativesAt(x);
   Vector3 gradient{};
   std::array<Vector3, 3> hessian{};
-  double size = 0;
+  double squaredSize = 0; // of the Hessian by Frobenius' norm, which no rotation changes
   for (int i = 0; i < directions.count; ++i)
   {
     gradient[i] = dot(whole.gradient, directions.axes[i]);
@@ -196,9 +196,10 @@ Vector3 ShapeEnergy::step(const Point3& x, const Directions& directions) const
       {
         hessian[i][j] += directions.axes[i][k] * dot(whole.hessian[k], directions.axes[j]);
       }
-      size = std::max(size, std::abs(hessian[i][j]));
+      squaredSize += hessian[i][j] * hessian[i][j];
     }
   }
+  const double size = std::sqrt(squaredSize);
   std::optional<Vector3> parts = solve(hessian, gradient, directions.count, 0);
   for (double shift = 1.0 / 64; !parts && shift <= 4; shift *= 4)
   {

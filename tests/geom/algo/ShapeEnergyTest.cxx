@@ -128,6 +128,34 @@ TEST_P(OneCell, scalesWithItsSize)
   }
 }
 
+/// Also where the energy is not convex, and Newton's step is shifted.
+TEST_P(OneCell, stepsTurnWithTheCell)
+{
+  const auto turned = [](const Vector3& v)
+  {
+    return (1.0 / 3) * Vector3{ 2 * v[0] - v[1] + 2 * v[2], 2 * v[0] + 2 * v[1] - v[2],
+      -v[0] + 2 * v[1] + 2 * v[2] };
+  };
+  ShapeEnergy other(GetParam());
+  if (GetParam() == 3)
+  {
+    other.addTetrahedron(turned(a), turned(b), turned(c), 0.05);
+  }
+  else
+  {
+    other.addTriangle(turned(a), turned(b), turned(up), 0.05);
+  }
+  const Directions otherDirections =
+    GetParam() == 3 ? directions() : Directions::across(turned(up));
+  for (const double heights : { -1.0, -0.3, 0.01, 0.5, 2.0 })
+  {
+    const Point3 x = apex(heights) + Vector3{ 0.9, 0, 0 };
+    const Vector3 step = energy(0.05).step(x, directions());
+    EXPECT_GT(norm(step), 0);
+    EXPECT_LT(distance(other.step(turned(x), otherDirections), turned(step)), 1e-12) << heights;
+  }
+}
+
 /// An inverted cell is turned over, without an energy that is infinite in between.
 TEST_P(OneCell, leadsFromInvertedToValid)
 {
