@@ -149,8 +149,9 @@ SquareMinimum minimizeDistance(const PatchView& patch, const Point3& q,
       return { std::clamp(s + part * move[0], box.s0, box.s1),
         std::clamp(t + part * move[1], box.t0, box.t1) };
     };
-    // What of half the squared distance is rounding: so much it may seem to grow.
-    const double rounding = 1e-14 * here.half + 1e-15 * std::sqrt(here.half) * norm(q);
+    // What of half the squared distance is rounding, of points on the patch (some ten operations
+    // with coordinates as large as those of q) and of the square: so much it may seem to grow.
+    const double rounding = 1e-14 * (here.half + std::sqrt(here.half) * norm(q));
     if (!modified && length <= 1e-14 * scale * scale)
     {
       // Quadratic convergence: what is left after this step does not matter.
