@@ -22,6 +22,10 @@ using namespace exacttest;
 class WholeModel : public testing::TestWithParam<TestModel>
 {
 protected:
+  void expectNothingNearer();
+  void expectParametersToGiveThePoint();
+  void expectTheSameInAnyOrderAndOnThreads();
+
   std::shared_ptr<const CADModel> model = readModel(GetParam());
   TopoDS_Shape shape = decodeModel(model->toBytes()).shape;
   double size = model->size();
@@ -40,10 +44,7 @@ protected:
   }
 };
 
-INSTANTIATE_TEST_SUITE_P(Exact, WholeModel, testing::ValuesIn(allModels()),
-  [](const auto& model) { return model.param.name; });
-
-TEST_P(WholeModel, NothingIsNearer)
+void WholeModel::expectNothingNearer()
 {
   ASSERT_GE(samples.size(), 2000u);
   const OccOracle oracle(shape, size);
@@ -67,7 +68,7 @@ TEST_P(WholeModel, NothingIsNearer)
   RecordProperty("points_nearer_than_open_cascade", inFavour);
 }
 
-TEST_P(WholeModel, ParametersGiveThePoint)
+void WholeModel::expectParametersToGiveThePoint()
 {
   for (const SamplePoint& sample : samples)
   {
@@ -90,7 +91,7 @@ std::array<std::uint64_t, 6> bitsOf(const ClosestPoint& answer)
   return bits;
 }
 
-TEST_P(WholeModel, AnswersDoNotDependOnOrderAndThreads)
+void WholeModel::expectTheSameInAnyOrderAndOnThreads()
 {
   using Answers = std::vector<std::array<std::uint64_t, 6>>;
   Answers forwards(samples.size());
@@ -112,6 +113,17 @@ TEST_P(WholeModel, AnswersDoNotDependOnOrderAndThreads)
   first.join();
   second.join();
   EXPECT_TRUE(forwards == backwards);
+}
+
+INSTANTIATE_TEST_SUITE_P(Exact, WholeModel, testing::ValuesIn(allModels()),
+  [](const auto& model) { return model.param.name; });
+
+/// One test, since some models take a minute to read.
+TEST_P(WholeModel, AnswersAreExact)
+{
+  expectNothingNearer();
+  expectParametersToGiveThePoint();
+  expectTheSameInAnyOrderAndOnThreads();
 }
 
 } // namespace
