@@ -11,6 +11,7 @@
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 
+#include <sstream>
 #include <string>
 
 namespace cadrefine
@@ -30,9 +31,10 @@ void checkLengths(vtkDataSetAttributes* attributes, vtkIdType count, const std::
     vtkAbstractArray* array = attributes->GetAbstractArray(a);
     if (array->GetNumberOfTuples() != count)
     {
-      throw Error("the " + what + " array " + nameOf(array) + " has " +
-                  std::to_string(array->GetNumberOfTuples()) + " values for " +
-                  std::to_string(count) + " " + what + "s");
+      std::ostringstream reason;
+      reason << "the " << what << " array " << nameOf(array) << " has "
+             << array->GetNumberOfTuples() << " values for " << count << ' ' << what << 's';
+      throw Error(reason.str());
     }
   }
 }

@@ -70,8 +70,9 @@ std::string listOf(const std::string& what, const std::vector<UnreadEntity>& unr
   for (std::size_t i = 0; i < std::min(unread.size(), most); ++i)
   {
     const UnreadEntity& u = unread[i];
-    const std::string entity = u.entity > 0 ? std::to_string(u.entity) + " " + u.type + ": " : "";
-    list += (list.empty() ? " (" + what + ": " : "; ") + entity + u.reason;
+    list += list.empty() ? " (" + what + ": " : "; ";
+    list += u.entity > 0 ? std::to_string(u.entity) + " " + u.type + ": " : "";
+    list += u.reason;
   }
   if (unread.size() > most)
   {

@@ -160,7 +160,7 @@ protected:
   }
 
   template<class Filter, class Configure>
-  Run runOf(vtkSmartPointer<vtkPointSet> mesh, const Configure& configure) const
+  Run runOf(const vtkSmartPointer<vtkPointSet>& mesh, const Configure& configure) const
   {
     return [this, mesh, configure]
     { return filters.attempt<Faulty<Filter>>(mesh.Get(), configure); };
@@ -192,7 +192,7 @@ protected:
     constexpr int faults = 24;
     constexpr std::array kinds{ FaultKind::Memory, FaultKind::Exception, FaultKind::OpenCascade };
     fault = {};
-    const cadtest::Outcome reference = run();
+    cadtest::Outcome reference = run();
     const Stages stages = fault.stages;
     const auto names = stages.names();
     EXPECT_TRUE(exchange.rank() > 0 ||
@@ -205,8 +205,9 @@ protected:
       for (int k = 0; k < 3 * rounds * stageCount; ++k)
       {
         const int stage = k % stageCount;
-        const double part = (k / stageCount + 0.5) / (3 * rounds);
-        runWithFault(run, kinds[static_cast<std::size_t>(k / stageCount + stage) % 3],
+        const int step = k / stageCount;
+        const double part = (step + 0.5) / (3 * rounds);
+        runWithFault(run, kinds[static_cast<std::size_t>(step + stage) % 3],
           rank == exchange.rank() ? stages.allocation(stage, part) : InjectedFault::none);
       }
     }

@@ -97,11 +97,7 @@ TEST(IsolatedRun, EndsWhatTakesTooMuchMemory)
 #endif
   const auto fill = []
   {
-    std::vector<std::vector<char>> blocks;
-    for (int i = 0; i < 300; ++i)
-    {
-      blocks.emplace_back(1 << 20, 'x');
-    }
+    const std::vector<std::vector<char>> blocks(300, std::vector<char>(1 << 20, 'x'));
     return blocks.back();
   };
   const std::string error = errorOf({ 60, 100 }, fill);
