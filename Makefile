@@ -3,16 +3,15 @@
 
 JOBS := $(shell nproc)
 PREFIX := /usr/local
-CCACHE := $(shell command -v ccache)
-CONFIGURE := $(if $(CCACHE),-DCMAKE_CXX_COMPILER_LAUNCHER=$(CCACHE) -DCMAKE_C_COMPILER_LAUNCHER=$(CCACHE))
 SOURCES = $(shell find data docs filters geom plugin tests -name '*.h' -o -name '*.cxx' -o -name '*.cpp')
 
 # Open MPI (4 and 5): run as root, as containers do; more ranks than cores; no complaint where the kernel forbids
-# ranks to read each other's memory.
+# ranks to read each other's memory, or where Open MPI 5 finds no network: shared memory is enough here.
 export OMPI_ALLOW_RUN_AS_ROOT := 1
 export OMPI_ALLOW_RUN_AS_ROOT_CONFIRM := 1
 export OMPI_MCA_rmaps_base_oversubscribe := 1
 export OMPI_MCA_btl_vader_single_copy_mechanism := none
+export OMPI_MCA_btl := ^tcp
 export PRTE_MCA_rmaps_default_mapping_policy := :oversubscribe
 
 .PHONY: help
@@ -20,25 +19,44 @@ help: ## Show this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 22
 
 .PHONY: packages
-packages: ## Install the Debian packages that are missing
+packages: ## Install all Debian packages that are missing (other targets install what they need)
 	@.ci/install-packages
 
 .PHONY: build
-build: packages ## Build the plugin (build/release), the tests and the benchmarks
-	@cmake --preset release $(CONFIGURE)
+build: ## Build the plugin: build/release
+	@.ci/install-packages plugin
+	@cmake --preset plugin
+	@cmake --build --preset plugin --parallel $(JOBS)
+
+.PHONY: build-all
+build-all: ## Build the plugin, the tests and the benchmarks, in the same folder
+	@.ci/install-packages plugin tests
+	@cmake --preset release
 	@cmake --build --preset release --parallel $(JOBS)
 
 .PHONY: demo
-demo: build ## Run the NACA 0012 case on two ranks: tables and pictures in build/demo
+demo: ## Run the NACA 0012 case on two ranks: tables and pictures in build/demo
+	@.ci/install-packages plugin
+	@cmake --preset plugin
+	@cmake --build --preset plugin --target CADRefine --parallel $(JOBS)
 	@/usr/bin/python3 plugin/demo.py --output build/demo
 
 .PHONY: gallery
 gallery: build ## Run the cases of docs/gallery.md: meshes, reports and pictures in build/gallery
+	@.ci/install-packages tests
 	@/usr/bin/python3 docs/gallery/gallery.py
 
 .PHONY: test
-test: format-check build ## Run all tests
+test: format-check build-all ## Run the tests, but for the slow ones
 	@ctest --preset release --parallel $(JOBS)
+
+.PHONY: test-slow
+test-slow: build-all ## Run the slow tests
+	@ctest --preset release-slow --parallel $(JOBS)
+
+.PHONY: test-all
+test-all: format-check build-all ## Run all tests
+	@ctest --preset release-all --parallel $(JOBS)
 
 .PHONY: install
 install: ## Install what `make build` made (PREFIX=/usr/local, DESTDIR=)
@@ -51,13 +69,15 @@ uninstall: ## Remove what `make install` installed last (the same DESTDIR)
 
 .PHONY: package
 package: build ## Make Debian packages: build/*.deb
+	@.ci/install-packages dpkg-dev file
 	@plugin/package/debian build/release build
 
 .PHONY: benchmarks
-benchmarks: build ## Measure against other programs: tables of rates and ratios
+benchmarks: build-all ## Measure against other programs: tables of rates and ratios
 	@build/release/tests/benchmarks/closest_point_benchmark
 	@for ranks in 1 2 4 8; do mpirun --bind-to none -np $$ranks build/release/tests/benchmarks/nose_benchmark \
 	  data/aeroplane.igs data/aeroplane_coarse.vtu 0.05 0.2 -0.25 0.25 -0.2 0.2 || exit; done
+	@/usr/bin/python3 tests/benchmarks/reading.py
 	@/usr/bin/python3 tests/benchmarks/projection.py
 	@/usr/bin/python3 tests/benchmarks/adaptivity.py
 	@/usr/bin/python3 tests/benchmarks/experiments.py
@@ -69,23 +89,24 @@ load: build ## Run very large cases, many ranks, many cycles: a table of time an
 	@/usr/bin/python3 -B tests/benchmarks/load.py
 
 .PHONY: sanitizers
-sanitizers: packages ## Run the tests of geom/ and filters/ with address and undefined behaviour sanitizers; coverage
-	@.ci/install-packages gcovr
-	@cmake --preset sanitizers $(CONFIGURE)
+sanitizers: ## Run the tests of geom/ and filters/ with address and undefined behaviour sanitizers; coverage
+	@.ci/install-packages plugin tests gcovr
+	@cmake --preset sanitizers
 	@cmake --build --preset sanitizers --parallel $(JOBS)
 	@.ci/sanitizers --parallel $(JOBS) $(CTEST_ARGUMENTS)
 
 .PHONY: threads
-threads: packages ## Run the tests of what runs on threads with the thread sanitizer
-	@cmake --preset threads $(CONFIGURE)
+threads: ## Run the tests of what runs on threads with the thread sanitizer
+	@.ci/install-packages plugin tests
+	@cmake --preset threads
 	@cmake --build --preset threads --parallel $(JOBS)
 	@ctest --preset threads --parallel $(JOBS)
 
 FUZZ_SECONDS := 600
 .PHONY: fuzz
-fuzz: packages ## Fuzz the parsers for FUZZ_SECONDS each; what they find is left in build/fuzz/findings
-	@.ci/install-packages clang libclang-rt-14-dev
-	@cmake --preset fuzz $(CONFIGURE)
+fuzz: ## Fuzz the parsers for FUZZ_SECONDS each; what they find is left in build/fuzz/findings
+	@.ci/install-packages plugin clang libclang-rt-14-dev
+	@cmake --preset fuzz
 	@cmake --build --preset fuzz --parallel $(JOBS)
 	@tests/fuzz/run $(FUZZ_SECONDS)
 
@@ -94,31 +115,36 @@ CAD_SAMPLES = data/naca0012_blunt.igs data/three_arcs.igs data/three_arcs_nurbs.
   $(addprefix /usr/share/opencascade/data/,iges/bearing.iges iges/hammer.iges step/screw.step step/linkrods.step \
   occ/bottle.brep occ/face1.brep occ/fuse.brep occ/mal_vis.brep occ/Room.brep occ/solid.brep occ/wing.brep)
 .PHONY: bad-cad
-bad-cad: build ## Read damaged CAD files by the hundred: a table of what became of them
+bad-cad: build-all ## Read damaged CAD files by the hundred: a table of what became of them
 	@build/release/tests/geom/badcad_table corpus
 	@build/release/tests/geom/badcad_table 100 1000 $(CAD_SAMPLES)
 
 .PHONY: format
-format: packages ## Format the sources
+format: ## Format the sources
+	@.ci/install-packages clang-format
 	@clang-format -i $(SOURCES)
 
 .PHONY: format-check
-format-check: packages ## Fail where make format would change something (clang-format 14: others differ)
+format-check: ## Fail where make format would change something (clang-format 14: others differ)
+	@.ci/install-packages clang-format
 	@if clang-format --version | grep -q 'version 14\.'; then clang-format --dry-run --Werror $(SOURCES); \
 	  else echo "format-check: left out, $$(clang-format --version) is not 14"; fi
 
 .PHONY: tidy
-tidy: build ## Run clang-tidy on the sources
+tidy: build-all ## Run clang-tidy on the sources
+	@.ci/install-packages tools
 	@run-clang-tidy -quiet -j $(JOBS) -p build/release '/(filters|geom)/.*\.cxx$$'
 
 .PHONY: pictures
 pictures: build ## Make the pictures of the documentation anew (docs/images)
+	@.ci/install-packages tests tools
 	@xvfb-run --auto-servernum --server-args="-screen 0 1280x1024x24 -noreset" pvpython docs/pictures.py
 	@/usr/bin/python3 -B docs/window_pictures.py
 	@dot -Tsvg docs/images/architecture.dot -o docs/images/architecture.svg
 
 .PHONY: doxygen
-doxygen: packages ## Make the reference of the C++ code: build/doxygen/html/index.html
+doxygen: ## Make the reference of the C++ code: build/doxygen/html/index.html
+	@.ci/install-packages doxygen
 	@mkdir -p build/doxygen
 	@CADREFINE_DOXYGEN=build/doxygen doxygen docs/Doxyfile
 

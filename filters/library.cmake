@@ -3,9 +3,24 @@
 # (filters/CMakeLists.txt is that of the VTK module.)
 set(BUILD_SHARED_LIBS ON)
 
-add_subdirectory(filters/parallel)
-add_subdirectory(filters/distributed)
-add_subdirectory(filters/steps)
+# cadrefine_filters_library(<folder> SOURCES ... DEPENDS ...): CADRefineFilters<Folder>, static, so that the module and
+# the tests link it without exporting its classes. Its headers are included as "FOLDER/Name.h".
+function (cadrefine_filters_library folder)
+  cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
+  string(SUBSTRING ${folder} 0 1 initial)
+  string(TOUPPER ${initial} initial)
+  string(SUBSTRING ${folder} 1 -1 rest)
+  set(name "CADRefineFilters${initial}${rest}")
+  add_library(${name} STATIC ${arg_SOURCES})
+  target_include_directories(${name} PUBLIC "${CMAKE_SOURCE_DIR}/filters")
+  target_link_libraries(${name} PUBLIC ${arg_DEPENDS} PRIVATE CADRefineWarnings ${arg_PRIVATE_DEPENDS})
+endfunction ()
+
+# Each sees only those above it.
+foreach (folder IN ITEMS comm mesh fields balancing cad classification motion projection error refinement quadratic
+    pipeline)
+  add_subdirectory(filters/${folder})
+endforeach ()
 
 vtk_module_scan(
   MODULE_FILES "${CMAKE_SOURCE_DIR}/filters/vtk.module"

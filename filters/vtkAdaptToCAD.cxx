@@ -1,9 +1,12 @@
 #include "vtkAdaptToCAD.h"
 
-#include "Adaptation.h"
-#include "CADArrays.h"
-#include "ProjectionStep.h"
+#include "fields/CADArrays.h"
+#include "pipeline/Adaptation.h"
+#include "pipeline/InputSplit.h"
+#include "pipeline/Projection.h"
+#include "pipeline/PropertyCheck.h"
 
+#include <vtkCellData.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
 #include <vtkNew.h>
@@ -14,6 +17,7 @@
 
 #include <string>
 
+using cadrefine::checkProperty;
 using cadrefine::MarkingCriterion;
 
 vtkStandardNewMacro(vtkAdaptToCAD);
@@ -56,26 +60,47 @@ int vtkAdaptToCAD::RequestDataObject(
   return 1;
 }
 
-cadrefine::StepResult vtkAdaptToCAD::Execute(
+cadrefine::PipelineResult vtkAdaptToCAD::Execute(
   cadrefine::RankExchange& exchange, vtkPointSet* input, const cadrefine::CADModel* model)
 {
   this->AbortExecute = 0; // of an earlier run; SetAbortExecute would modify the filter
+  checkProperty("RecursionDepth", this->RecursionDepth, 0, 8);
+  checkProperty("UniformSteps", this->UniformSteps, 0);
+  checkProperty("MaximumSteps", this->MaximumSteps, 0);
+  checkProperty("MaximumCells", static_cast<double>(this->MaximumCells), 0);
+  checkProperty("TargetError", this->TargetError, 0);
   cadrefine::AdaptationOptions options;
+  options.startProjected = this->StartProjected;
   options.projection = cadrefine::makeProjectionOptions(
     this->UseRegion ? this->Region : nullptr, this->MaximumDistance);
   options.recursionDepth = this->RecursionDepth;
   options.refinement = this->MakeOptions();
   options.refinement.maximumCells = this->MaximumCells;
   options.refinement.onlyIfMarked = true;
+  options.uniformSteps = this->UniformSteps;
   options.maximumSteps = this->MaximumSteps;
   options.targetError = this->TargetError;
+  options.quadraticCells = this->QuadraticCells;
 
-  return cadrefine::adaptMesh(this->MakeContext(exchange, *model), input, options,
-    [this] { return this->GetAbortExecute() != 0; });
+  this->StepStatistics = "{}";
+  cadrefine::AdaptationObserver observer;
+  observer.isInterrupted = [this] { return this->GetAbortExecute() != 0; };
+  if (exchange.any(this->HasObserver(StepEvent) != 0))
+  {
+    observer.onStep = [&](const cadrefine::AdaptationStep& step)
+    {
+      this->StepStatistics = step.statistics;
+      this->ShowStep(exchange, step.mesh, step.mapping, step.table, step.fitReport);
+      this->InvokeEvent(StepEvent);
+    };
+  }
+  return cadrefine::adaptMesh(this->MakeContext(exchange, *model), input, options, observer);
 }
 
 MarkingCriterion vtkAdaptToCAD::GetOwnCriterion() const
 {
+  checkProperty("ErrorMarking", this->ErrorMarking, THRESHOLD, OFF);
+  checkProperty("ErrorThreshold", this->ErrorThreshold, 0);
   return MakeCriterion(this->ErrorMarking == OFF ? "" : cadrefine::arrays::error,
     this->ErrorMarking, this->ErrorThreshold, this->ErrorFraction);
 }
@@ -83,6 +108,7 @@ MarkingCriterion vtkAdaptToCAD::GetOwnCriterion() const
 void vtkAdaptToCAD::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "StartProjected: " << this->StartProjected << "\n";
   os << indent << "UseRegion: " << this->UseRegion << "\n";
   os << indent << "Region:";
   for (const double bound : this->Region)
@@ -91,9 +117,11 @@ void vtkAdaptToCAD::PrintSelf(ostream& os, vtkIndent indent)
   }
   os << "\n" << indent << "MaximumDistance: " << this->MaximumDistance << "\n";
   os << indent << "RecursionDepth: " << this->RecursionDepth << "\n";
+  os << indent << "UniformSteps: " << this->UniformSteps << "\n";
   os << indent << "MaximumSteps: " << this->MaximumSteps << "\n";
   os << indent << "MaximumCells: " << this->MaximumCells << "\n";
   os << indent << "TargetError: " << this->TargetError << "\n";
+  os << indent << "QuadraticCells: " << this->QuadraticCells << "\n";
   os << indent << "ErrorMarking: " << this->ErrorMarking << "\n";
   os << indent << "ErrorThreshold: " << this->ErrorThreshold << "\n";
   os << indent << "ErrorFraction: " << this->ErrorFraction << "\n";

@@ -4,13 +4,18 @@
  *
  * Input port 0: a mesh (see vtkSimplexMeshAlgorithm). Port 1: the output of a vtkCADReader.
  *
- * Projects the mesh once (see vtkProjectOntoCAD), then repeats: measure the geometric error (see
- * vtkCADGeometricError), mark cells, refine them (see vtkRefineWithCAD), until MaximumSteps,
- * MaximumCells or TargetError is reached or no cell is marked. Cells are marked by their geometric
- * error, by a solver's indicator, by their chord error and by the angle between facets; any of them
- * is enough. An adaptation that is aborted (AbortExecute on any rank, looked at between steps)
- * keeps its last whole step, and is not repeated until the filter is modified. A run resets
- * AbortExecute when it starts.
+ * Projects the mesh once (see vtkProjectOntoCAD), unless StartProjected is on; then repeats:
+ * measure the geometric error (see vtkCADGeometricError), mark cells, refine them (see
+ * vtkRefineWithCAD), until MaximumSteps, MaximumCells or TargetError is reached or no cell is
+ * marked. Cells are marked by their geometric error, by a solver's indicator, by their chord error
+ * and by the angle between facets; any of them is enough. The cells that a step would make are
+ * counted before any is cut. With observers of StepEvent on any rank, the event is invoked after
+ * each step, on all ranks alike (while they are in it, they may communicate): the outputs then hold
+ * the mesh and the table up to this step, which are made for that; GetStepStatistics and
+ * GetFitReport tell of it. An observer wants memory for a mesh more. Where the mesh of the last run
+ * is kept (see vtkSimplexMeshAlgorithm), no step is made, and there is no event. An adaptation that
+ * is aborted (AbortExecute on any rank, looked at between steps) keeps its last whole step, and is
+ * not repeated until the filter is modified. A run resets AbortExecute when it starts.
  *
  * Output port 0: the mesh of the last step, with its error. Port 1: a table with a row for each
  * step, on rank 0: Step, MarkedCells, and the field data of the mesh by their names; its field
@@ -23,6 +28,10 @@
 
 #include "CADRefineFiltersModule.h"
 #include "vtkRefinementAlgorithm.h"
+
+#include <vtkCommand.h>
+
+#include <string>
 
 class CADREFINEFILTERS_EXPORT vtkAdaptToCAD : public vtkRefinementAlgorithm
 {
@@ -37,32 +46,64 @@ public:
     OFF = BULK + 1
   };
 
+  /// Invoked after each step; see above.
+  enum
+  {
+    StepEvent = vtkCommand::UserEvent + 1
+  };
+
+  /**
+   * Of the step that was made last and that observers were told of, a JSON object: "step", its
+   * number from 0; "kind": "projection", "input" (of a mesh that was projected already), "uniform",
+   * "longest-edge" or "quadratic"; "seconds" of this rank and "costs" (as GetRunStatistics, of all
+   * ranks) of its phases "project", "refine" and "error". "{}" without observers.
+   */
+  const char* GetStepStatistics() { return this->StepStatistics.c_str(); }
+
   ///@{
   /**
-   * See vtkProjectOntoCAD.
+   * Whether the input has its places on the CAD (the point arrays that vtkProjectOntoCAD gives it),
+   * and keeps them: it is not projected. Default off.
+   */
+  vtkSetMacro(StartProjected, bool);
+  vtkGetMacro(StartProjected, bool);
+  vtkBooleanMacro(StartProjected, bool);
+  ///@}
+
+  ///@{
+  /**
+   * See vtkProjectOntoCAD; without effect where StartProjected is on.
    */
   vtkSetMacro(UseRegion, bool);
   vtkGetMacro(UseRegion, bool);
   vtkBooleanMacro(UseRegion, bool);
   vtkSetVector6Macro(Region, double);
   vtkGetVector6Macro(Region, double);
-  vtkSetClampMacro(MaximumDistance, double, 0, VTK_DOUBLE_MAX);
+  vtkSetMacro(MaximumDistance, double);
   vtkGetMacro(MaximumDistance, double);
   ///@}
 
   ///@{
   /**
-   * See vtkCADGeometricError.
+   * See vtkCADGeometricError. Default 0: automatic.
    */
-  vtkSetClampMacro(RecursionDepth, int, 1, 8);
+  vtkSetMacro(RecursionDepth, int);
   vtkGetMacro(RecursionDepth, int);
   ///@}
 
   ///@{
   /**
-   * How many times to refine at most. Default 5.
+   * How many times to refine uniformly first, whatever the Method. Default 0.
    */
-  vtkSetClampMacro(MaximumSteps, int, 0, VTK_INT_MAX);
+  vtkSetMacro(UniformSteps, int);
+  vtkGetMacro(UniformSteps, int);
+  ///@}
+
+  ///@{
+  /**
+   * How many times to refine at most after that, by the Method. Default 5.
+   */
+  vtkSetMacro(MaximumSteps, int);
   vtkGetMacro(MaximumSteps, int);
   ///@}
 
@@ -71,7 +112,7 @@ public:
    * A step that would make more cells of the mesh's own dimension, on all ranks together, is not
    * made. Default 10,000,000; 0: no limit.
    */
-  vtkSetClampMacro(MaximumCells, vtkIdType, 0, VTK_ID_MAX);
+  vtkSetMacro(MaximumCells, vtkIdType);
   vtkGetMacro(MaximumCells, vtkIdType);
   ///@}
 
@@ -79,8 +120,18 @@ public:
   /**
    * Global geometric error at which to stop. Default 0: not used.
    */
-  vtkSetClampMacro(TargetError, double, 0, VTK_DOUBLE_MAX);
+  vtkSetMacro(TargetError, double);
   vtkGetMacro(TargetError, double);
+  ///@}
+
+  ///@{
+  /**
+   * Whether in the end the cells become quadratic, in a step of its own; see vtkRefineWithCAD.
+   * Default off.
+   */
+  vtkSetMacro(QuadraticCells, bool);
+  vtkGetMacro(QuadraticCells, bool);
+  vtkBooleanMacro(QuadraticCells, bool);
   ///@}
 
   ///@{
@@ -89,7 +140,7 @@ public:
    * ErrorThreshold (default 0) or ErrorFraction (default 0.5, above 0 and at most 1); or OFF (all
    * cells are marked where there is no other criterion either).
    */
-  vtkSetClampMacro(ErrorMarking, int, THRESHOLD, OFF);
+  vtkSetMacro(ErrorMarking, int);
   vtkGetMacro(ErrorMarking, int);
   vtkSetMacro(ErrorThreshold, double);
   vtkGetMacro(ErrorThreshold, double);
@@ -105,20 +156,24 @@ protected:
   int RequestDataObject(
     vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   cadrefine::MarkingCriterion GetOwnCriterion() const override;
-  cadrefine::StepResult Execute(cadrefine::RankExchange& exchange, vtkPointSet* input,
+  cadrefine::PipelineResult Execute(cadrefine::RankExchange& exchange, vtkPointSet* input,
     const cadrefine::CADModel* model) override;
 
 private:
   vtkAdaptToCAD(const vtkAdaptToCAD&) = delete;
   void operator=(const vtkAdaptToCAD&) = delete;
 
+  std::string StepStatistics = "{}";
+  bool StartProjected = false;
   bool UseRegion = false;
   double Region[6] = { 0, 1, 0, 1, 0, 1 };
   double MaximumDistance = 0;
-  int RecursionDepth = 1;
+  int RecursionDepth = 0;
+  int UniformSteps = 0;
   int MaximumSteps = 5;
   vtkIdType MaximumCells = 10000000;
   double TargetError = 0;
+  bool QuadraticCells = false;
   int ErrorMarking = THRESHOLD;
   double ErrorThreshold = 0;
   double ErrorFraction = 0.5;

@@ -1,9 +1,12 @@
 #include "vtkCADGeometricError.h"
 
-#include "ErrorStep.h"
+#include "pipeline/ErrorMeasurement.h"
+#include "pipeline/PropertyCheck.h"
 
 #include <vtkObjectFactory.h>
 #include <vtkPointSet.h>
+
+#include <utility>
 
 vtkStandardNewMacro(vtkCADGeometricError);
 
@@ -11,10 +14,16 @@ vtkCADGeometricError::vtkCADGeometricError() : vtkSimplexMeshAlgorithm(true) {}
 
 vtkCADGeometricError::~vtkCADGeometricError() = default;
 
-cadrefine::StepResult vtkCADGeometricError::Execute(
+cadrefine::PipelineResult vtkCADGeometricError::Execute(
   cadrefine::RankExchange& exchange, vtkPointSet* input, const cadrefine::CADModel* model)
 {
-  return cadrefine::measureMesh(this->MakeContext(exchange, *model), input, this->RecursionDepth);
+  cadrefine::checkProperty("RecursionDepth", this->RecursionDepth, 0, 8);
+  const cadrefine::PipelineContext context = this->MakeContext(exchange, *model);
+  cadrefine::MeshState state =
+    cadrefine::readMesh(exchange, input, cadrefine::CellOrder::FirstOrSecond);
+  cadrefine::readClassification(context, input, state);
+  cadrefine::measureMesh(context, state, this->RecursionDepth);
+  return cadrefine::resultOf(std::move(state));
 }
 
 void vtkCADGeometricError::PrintSelf(ostream& os, vtkIndent indent)

@@ -29,9 +29,11 @@ public:
 
   ///@{
   /**
-   * How often facets are split to follow the CAD, 1 to 8. Default 1, the published estimate.
+   * How often facets are split to follow the CAD, 1 to 8. Default 1, the published estimate, which
+   * is 3/4 of the exact measure on smooth CAD. 0: automatic, a depth of 2, extrapolated to the
+   * limit of all depths (a third of what the last level added is added once more).
    */
-  vtkSetClampMacro(RecursionDepth, int, 1, 8);
+  vtkSetMacro(RecursionDepth, int);
   vtkGetMacro(RecursionDepth, int);
   ///@}
 
@@ -39,7 +41,8 @@ protected:
   vtkCADGeometricError();
   ~vtkCADGeometricError() override;
 
-  cadrefine::StepResult Execute(cadrefine::RankExchange& exchange, vtkPointSet* input,
+  bool ChangesMesh() const override { return false; }
+  cadrefine::PipelineResult Execute(cadrefine::RankExchange& exchange, vtkPointSet* input,
     const cadrefine::CADModel* model) override;
 
 private:

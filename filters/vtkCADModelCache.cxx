@@ -1,7 +1,9 @@
 #include "vtkCADModelCache.h"
 
-#include "CADModel.h"
-#include "Error.h"
+#include "comm/Threads.h"
+
+#include <cadrefine/base/Error.h>
+#include <cadrefine/cad/model/CADModel.h>
 
 #include <vtkCompositeDataIterator.h>
 #include <vtkCompositeDataSet.h>
@@ -23,7 +25,7 @@ using ModelPointer = std::shared_ptr<const cadrefine::CADModel>;
 class RecentModels
 {
 public:
-  ModelPointer Find(const unsigned char* bytes, std::size_t size)
+  ModelPointer Find(const unsigned char* bytes, std::size_t size, int threads)
   {
     const std::lock_guard<std::mutex> lock(this->Mutex);
     const auto found = std::find_if(this->Entries.begin(), this->Entries.end(),
@@ -38,7 +40,7 @@ public:
       return found->Model;
     }
     std::vector<char> copy(bytes, bytes + size);
-    ModelPointer model = cadrefine::CADModel::fromBytes(copy);
+    ModelPointer model = cadrefine::CADModel::fromBytes(copy, cadrefine::forOnThreads(threads));
     this->Entries.push_front({ std::move(copy), model });
     if (this->Entries.size() > MaximumCount)
     {
@@ -83,7 +85,7 @@ vtkUnsignedCharArray* FindBytesInLeaves(vtkCompositeDataSet* data)
 
 vtkStandardNewMacro(vtkCADModelCache);
 
-std::shared_ptr<const cadrefine::CADModel> vtkCADModelCache::Get(vtkDataObject* cad)
+std::shared_ptr<const cadrefine::CADModel> vtkCADModelCache::Get(vtkDataObject* cad, int threads)
 {
   static RecentModels recent;
   vtkUnsignedCharArray* bytes = FindBytes(cad);
@@ -97,5 +99,6 @@ std::shared_ptr<const cadrefine::CADModel> vtkCADModelCache::Get(vtkDataObject* 
       "the CAD input holds no CAD model (field array CADModel); it must be the "
       "output of a CAD Reader");
   }
-  return recent.Find(bytes->GetPointer(0), static_cast<std::size_t>(bytes->GetNumberOfValues()));
+  return recent.Find(
+    bytes->GetPointer(0), static_cast<std::size_t>(bytes->GetNumberOfValues()), threads);
 }

@@ -31,9 +31,10 @@ public:
   /**
    * The model in the field data of `cad`, or of any data set in it. Safe from several threads.
    * Cost: a comparison of the bytes if the model is known, else rebuilding it (about as long as
-   * reading a BREP file of that size). Throws cadrefine::Error where there is no model.
+   * reading a BREP file of that size), on so many threads (see findThreads). Throws
+   * cadrefine::Error where there is no model.
    */
-  static std::shared_ptr<const cadrefine::CADModel> Get(vtkDataObject* cad);
+  static std::shared_ptr<const cadrefine::CADModel> Get(vtkDataObject* cad, int threads = 1);
 
 protected:
   vtkCADModelCache() = default;

@@ -1,12 +1,14 @@
 #include "vtkCADReader.h"
 
-#include "Agreement.h"
-#include "CADDrawing.h"
-#include "CADFile.h"
-#include "Error.h"
-#include "FileStamp.h"
-#include "RankExchange.h"
+#include "cad/CADDrawing.h"
+#include "comm/CollectiveErrors.h"
+#include "comm/RankExchange.h"
+#include "comm/Threads.h"
 #include "vtkCADModelCache.h"
+
+#include <cadrefine/base/Error.h>
+#include <cadrefine/cad/import/CADFile.h>
+#include <cadrefine/cad/import/FileStamp.h>
 
 #include <vtkCompositeDataSet.h>
 #include <vtkDataAssembly.h>
@@ -14,16 +16,19 @@
 #include <vtkFieldData.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
+#include <vtkIntArray.h>
 #include <vtkMultiProcessController.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPartitionedDataSet.h>
 #include <vtkPartitionedDataSetCollection.h>
 #include <vtkPolyData.h>
+#include <vtkSMPTools.h>
 #include <vtkSmartPointer.h>
 #include <vtkStringArray.h>
 #include <vtkUnsignedCharArray.h>
 
+#include <algorithm>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -33,6 +38,62 @@ namespace
 
 constexpr const char* PartNames[3] = { "Vertices", "Edges", "Faces" };
 constexpr int PartDimensions[3] = { 2, 1, 0 }; ///< Faces first: the order of the output.
+
+constexpr const char* OwnUnit = "File's own";
+
+using Lines = std::vector<std::string>;
+
+/// Of findThreads, for the process that reads, in which vtkSMPTools does not work.
+int RunThreads(int threads)
+{
+  return threads > 0 ? threads : vtkSMPTools::GetEstimatedNumberOfThreads();
+}
+
+cadrefine::DrawingShare ShareOf(const cadrefine::RankExchange& exchange)
+{
+  return { exchange.rank(), exchange.size() };
+}
+
+/// cadrefine::agreeOnFailure, where what `work` throws does not name the file.
+template<class Work>
+void AgreeOnFailureOf(cadrefine::RankExchange& exchange, const char* file, const Work& work)
+{
+  cadrefine::agreeOnFailure(exchange,
+    [&]
+    {
+      try
+      {
+        work();
+      }
+      catch (const cadrefine::Error& error)
+      {
+        throw cadrefine::Error(std::string(file) + ": " + error.what());
+      }
+    });
+}
+
+/// The lines of all ranks, the same on any number of them.
+Lines LinesOfAll(cadrefine::RankExchange& exchange, const Lines& mine)
+{
+  std::vector<char> text;
+  for (const std::string& line : mine)
+  {
+    text.insert(text.end(), line.begin(), line.end());
+    text.push_back('\n');
+  }
+  const auto toAll = std::vector<std::vector<char>>(exchange.size(), text);
+  Lines all;
+  for (const std::vector<char>& ofRank : exchange.allToAll(toAll))
+  {
+    std::istringstream stream(std::string(ofRank.begin(), ofRank.end()));
+    for (std::string line; std::getline(stream, line);)
+    {
+      all.push_back(line);
+    }
+  }
+  std::sort(all.begin(), all.end());
+  return all;
+}
 
 void AddStrings(vtkDataObject* output, const char* name, const std::vector<std::string>& values)
 {
@@ -45,17 +106,29 @@ void AddStrings(vtkDataObject* output, const char* name, const std::vector<std::
   output->GetFieldData()->AddArray(array);
 }
 
-using Lines = std::vector<std::string>;
-
+/// For example: #15: STEP ADVANCED_FACE "wing": its trim curves enclose no area
 Lines EntityLines(const std::vector<cadrefine::UnreadEntity>& entities)
 {
   Lines lines;
   for (const auto& entity : entities)
   {
-    const char* prefix = entity.type.rfind("IGES", 0) == 0 ? "DE " : "#"; // as the formats do
-    const std::string number =
-      entity.entity > 0 ? prefix + std::to_string(entity.entity) : std::string("file");
-    lines.push_back(number + ": " + entity.type + ": " + entity.reason);
+    const bool iges = entity.type.rfind("IGES", 0) == 0;
+    std::ostringstream line;
+    if (entity.entity > 0)
+    {
+      line << (iges ? "DE " : "#") << entity.entity; // as the formats write it
+    }
+    else
+    {
+      line << "file";
+    }
+    line << ": " << entity.type;
+    if (!entity.name.empty())
+    {
+      line << " \"" << entity.name << '"';
+    }
+    line << ": " << entity.reason;
+    lines.push_back(line.str());
   }
   return lines;
 }
@@ -76,25 +149,26 @@ vtkSmartPointer<vtkDoubleArray> GapArray(const std::vector<cadrefine::Gap>& gaps
   return array;
 }
 
-void AddReport(vtkDataObject* output, const cadrefine::CADReport& report)
+void AddLength(vtkDataObject* output, const char* name, double value)
 {
-  AddStrings(output, "CADUnit", { report.unit });
-  AddStrings(output, "CADUnread", EntityLines(report.unread));
-  AddStrings(output, "CADLeftOut", EntityLines(report.leftOut));
-  AddStrings(output, "CADRepairs", report.repairs);
-  vtkNew<vtkDoubleArray> tolerance;
-  tolerance->SetName("CADSewingTolerance");
-  tolerance->InsertNextValue(report.sewingTolerance);
-  output->GetFieldData()->AddArray(tolerance);
-  output->GetFieldData()->AddArray(GapArray(report.gaps));
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  array->InsertNextValue(value);
+  output->GetFieldData()->AddArray(array);
 }
 
-std::string Section(const char* heading, const Lines& lines)
+/// A heading and the first of the lines; all of them are in the field array `array`.
+std::string Section(const char* heading, const Lines& lines, const char* array)
 {
+  constexpr std::size_t most = 20;
   std::string text;
-  for (const std::string& line : lines)
+  for (std::size_t i = 0; i < std::min(most, lines.size()); ++i)
   {
-    text += "\n  " + line;
+    text += "\n  " + lines[i];
+  }
+  if (lines.size() > most)
+  {
+    text += "\n  and " + std::to_string(lines.size() - most) + " more: see field array " + array;
   }
   return lines.empty() ? text : std::string("\n") + heading + text;
 }
@@ -114,6 +188,47 @@ Lines GapLines(const cadrefine::CADReport& report)
   return lines;
 }
 
+/// What is less exact than a user may expect.
+Lines InexactLines(const cadrefine::CADModel& model)
+{
+  constexpr double mostDeviation = 1e-4; // of the size
+  constexpr double mostFitError = 1e-7;  // the same
+  Lines lines;
+  const auto add = [&](const std::string& what, double length, double most)
+  {
+    if (length > most * model.size())
+    {
+      std::ostringstream line;
+      line << what << " by up to " << length << ", " << length / model.size()
+           << " of the model's size";
+      lines.push_back(line.str());
+    }
+  };
+  add("trim curves of faces lie off their edges", model.trimDeviation(), mostDeviation);
+  add("offset surfaces are fitted, and lie off", model.fitError(), mostFitError);
+  return lines;
+}
+
+void AddReport(vtkDataObject* output, const cadrefine::CADModel& model, const Lines& repairs)
+{
+  const cadrefine::CADReport& report = model.report();
+  vtkNew<vtkIntArray> counts;
+  counts->SetName("CADCounts");
+  for (int dimension = 0; dimension < 3; ++dimension)
+  {
+    counts->InsertNextValue(model.count(dimension));
+  }
+  output->GetFieldData()->AddArray(counts);
+  AddStrings(output, "CADUnit", { report.unit });
+  AddStrings(output, "CADUnread", EntityLines(report.unread));
+  AddStrings(output, "CADLeftOut", EntityLines(report.leftOut));
+  AddStrings(output, "CADRepairs", repairs);
+  AddStrings(output, "CADInexact", InexactLines(model));
+  AddLength(output, "CADSewingTolerance", report.sewingTolerance);
+  AddLength(output, "CADTrimDeviation", model.trimDeviation());
+  output->GetFieldData()->AddArray(GapArray(report.gaps));
+}
+
 } // namespace
 
 vtkStandardNewMacro(vtkCADReader);
@@ -128,6 +243,7 @@ vtkCADReader::vtkCADReader()
 vtkCADReader::~vtkCADReader()
 {
   this->SetFileName(nullptr);
+  this->SetUnit(nullptr);
   this->SetController(nullptr);
 }
 
@@ -152,10 +268,10 @@ int vtkCADReader::RequestInformation(
 }
 
 std::shared_ptr<const cadrefine::CADModel> vtkCADReader::ReadModel(
-  cadrefine::RankExchange& exchange, vtkPartitionedDataSetCollection* output)
+  cadrefine::RankExchange& exchange, int threads, vtkPartitionedDataSetCollection* output)
 {
   std::vector<char> bytes;
-  cadrefine::attempt(exchange,
+  cadrefine::agreeOnFailure(exchange,
     [&]
     {
       if (!this->FileName || !*this->FileName)
@@ -165,7 +281,9 @@ std::shared_ptr<const cadrefine::CADModel> vtkCADReader::ReadModel(
       if (exchange.rank() == 0)
       {
         this->StampRead = cadrefine::fileStamp(this->FileName); // before: it may change meanwhile
-        bytes = cadrefine::readCADFile(this->FileName)->toBytes();
+        const std::string unit = this->Unit ? this->Unit : "";
+        bytes =
+          cadrefine::readCADBytes(this->FileName, unit == OwnUnit ? "" : unit, RunThreads(threads));
       }
     });
   bytes = exchange.broadcast(bytes, 0);
@@ -175,8 +293,24 @@ std::shared_ptr<const cadrefine::CADModel> vtkCADReader::ReadModel(
   std::copy(bytes.begin(), bytes.end(), array->GetPointer(0));
   output->GetFieldData()->AddArray(array);
   std::shared_ptr<const cadrefine::CADModel> model;
-  cadrefine::attempt(exchange, [&] { model = vtkCADModelCache::Get(output); });
+  AgreeOnFailureOf(
+    exchange, this->FileName, [&] { model = vtkCADModelCache::Get(output, threads); });
   return model;
+}
+
+cadrefine::ModelDrawing vtkCADReader::Draw(
+  cadrefine::RankExchange& exchange, int threads, const cadrefine::CADModel& model)
+{
+  this->Say(0.6, "drawing the CAD");
+  cadrefine::ModelDrawing drawing;
+  AgreeOnFailureOf(exchange, this->FileName,
+    [&]
+    {
+      drawing = cadrefine::drawModel(
+        model, this->TessellationTolerance * model.size(), ShareOf(exchange), RunThreads(threads));
+    });
+  drawing.undrawn = LinesOfAll(exchange, drawing.undrawn);
+  return drawing;
 }
 
 void vtkCADReader::Say(double progress, const std::string& text)
@@ -185,36 +319,43 @@ void vtkCADReader::Say(double progress, const std::string& text)
   this->UpdateProgress(progress);
 }
 
-void vtkCADReader::Warn(const cadrefine::CADReport& report)
+void vtkCADReader::Warn(const cadrefine::CADModel& model, const Lines& repairs)
 {
-  const std::string text = Section("not read:", EntityLines(report.unread)) +
-                           Section("repaired:", report.repairs) +
-                           Section("faces that are not joined:", GapLines(report));
+  const cadrefine::CADReport& report = model.report();
+  const std::string text = Section("not read:", EntityLines(report.unread), "CADUnread") +
+                           Section("repaired:", repairs, "CADRepairs") +
+                           Section("inexact:", InexactLines(model), "CADInexact") +
+                           Section("faces that are not joined:", GapLines(report), "CADGaps");
   if (!text.empty())
   {
     vtkWarningMacro(<< this->FileName << ":" << text
-                    << Section(
-                         "left out by the rules of the format:", EntityLines(report.leftOut)));
+                    << Section("left out by the rules of the format:", EntityLines(report.leftOut),
+                         "CADLeftOut"));
   }
 }
 
 void vtkCADReader::Read(cadrefine::RankExchange& exchange, vtkPartitionedDataSetCollection* output)
 {
   this->Say(0, "reading the CAD file");
-  const auto model = this->ReadModel(exchange, output);
+  const int threads = cadrefine::findThreads(exchange);
+  const auto model = this->ReadModel(exchange, threads, output);
+  const cadrefine::ModelDrawing drawing =
+    this->Drawing ? this->Draw(exchange, threads, *model) : cadrefine::ModelDrawing();
+  Lines repairs = model->report().repairs;
+  repairs.insert(repairs.end(), drawing.undrawn.begin(), drawing.undrawn.end());
   if (exchange.rank() == 0)
   {
-    this->Warn(model->report());
+    this->Warn(*model, repairs);
   }
-  AddReport(output, model->report());
+  AddReport(output, *model, repairs);
   for (unsigned int part = 0; part < 3; ++part)
   {
     const int dimension = PartDimensions[part];
     this->Say(0.7 + 0.1 * part, std::string("drawing ") + PartNames[dimension]);
-    const cadrefine::DrawingShare share{ exchange.rank(), exchange.size(),
-      this->TessellationTolerance };
     vtkNew<vtkPartitionedDataSet> partitions;
-    partitions->SetPartition(0, cadrefine::draw(*model, dimension, share));
+    partitions->SetPartition(0, this->Drawing
+                                  ? cadrefine::draw(*model, drawing, dimension, ShareOf(exchange))
+                                  : cadrefine::drawNothing(*model, dimension));
     output->SetPartitionedDataSet(part, partitions);
     output->GetMetaData(part)->Set(vtkCompositeDataSet::NAME(), PartNames[dimension]);
   }
@@ -227,7 +368,7 @@ int vtkCADReader::RequestData(
   try
   {
     cadrefine::RankExchange exchange(this->Controller);
-    cadrefine::runTogether(exchange, [&] { this->Read(exchange, output); });
+    cadrefine::runCollectively(exchange, [&] { this->Read(exchange, output); });
     return 1;
   }
   catch (...)
@@ -245,6 +386,8 @@ void vtkCADReader::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
+  os << indent << "Unit: " << (this->Unit ? this->Unit : OwnUnit) << "\n";
+  os << indent << "Drawing: " << this->Drawing << "\n";
   os << indent << "TessellationTolerance: " << this->TessellationTolerance << "\n";
   os << indent << "Controller: " << this->Controller << "\n";
 }

@@ -26,7 +26,8 @@ protected:
   vtkMeshValidity();
   ~vtkMeshValidity() override;
 
-  cadrefine::StepResult Execute(cadrefine::RankExchange& exchange, vtkPointSet* input,
+  bool ChangesMesh() const override { return false; }
+  cadrefine::PipelineResult Execute(cadrefine::RankExchange& exchange, vtkPointSet* input,
     const cadrefine::CADModel* model) override;
 
 private:

@@ -1,9 +1,14 @@
 #include "vtkProjectOntoCAD.h"
 
-#include "ProjectionStep.h"
+#include "fields/CADArrays.h"
+#include "pipeline/Projection.h"
 
 #include <vtkObjectFactory.h>
+#include <vtkPointData.h>
 #include <vtkPointSet.h>
+
+#include <string>
+#include <utility>
 
 vtkStandardNewMacro(vtkProjectOntoCAD);
 
@@ -11,12 +16,17 @@ vtkProjectOntoCAD::vtkProjectOntoCAD() : vtkSimplexMeshAlgorithm(true) {}
 
 vtkProjectOntoCAD::~vtkProjectOntoCAD() = default;
 
-cadrefine::StepResult vtkProjectOntoCAD::Execute(
+cadrefine::PipelineResult vtkProjectOntoCAD::Execute(
   cadrefine::RankExchange& exchange, vtkPointSet* input, const cadrefine::CADModel* model)
 {
-  return cadrefine::projectMesh(this->MakeContext(exchange, *model), input,
-    cadrefine::makeProjectionOptions(
-      this->UseRegion ? this->Region : nullptr, this->MaximumDistance));
+  const cadrefine::ProjectionOptions options = cadrefine::makeProjectionOptions(
+    this->UseRegion ? this->Region : nullptr, this->MaximumDistance);
+  cadrefine::MeshState state = cadrefine::readMesh(exchange, input);
+  std::string report = cadrefine::projectMesh(this->MakeContext(exchange, *model), state, options);
+  cadrefine::PipelineResult result = cadrefine::resultOf(std::move(state));
+  result.mesh->GetPointData()->SetActiveScalars(cadrefine::arrays::entity);
+  result.fitReport = std::move(report);
+  return result;
 }
 
 void vtkProjectOntoCAD::PrintSelf(ostream& os, vtkIndent indent)

@@ -55,7 +55,7 @@ public:
    * Vertices farther from the CAD stay, a length. Default 0: for each vertex its longest boundary
    * edge (points alone: no limit).
    */
-  vtkSetClampMacro(MaximumDistance, double, 0, VTK_DOUBLE_MAX);
+  vtkSetMacro(MaximumDistance, double);
   vtkGetMacro(MaximumDistance, double);
   ///@}
 
@@ -63,7 +63,7 @@ protected:
   vtkProjectOntoCAD();
   ~vtkProjectOntoCAD() override;
 
-  cadrefine::StepResult Execute(cadrefine::RankExchange& exchange, vtkPointSet* input,
+  cadrefine::PipelineResult Execute(cadrefine::RankExchange& exchange, vtkPointSet* input,
     const cadrefine::CADModel* model) override;
 
 private:

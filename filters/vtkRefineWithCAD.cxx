@@ -1,9 +1,16 @@
 #include "vtkRefineWithCAD.h"
 
-#include "RefinementStep.h"
+#include "fields/CADArrays.h"
+#include "pipeline/InputSplit.h"
+#include "pipeline/PropertyCheck.h"
+#include "pipeline/Refinement.h"
 
+#include <vtkCellData.h>
+#include <vtkFieldData.h>
 #include <vtkObjectFactory.h>
 #include <vtkPointSet.h>
+
+#include <utility>
 
 vtkStandardNewMacro(vtkRefineWithCAD);
 
@@ -11,17 +18,33 @@ vtkRefineWithCAD::vtkRefineWithCAD() : vtkRefinementAlgorithm(false) {}
 
 vtkRefineWithCAD::~vtkRefineWithCAD() = default;
 
-cadrefine::StepResult vtkRefineWithCAD::Execute(
+cadrefine::PipelineResult vtkRefineWithCAD::Execute(
   cadrefine::RankExchange& exchange, vtkPointSet* input, const cadrefine::CADModel* model)
 {
+  cadrefine::checkProperty("Levels", this->Levels, 0, 20);
   cadrefine::RefinementOptions options = this->MakeOptions();
   options.levels = this->Levels;
   options.quadraticCells = this->QuadraticCells;
-  return cadrefine::refineMesh(this->MakeContext(exchange, *model), input, options).result;
+  const cadrefine::PipelineContext context = this->MakeContext(exchange, *model);
+  cadrefine::MeshState state;
+  {
+    const cadrefine::RunStatistics::Stopwatch stopwatch(*this->Statistics, "seconds reading cells");
+    state = cadrefine::readMesh(exchange, input);
+  }
+  if (options.projectNewVertices || exchange.any(cadrefine::hasClassification(input)))
+  {
+    cadrefine::readClassification(context, input, state);
+  }
+  cadrefine::refineMesh(context, state, options);
+  cadrefine::removeMeasured(state.arrays.ofCells, state.arrays.ofMesh);
+  const cadrefine::RunStatistics::Stopwatch stopwatch(*this->Statistics, "seconds writing cells");
+  return cadrefine::resultOf(std::move(state));
 }
 
 cadrefine::MarkingCriterion vtkRefineWithCAD::GetOwnCriterion() const
 {
+  cadrefine::checkProperty("Marking", this->Marking, THRESHOLD, BULK);
+  cadrefine::checkProperty("Threshold", this->Threshold);
   return MakeCriterion(this->MarkingArray, this->Marking, this->Threshold, this->Fraction);
 }
 

@@ -34,7 +34,7 @@ public:
    * How often to refine. Children inherit the values of the arrays that mark cells. 0: not at all,
    * so that QuadraticCells alone has its effect. Default 1.
    */
-  vtkSetClampMacro(Levels, int, 0, 20);
+  vtkSetMacro(Levels, int);
   vtkGetMacro(Levels, int);
   ///@}
 
@@ -46,7 +46,7 @@ public:
    */
   vtkSetMacro(MarkingArray, std::string);
   vtkGetMacro(MarkingArray, std::string);
-  vtkSetClampMacro(Marking, int, THRESHOLD, BULK);
+  vtkSetMacro(Marking, int);
   vtkGetMacro(Marking, int);
   vtkSetMacro(Threshold, double);
   vtkGetMacro(Threshold, double);
@@ -71,7 +71,7 @@ protected:
   ~vtkRefineWithCAD() override;
 
   cadrefine::MarkingCriterion GetOwnCriterion() const override;
-  cadrefine::StepResult Execute(cadrefine::RankExchange& exchange, vtkPointSet* input,
+  cadrefine::PipelineResult Execute(cadrefine::RankExchange& exchange, vtkPointSet* input,
     const cadrefine::CADModel* model) override;
 
 private:

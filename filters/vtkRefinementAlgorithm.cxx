@@ -1,7 +1,8 @@
 #include "vtkRefinementAlgorithm.h"
 
-#include "CADArrays.h"
-#include "RefinementStep.h"
+#include "fields/CADArrays.h"
+#include "pipeline/PropertyCheck.h"
+#include "pipeline/Refinement.h"
 
 using cadrefine::MarkingCriterion;
 
@@ -24,6 +25,12 @@ MarkingCriterion vtkRefinementAlgorithm::MakeCriterion(
 
 cadrefine::RefinementOptions vtkRefinementAlgorithm::MakeOptions() const
 {
+  using cadrefine::checkProperty;
+  checkProperty("Method", this->Method, LONGEST_EDGE_BISECTION, UNIFORM_BISECTION);
+  checkProperty("IndicatorMarking", this->IndicatorMarking, THRESHOLD, BULK);
+  checkProperty("IndicatorThreshold", this->IndicatorThreshold);
+  checkProperty("ChordTolerance", this->ChordTolerance, 0);
+  checkProperty("NormalAngle", this->NormalAngle, 0, 180);
   cadrefine::RefinementOptions options;
   options.uniform = this->Method == UNIFORM_BISECTION;
   const auto add = [&](const MarkingCriterion& criterion)

@@ -44,7 +44,7 @@ public:
    * LONGEST_EDGE_BISECTION (default) of the marked cells, or UNIFORM_BISECTION: 4 triangles, 8
    * tetrahedra for each marked or unmarked cell.
    */
-  vtkSetClampMacro(Method, int, LONGEST_EDGE_BISECTION, UNIFORM_BISECTION);
+  vtkSetMacro(Method, int);
   vtkGetMacro(Method, int);
   ///@}
 
@@ -56,7 +56,7 @@ public:
    */
   vtkSetMacro(IndicatorArray, std::string);
   vtkGetMacro(IndicatorArray, std::string);
-  vtkSetClampMacro(IndicatorMarking, int, THRESHOLD, BULK);
+  vtkSetMacro(IndicatorMarking, int);
   vtkGetMacro(IndicatorMarking, int);
   vtkSetMacro(IndicatorThreshold, double);
   vtkGetMacro(IndicatorThreshold, double);
@@ -71,9 +71,9 @@ public:
    * with a facet that makes more than NormalAngle degrees with a neighbour (across no crease) are
    * marked too. Default 0 for both: not used.
    */
-  vtkSetClampMacro(ChordTolerance, double, 0, VTK_DOUBLE_MAX);
+  vtkSetMacro(ChordTolerance, double);
   vtkGetMacro(ChordTolerance, double);
-  vtkSetClampMacro(NormalAngle, double, 0, 180);
+  vtkSetMacro(NormalAngle, double);
   vtkGetMacro(NormalAngle, double);
   ///@}
 
@@ -112,7 +112,8 @@ protected:
   explicit vtkRefinementAlgorithm(bool cutFacets);
   ~vtkRefinementAlgorithm() override;
 
-  /// The criterion of the subclass; used if it names an array.
+  /// The criterion of the subclass; used if it names an array. Throws Error for a property that is
+  /// out of range, as the next one does.
   virtual cadrefine::MarkingCriterion GetOwnCriterion() const = 0;
 
   /// The properties of this class, for one level, with the subclass's criterion.

@@ -1,15 +1,18 @@
 #include "vtkSimplexMeshAlgorithm.h"
 
-#include "Agreement.h"
-#include "CADModel.h"
-#include "GeometryMemory.h"
-#include "InputCheck.h"
-#include "InputParts.h"
-#include "RankExchange.h"
-#include "RunStatistics.h"
-#include "StepContext.h"
+#include "comm/CollectiveErrors.h"
+#include "comm/RankExchange.h"
+#include "comm/RunStatistics.h"
+#include "mesh/InputCheck.h"
+#include "pipeline/GeometryCache.h"
+#include "pipeline/InputSplit.h"
+#include "pipeline/PipelineContext.h"
+#include "projection/Fit.h"
 #include "vtkCADModelCache.h"
 
+#include <cadrefine/cad/model/CADModel.h>
+
+#include <vtkCellData.h>
 #include <vtkDataObject.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
@@ -21,7 +24,7 @@ vtkCxxSetObjectMacro(vtkSimplexMeshAlgorithm, Controller, vtkMultiProcessControl
 
 vtkSimplexMeshAlgorithm::vtkSimplexMeshAlgorithm(bool needsCAD)
   : Statistics(std::make_unique<cadrefine::RunStatistics>()),
-    Memory(std::make_unique<cadrefine::GeometryMemory>())
+    Cache(std::make_unique<cadrefine::GeometryCache>())
 {
   this->SetNumberOfInputPorts(needsCAD ? 2 : 1);
   this->SetController(vtkMultiProcessController::GetGlobalController());
@@ -48,16 +51,46 @@ std::shared_ptr<const cadrefine::CADModel> vtkSimplexMeshAlgorithm::FindModel(
   cadrefine::RankExchange& exchange, vtkInformationVector* input) const
 {
   std::shared_ptr<const cadrefine::CADModel> model;
-  cadrefine::attempt(
+  cadrefine::agreeOnFailure(
     exchange, [&] { model = vtkCADModelCache::Get(vtkDataObject::GetData(input)); });
   return model;
 }
 
-cadrefine::StepContext vtkSimplexMeshAlgorithm::MakeContext(
+cadrefine::PipelineContext vtkSimplexMeshAlgorithm::MakeContext(
   cadrefine::RankExchange& exchange, const cadrefine::CADModel& model)
 {
   return { exchange, model, *this->Statistics,
     [this](const std::string& warning) { vtkWarningMacro(<< warning); } };
+}
+
+struct vtkSimplexMeshAlgorithm::Outputs
+{
+  const cadrefine::InputSplit& parts;
+  cadrefine::OutputJoin join;
+  vtkInformationVector* ports;
+};
+
+void vtkSimplexMeshAlgorithm::Fill(cadrefine::RankExchange& exchange, vtkPointSet* mesh,
+  const cadrefine::FieldMapping& mapping, vtkTable* table, const std::string& fitReport)
+{
+  if (!fitReport.empty())
+  {
+    cadrefine::removeFit(this->Filled->parts.fields.ofMesh);
+  }
+  const cadrefine::RunStatistics::Stopwatch stopwatch(*this->Statistics, "seconds copying fields");
+  this->Filled->join.fill(exchange, mesh, mapping, vtkPointSet::GetData(this->Filled->ports));
+  this->FitReport = fitReport;
+  if (table)
+  {
+    vtkTable::GetData(this->Filled->ports, 1)->ShallowCopy(table);
+  }
+}
+
+void vtkSimplexMeshAlgorithm::ShowStep(cadrefine::RankExchange& exchange, vtkPointSet* mesh,
+  const cadrefine::FieldMapping& mapping, vtkTable* table, const std::string& fitReport)
+{
+  this->Fill(exchange, mesh, mapping, table, fitReport);
+  exchange.agree(""); // so that all have it, or none goes on
 }
 
 void vtkSimplexMeshAlgorithm::Run(
@@ -68,24 +101,27 @@ void vtkSimplexMeshAlgorithm::Run(
   {
     model = this->FindModel(exchange, inputs[1]);
   }
-  cadrefine::attempt(exchange, [&] { cadrefine::checkInput(vtkPointSet::GetData(inputs[0])); });
-  const cadrefine::InputParts parts =
+  cadrefine::agreeOnFailure(
+    exchange, [&] { cadrefine::checkInput(vtkPointSet::GetData(inputs[0])); });
+  const cadrefine::InputSplit parts =
     cadrefine::splitInput(vtkPointSet::GetData(inputs[0]), this->GetCellArraysRead());
+  if (this->ChangesMesh())
+  {
+    cadrefine::removeMeasured(parts.fields.ofCells, parts.fields.ofMesh);
+  }
+  Outputs filled{ parts, cadrefine::OutputJoin(parts), outputs };
+  this->Filled = &filled;
   bool isReused = true;
-  const cadrefine::StepResult& result =
-    this->Memory->get(exchange, parts.geometry, model, this->GetMTime(),
+  const cadrefine::PipelineResult& result =
+    this->Cache->get(exchange, parts.geometry, model, this->GetMTime(),
       [&](vtkPointSet* geometry)
       {
         isReused = false;
         return this->Execute(exchange, geometry, model.get());
       });
   this->Statistics->set("geometry reused", isReused);
-  const cadrefine::RunStatistics::Stopwatch stopwatch(*this->Statistics, "seconds copying fields");
-  cadrefine::joinOutput(exchange, parts, result, vtkPointSet::GetData(outputs));
-  if (result.table)
-  {
-    vtkTable::GetData(outputs, 1)->ShallowCopy(result.table);
-  }
+  this->Fill(exchange, result.mesh, result.mapping, result.table, result.fitReport);
+  this->Filled = nullptr;
 }
 
 int vtkSimplexMeshAlgorithm::RequestData(
@@ -93,6 +129,7 @@ int vtkSimplexMeshAlgorithm::RequestData(
 {
   this->Statistics->clear();
   this->StatisticsText = "{}";
+  this->FitReport.clear();
   try
   {
     cadrefine::RankExchange exchange(this->Controller);
@@ -102,7 +139,7 @@ int vtkSimplexMeshAlgorithm::RequestData(
         this->SetProgressText(text.c_str());
         this->UpdateProgress(fraction);
       });
-    cadrefine::runTogether(exchange,
+    cadrefine::runCollectively(exchange,
       [&]
       {
         this->Run(exchange, inputs, outputs);
@@ -113,6 +150,8 @@ int vtkSimplexMeshAlgorithm::RequestData(
   }
   catch (...)
   {
+    this->Filled = nullptr;
+    this->FitReport.clear();
     for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
     {
       vtkDataObject::GetData(outputs, port)->Initialize();

@@ -20,6 +20,7 @@
  * rank, a few times a second.
  *
  * A failure on one rank is an error on all: rank 0 reports the reason, and the output stays empty.
+ * So is a property that is out of its range, which the error names with the range.
  */
 #ifndef vtkSimplexMeshAlgorithm_h
 #define vtkSimplexMeshAlgorithm_h
@@ -33,14 +34,16 @@
 
 namespace cadrefine
 {
+class FieldMapping;
 class CADModel;
-class GeometryMemory;
+class GeometryCache;
 class RankExchange;
 class RunStatistics;
-struct StepContext;
-struct StepResult;
+struct PipelineContext;
+struct PipelineResult;
 } // namespace cadrefine
 class vtkMultiProcessController;
+class vtkTable;
 
 class CADREFINEFILTERS_EXPORT vtkSimplexMeshAlgorithm : public vtkPointSetAlgorithm
 {
@@ -65,6 +68,13 @@ public:
    */
   const char* GetRunStatistics() { return this->StatisticsText.c_str(); }
 
+  /**
+   * Of a filter that projects: how mesh and CAD fit together, as lines of text, the same on every
+   * rank. The numbers are field arrays of the output. Empty before the first run, and of a run that
+   * failed.
+   */
+  const char* GetFitReport() { return this->FitReport.c_str(); }
+
 protected:
   /// `needsCAD`: the filter has a second input, the output of a vtkCADReader.
   explicit vtkSimplexMeshAlgorithm(bool needsCAD);
@@ -79,14 +89,24 @@ protected:
    * ghosts, the classification and the cell arrays of GetCellArraysRead; no field data. Throws
    * cadrefine::Error on all ranks alike. `model` is null for filters without CAD.
    */
-  virtual cadrefine::StepResult Execute(
+  virtual cadrefine::PipelineResult Execute(
     cadrefine::RankExchange& exchange, vtkPointSet* geometry, const cadrefine::CADModel* model) = 0;
 
   /// Names of the cell arrays that Execute reads. Default: none.
   virtual std::vector<std::string> GetCellArraysRead() const { return {}; }
 
+  /// Whether points move or cells are cut, so that what was measured before does not hold any more
+  /// and is not carried along. Default: yes.
+  virtual bool ChangesMesh() const { return true; }
+
+  /// Puts the mesh of a step on the way, made from the geometry by `mapping`, into the output while
+  /// Execute is at work, with the fields and the table of the steps up to there; FitReport becomes
+  /// that of the step. Each mapping goes on where the one before ended. Collective.
+  void ShowStep(cadrefine::RankExchange& exchange, vtkPointSet* mesh,
+    const cadrefine::FieldMapping& mapping, vtkTable* table, const std::string& fitReport);
+
   /// What the steps of cadrefine need: warnings become those of this filter.
-  cadrefine::StepContext MakeContext(
+  cadrefine::PipelineContext MakeContext(
     cadrefine::RankExchange& exchange, const cadrefine::CADModel& model);
 
   std::unique_ptr<cadrefine::RunStatistics> Statistics; ///< Of this run, by this rank.
@@ -102,9 +122,16 @@ private:
   void Run(cadrefine::RankExchange& exchange, vtkInformationVector** inputs,
     vtkInformationVector* outputs);
 
-  std::unique_ptr<cadrefine::GeometryMemory> Memory;
+  /// The outputs of a run, as they are filled.
+  struct Outputs;
+  void Fill(cadrefine::RankExchange& exchange, vtkPointSet* mesh,
+    const cadrefine::FieldMapping& mapping, vtkTable* table, const std::string& fitReport);
+
+  std::unique_ptr<cadrefine::GeometryCache> Cache;
+  Outputs* Filled = nullptr; ///< While a run is at work.
   vtkMultiProcessController* Controller = nullptr;
   std::string StatisticsText = "{}";
+  std::string FitReport;
 };
 
 #endif

@@ -1,6 +1,8 @@
 // Memory for long lists.
 #pragma once
 
+#include <cadrefine/base/ParallelFor.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <sys/mman.h>
@@ -38,6 +40,20 @@ template<class T>
 void resizeLong(std::vector<T>& list, std::size_t count)
 {
   reserveLong(list, count);
+  list.resize(count);
+}
+
+/// vector.resize likewise, of a vector that is empty; the system clears its pages, which takes
+/// longer than to fill them, on threads.
+template<class T>
+void resizeLong(std::vector<T>& list, std::size_t count, const ParallelFor& parallelFor)
+{
+  constexpr std::size_t page = 4096;
+  constexpr std::size_t pagesAThread = 1024;
+  reserveLong(list, count);
+  auto* memory = reinterpret_cast<volatile unsigned char*>(list.data());
+  forEachIndex(parallelFor, count * sizeof(T) / page, pagesAThread,
+    [&](std::size_t number) { memory[number * page] = 0; });
   list.resize(count);
 }
 

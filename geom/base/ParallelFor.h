@@ -3,6 +3,10 @@
 
 #include <cstddef>
 #include <functional>
+#include <map>
+#include <mutex>
+#include <utility>
+#include <vector>
 
 namespace cadrefine
 {
@@ -36,6 +40,29 @@ void forEachIndex(
         item(i);
       }
     });
+}
+
+/// What append(begin, end, list) appends to the list of each range, in the order of the ranges.
+template<class Item, class Append>
+std::vector<Item> collect(
+  const ParallelFor& parallelFor, std::size_t count, std::size_t grain, const Append& append)
+{
+  std::map<std::size_t, std::vector<Item>> found; // by the begin of the range
+  std::mutex mutex;
+  parallelFor(count, grain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      std::vector<Item> list;
+      append(begin, end, list);
+      const std::lock_guard<std::mutex> lock(mutex);
+      found.emplace(begin, std::move(list));
+    });
+  std::vector<Item> all;
+  for (const auto& [begin, list] : found)
+  {
+    all.insert(all.end(), list.begin(), list.end());
+  }
+  return all;
 }
 
 } // namespace cadrefine

@@ -1,8 +1,8 @@
 // How much one rank's piece of a mesh can hold.
 #pragma once
 
-#include "Error.h"
-#include "MeshTypes.h"
+#include <cadrefine/base/Error.h>
+#include <cadrefine/base/MeshTypes.h>
 
 #include <cstddef>
 #include <limits>

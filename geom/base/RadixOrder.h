@@ -1,7 +1,7 @@
 // Sorting by whole numbers in linear time.
 #pragma once
 
-#include "LargeMemory.h"
+#include <cadrefine/base/LargeMemory.h>
 
 #include <array>
 #include <cstddef>

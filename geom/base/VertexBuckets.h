@@ -1,10 +1,13 @@
 // Things by a vertex or an edge to which they belong.
 #pragma once
 
-#include "LargeMemory.h"
-#include "MeshTypes.h"
+#include <cadrefine/base/LargeMemory.h>
+#include <cadrefine/base/MeshTypes.h>
+#include <cadrefine/base/ParallelFor.h>
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -14,7 +17,7 @@ namespace cadrefine
 
 /// Puts things into buckets, one for each vertex (or edge), in the order in which they come: a
 /// counting sort. Fill in two rounds, which must name the same vertices in the same order: count
-/// all, start, add all.
+/// all, start, add all. Or on threads, by `fill`.
 template<class Entry>
 class VertexBuckets
 {
@@ -30,6 +33,44 @@ public:
   void add(Index vertex, const Entry& entry)
   {
     entries_[begins_[static_cast<std::size_t>(vertex) + 1]++] = entry;
+  }
+
+  /// visit(begin, end, use), which is called twice for every part, calls use(vertex, entry) for the
+  /// things in [begin, end) of `things` ones: at most 2^32 entries. Each of a few parts of the
+  /// things has counts of its own, so that the order does not depend on threads. Memory beside the
+  /// entries: four bytes a vertex and part.
+  template<class Visit>
+  void fill(std::size_t things, const Visit& visit, const ParallelFor& parallelFor)
+  {
+    constexpr std::size_t mostParts = 8;
+    const std::size_t parts = things / fineGrain < mostParts ? 1 : mostParts;
+    const std::size_t vertices = begins_.size() - 2;
+    std::array<std::vector<std::uint32_t>, mostParts> next;
+    const auto forPart = [&](std::size_t part, const auto& use)
+    { visit(part * things / parts, (part + 1) * things / parts, use); };
+    forEachIndex(parallelFor, parts, 1,
+      [&](std::size_t part)
+      {
+        resizeLong(next[part], vertices);
+        forPart(part, [&](Index vertex, const Entry&) { ++next[part][vertex]; });
+      });
+    std::uint32_t sum = 0;
+    for (std::size_t v = 0; v < vertices; ++v)
+    {
+      begins_[v] = sum;
+      for (std::size_t part = 0; part < parts; ++part)
+      {
+        sum += std::exchange(next[part][v], sum);
+      }
+    }
+    begins_[vertices] = sum;
+    resizeLong(entries_, sum, parallelFor);
+    forEachIndex(parallelFor, parts, 1,
+      [&](std::size_t part)
+      {
+        forPart(
+          part, [&](Index vertex, const Entry& entry) { entries_[next[part][vertex]++] = entry; });
+      });
   }
 
   /// Calls use(vertex, first, last) for the entries of each vertex in turn; they may be changed.

@@ -1,9 +1,9 @@
-#include "EdgeTable.h"
+#include <cadrefine/mesh/EdgeTable.h>
 
-#include "LargeMemory.h"
-#include "PieceLimit.h"
-#include "RadixOrder.h"
-#include "VertexBuckets.h"
+#include <cadrefine/base/LargeMemory.h>
+#include <cadrefine/base/PieceLimit.h>
+#include <cadrefine/base/RadixOrder.h>
+#include <cadrefine/base/VertexBuckets.h>
 
 #include <algorithm>
 #include <cstdint>

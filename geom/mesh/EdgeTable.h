@@ -1,7 +1,7 @@
 // The edges of a mesh.
 #pragma once
 
-#include "SimplexMesh.h"
+#include <cadrefine/mesh/SimplexMesh.h>
 
 #include <algorithm>
 #include <array>

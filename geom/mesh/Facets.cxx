@@ -1,9 +1,11 @@
-#include "Facets.h"
+#include <cadrefine/mesh/Facets.h>
 
-#include "VertexBuckets.h"
+#include <cadrefine/base/VertexBuckets.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
+#include <limits>
 #include <utility>
 
 namespace cadrefine
@@ -21,8 +23,9 @@ struct Side
   friend bool operator<(const Side& a, const Side& b) { return a.others < b.others; }
 };
 
-std::pair<Index, std::uint64_t> sideKey(Index a, Index b, Index c)
+std::pair<Index, std::uint64_t> sideKey(const std::array<Index, 3>& corners)
 {
+  const auto [a, b, c] = corners;
   const auto [low, high] = std::minmax(a, b);
   const Index first = std::min(low, c);
   const Index last = std::max(high, c);
@@ -30,34 +33,75 @@ std::pair<Index, std::uint64_t> sideKey(Index a, Index b, Index c)
   return { first, middle << 32 | static_cast<std::uint64_t>(last) };
 }
 
-std::pair<Index, std::uint64_t> sideKey(Index a, Index b)
+std::pair<Index, std::uint64_t> sideKey(const std::array<Index, 2>& ends)
 {
+  const auto [a, b] = ends;
   return { std::min(a, b), static_cast<std::uint64_t>(std::max(a, b)) };
 }
 
-/// Calls use(smallest vertex, side) for each side.
-template<class Use, std::size_t Corners, std::size_t Sides, std::size_t SideCorners>
-void forEachSide(
-  const Simplices<Corners>& cells, const int (&sides)[Sides][SideCorners], const Use& use)
+/// Calls use(vertex) for the smallest vertices of the sides of a cell whose vertices are all
+/// `among` some, if any are: two at most, since a side lacks one vertex of the cell.
+template<class Use, std::size_t Corners>
+void forSmallest(
+  const std::array<Index, Corners>& cell, const std::vector<unsigned char>& among, const Use& use)
 {
-  std::size_t place = 0;
-  for (const auto& cell : cells)
+  constexpr Index none = std::numeric_limits<Index>::max();
+  Index smallest = none;
+  Index second = none;
+  std::size_t count = 0;
+  for (const Index vertex : cell)
   {
-    for (const auto& side : sides)
+    if (among.empty() || among[vertex])
     {
-      if constexpr (SideCorners == 3)
+      second = std::min(second, std::max(smallest, vertex));
+      smallest = std::min(smallest, vertex);
+      ++count;
+    }
+  }
+  if (count + 1 >= Corners)
+  {
+    use(smallest);
+  }
+  if (count == Corners)
+  {
+    use(second);
+  }
+}
+
+/// The sides of cells at a vertex that is their smallest, of those that are looked at.
+template<std::size_t Corners, std::size_t Sides, std::size_t SideCorners>
+struct SideSource
+{
+  const Simplices<Corners>& cells;
+  const int (&sides)[Sides][SideCorners];
+  const std::vector<unsigned char>& among;
+
+  std::array<Index, SideCorners> cornersOf(std::size_t place) const
+  {
+    std::array<Index, SideCorners> corners;
+    const auto& side = sides[place % Sides];
+    std::transform(std::begin(side), std::end(side), corners.begin(),
+      [&](int corner) { return cells[place / Sides][corner]; });
+    return corners;
+  }
+
+  void append(Index vertex, Index cell, std::vector<Side>& found) const
+  {
+    for (std::size_t s = 0; s < Sides; ++s)
+    {
+      const std::size_t place = Sides * static_cast<std::size_t>(cell) + s;
+      const auto corners = cornersOf(place);
+      const auto [smallest, others] = sideKey(corners);
+      const bool isLookedAt =
+        smallest == vertex && (among.empty() || std::all_of(corners.begin(), corners.end(),
+                                                  [&](Index corner) { return among[corner]; }));
+      if (isLookedAt)
       {
-        const auto [vertex, others] = sideKey(cell[side[0]], cell[side[1]], cell[side[2]]);
-        use(vertex, Side{ others, place++ });
-      }
-      else
-      {
-        const auto [vertex, others] = sideKey(cell[side[0]], cell[side[1]]);
-        use(vertex, Side{ others, place++ });
+        found.push_back({ others, place });
       }
     }
   }
-}
+};
 
 /// Finds the sides of a bucket that are met once.
 class SingleSides
@@ -118,44 +162,65 @@ private:
 };
 
 /// Places of the sides that are met once, ascending.
-template<std::size_t Corners, std::size_t Sides, std::size_t SideCorners>
+template<class Source>
 std::vector<std::size_t> metOnce(
-  std::size_t vertexCount, const Simplices<Corners>& cells, const int (&sides)[Sides][SideCorners])
+  std::size_t vertexCount, const Source& source, const ParallelFor& parallelFor)
 {
-  VertexBuckets<Side> buckets(vertexCount);
-  forEachSide(cells, sides, [&](Index vertex, const Side&) { buckets.count(vertex); });
-  buckets.start();
-  forEachSide(cells, sides, [&](Index vertex, const Side& side) { buckets.add(vertex, side); });
-  std::vector<std::size_t> places;
-  SingleSides singles;
-  buckets.forEach([&](Index, Side* first, Side* last) { singles.find(first, last, places); });
+  VertexBuckets<Index> cellsAt(vertexCount);
+  const auto visit = [&](std::size_t begin, std::size_t end, const auto& use)
+  {
+    for (std::size_t c = begin; c < end; ++c)
+    {
+      const auto cell = static_cast<Index>(c);
+      forSmallest(source.cells[c], source.among, [&](Index vertex) { use(vertex, cell); });
+    }
+  };
+  cellsAt.fill(source.cells.size(), visit, parallelFor);
+  auto places = collect<std::size_t>(parallelFor, vertexCount, fineGrain,
+    [&](std::size_t begin, std::size_t end, std::vector<std::size_t>& found)
+    {
+      SingleSides singles;
+      std::vector<Side> sides;
+      for (std::size_t v = begin; v < end; ++v)
+      {
+        const auto vertex = static_cast<Index>(v);
+        const auto [first, last] = cellsAt.at(vertex);
+        sides.clear();
+        std::for_each(first, last, [&](Index cell) { source.append(vertex, cell, sides); });
+        singles.find(sides.data(), sides.data() + sides.size(), found);
+      }
+    });
   std::sort(places.begin(), places.end());
   return places;
 }
 
 template<std::size_t Corners, std::size_t Sides, std::size_t SideCorners>
-std::vector<Facet> outerFacets(
-  std::size_t vertexCount, const Simplices<Corners>& cells, const int (&sides)[Sides][SideCorners])
+std::vector<Facet> outerFacets(std::size_t vertexCount, const Simplices<Corners>& cells,
+  const int (&sides)[Sides][SideCorners], const std::vector<unsigned char>& among,
+  const ParallelFor& parallelFor)
 {
+  const SideSource<Corners, Sides, SideCorners> source{ cells, sides, among };
   std::vector<Facet> facets;
-  for (const std::size_t place : metOnce(vertexCount, cells, sides))
+  for (const std::size_t place : metOnce(vertexCount, source, parallelFor))
   {
-    const std::size_t cell = place / Sides;
     Facet& facet = facets.emplace_back();
     facet.vertices.fill(-1);
-    std::transform(std::begin(sides[place % Sides]), std::end(sides[place % Sides]),
-      facet.vertices.begin(), [&](int corner) { return cells[cell][corner]; });
-    facet.cell = static_cast<Index>(cell);
+    const auto corners = source.cornersOf(place);
+    std::copy(corners.begin(), corners.end(), facet.vertices.begin());
+    facet.cell = static_cast<Index>(place / Sides);
   }
   return facets;
 }
 
 } // namespace
 
-std::vector<Facet> findOuterFacets(const SimplexMesh& mesh)
+std::vector<Facet> findOuterFacets(
+  const SimplexMesh& mesh, const std::vector<unsigned char>& among, const ParallelFor& parallelFor)
 {
-  return mesh.dimension == 3 ? outerFacets(mesh.points.size(), mesh.tetrahedra, tetrahedronFaces)
-                             : outerFacets(mesh.points.size(), mesh.triangles, triangleEdges);
+  const std::size_t vertices = mesh.points.size();
+  return mesh.dimension == 3
+           ? outerFacets(vertices, mesh.tetrahedra, tetrahedronFaces, among, parallelFor)
+           : outerFacets(vertices, mesh.triangles, triangleEdges, among, parallelFor);
 }
 
 std::vector<Facet> facetsOfSurface(const SimplexMesh& mesh)

@@ -1,6 +1,6 @@
-#include "Orientation.h"
+#include <cadrefine/mesh/Orientation.h>
 
-#include "Quality.h"
+#include <cadrefine/mesh/Quality.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 

@@ -1,8 +1,8 @@
 // Which way simplices turn: exactly, whatever the rounding of their coordinates.
 #pragma once
 
-#include "SimplexMesh.h"
-#include "Vector3.h"
+#include <cadrefine/base/Vector3.h>
+#include <cadrefine/mesh/SimplexMesh.h>
 
 #include <array>
 

@@ -1,4 +1,4 @@
-#include "Quality.h"
+#include <cadrefine/mesh/Quality.h>
 
 #include <cmath>
 

@@ -1,8 +1,8 @@
 // Volume, area and shape of simplices.
 #pragma once
 
-#include "SimplexMesh.h"
-#include "Vector3.h"
+#include <cadrefine/base/Vector3.h>
+#include <cadrefine/mesh/SimplexMesh.h>
 
 #include <array>
 

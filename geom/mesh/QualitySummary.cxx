@@ -1,10 +1,11 @@
-#include "QualitySummary.h"
+#include <cadrefine/mesh/QualitySummary.h>
 
-#include "Orientation.h"
-#include "Quality.h"
+#include <cadrefine/mesh/Orientation.h>
+#include <cadrefine/mesh/Quality.h>
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 
 namespace cadrefine
 {
@@ -64,15 +65,31 @@ double QualitySummary::minimum() const
   return std::min(12 * std::cbrt(smallestCube), smallestRatio);
 }
 
-QualitySummary summariseTetrahedra(const SimplexMesh& mesh)
+void QualitySummary::add(const QualitySummary& other)
 {
-  Summary summary;
-  const auto& p = mesh.points;
-  for (const auto& [a, b, c, d] : mesh.tetrahedra)
-  {
-    summary.add(p[a], p[b], p[c], p[d]);
-  }
-  return summary.result();
+  invalidCells += other.invalidCells;
+  smallestRatio = std::min(smallestRatio, other.smallestRatio);
+  smallestCube = std::min(smallestCube, other.smallestCube);
+}
+
+QualitySummary summariseTetrahedra(const SimplexMesh& mesh, const ParallelFor& parallelFor)
+{
+  QualitySummary result;
+  std::mutex mutex;
+  parallelFor(mesh.tetrahedra.size(), fineGrain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      Summary summary;
+      const auto& p = mesh.points;
+      for (std::size_t t = begin; t < end; ++t)
+      {
+        const auto [a, b, c, d] = mesh.tetrahedra[t];
+        summary.add(p[a], p[b], p[c], p[d]);
+      }
+      const std::lock_guard<std::mutex> lock(mutex);
+      result.add(summary.result());
+    });
+  return result;
 }
 
 } // namespace cadrefine

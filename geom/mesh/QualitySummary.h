@@ -1,7 +1,8 @@
 // Validity and quality of all cells at once.
 #pragma once
 
-#include "SimplexMesh.h"
+#include <cadrefine/base/ParallelFor.h>
+#include <cadrefine/mesh/SimplexMesh.h>
 
 #include <cstdint>
 #include <limits>
@@ -18,6 +19,8 @@ struct QualitySummary
   double smallestRatio = std::numeric_limits<double>::infinity();
   double smallestCube = std::numeric_limits<double>::infinity();
 
+  /// Takes the cells of another summary too.
+  void add(const QualitySummary& other);
   /// Of the mean ratios.
   double minimum() const;
 };
@@ -26,6 +29,7 @@ struct QualitySummary
 /// few: a volume that is larger than the rounding errors in it is positive, and of mean ratios the
 /// cubes are compared. Some 10 ns a cell. The summary of two meshes is that of their cells
 /// together.
-QualitySummary summariseTetrahedra(const SimplexMesh& mesh);
+QualitySummary summariseTetrahedra(
+  const SimplexMesh& mesh, const ParallelFor& parallelFor = serialFor);
 
 } // namespace cadrefine

@@ -1,8 +1,8 @@
 // One rank's piece of a mesh of simplices.
 #pragma once
 
-#include "MeshTypes.h"
-#include "Vector3.h"
+#include <cadrefine/base/MeshTypes.h>
+#include <cadrefine/base/Vector3.h>
 
 #include <array>
 #include <vector>

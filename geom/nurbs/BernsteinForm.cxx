@@ -1,6 +1,6 @@
-#include "BernsteinForm.h"
+#include <cadrefine/nurbs/BernsteinForm.h>
 
-#include "BernsteinBasis.h"
+#include <cadrefine/nurbs/BernsteinBasis.h>
 
 #include <array>
 

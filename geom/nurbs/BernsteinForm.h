@@ -2,8 +2,8 @@
 // Private to geom/nurbs.
 #pragma once
 
-#include "Interval.h"
-#include "PatchView.h"
+#include <cadrefine/nurbs/Interval.h>
+#include <cadrefine/nurbs/PatchView.h>
 
 #include <vector>
 

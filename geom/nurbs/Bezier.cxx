@@ -1,6 +1,7 @@
-#include "Bezier.h"
+#include <cadrefine/nurbs/Bezier.h>
 
-#include "PatchView.h"
+#include <cadrefine/nurbs/BernsteinBasis.h>
+#include <cadrefine/nurbs/PatchView.h>
 
 namespace cadrefine
 {
@@ -19,6 +20,22 @@ double inverseWidth(double x0, double x1)
 }
 
 } // namespace
+
+Point2 evaluate(const BezierCurve2& curve, double t)
+{
+  const int degree = static_cast<int>(curve.points.size()) - 1;
+  BasisValues basis;
+  bernsteinValues(degree, t, basis);
+  ControlPoint2 sum{};
+  for (int i = 0; i <= degree; ++i)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      sum[k] += basis[i] * curve.points[i][k];
+    }
+  }
+  return { sum[0] / sum[2], sum[1] / sum[2] };
+}
 
 Point3 evaluate(const BezierCurve& curve, double t)
 {

@@ -1,9 +1,11 @@
 // Rational Bezier curves and patches in plain arrays: what every NURBS entity is split into.
 #pragma once
 
-#include "Vector3.h"
+#include <cadrefine/base/Vector3.h>
 
 #include <array>
+#include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace cadrefine
@@ -23,11 +25,14 @@ struct BezierCurve
   std::vector<ControlPoint> points;
 };
 
-/// Rational Bezier curve in a face's (u, v) plane: one piece of a trim loop. Its own parameter has
-/// no meaning outside it.
+/// Rational Bezier curve in a face's (u, v) plane: one piece of a trim loop. Its own parameter runs
+/// over [0, 1], and has no meaning outside it.
 struct BezierCurve2
 {
   std::vector<ControlPoint2> points;
+  std::int32_t edge = -1; ///< The CAD edge that it belongs to; -1: none.
+  /// How far it lies off that edge (see trimSupport); infinite: not measured.
+  double deviation = std::numeric_limits<double>::infinity();
 };
 
 /// Rational Bezier patch over [u0, u1] x [v0, v1]; control point (i, j), i along u and j along v,
@@ -57,6 +62,7 @@ struct PatchDerivatives
   Vector3 u, v, uu, uv, vv;
 };
 
+Point2 evaluate(const BezierCurve2& curve, double t);
 Point3 evaluate(const BezierCurve& curve, double t);
 CurveDerivatives evaluateDerivatives(const BezierCurve& curve, double t);
 Point3 evaluate(const BezierPatch& patch, double u, double v);

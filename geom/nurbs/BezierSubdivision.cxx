@@ -1,4 +1,4 @@
-#include "BezierSubdivision.h"
+#include <cadrefine/nurbs/BezierSubdivision.h>
 
 namespace cadrefine
 {
@@ -11,7 +11,7 @@ ControlPoint blend(const ControlPoint& a, const ControlPoint& b, double s)
   return { r * a[0] + s * b[0], r * a[1] + s * b[1], r * a[2] + s * b[2], r * a[3] + s * b[3] };
 }
 
-/// Keeps [0, s] of the curve with control points c[0], c[step], ...
+/// Keeps, or continues to, [0, s] of the curve with control points c[0], c[step], ...
 void keepLower(ControlPoint* c, int degree, int step, double s)
 {
   for (int r = 1; r <= degree; ++r)
@@ -37,11 +37,11 @@ void keepUpper(ControlPoint* c, int degree, int step, double s)
 
 void keepRange(ControlPoint* c, int degree, int step, double s0, double s1)
 {
-  if (s1 < 1.0)
+  if (s1 != 1.0)
   {
     keepLower(c, degree, step, s1);
   }
-  if (s0 > 0.0)
+  if (s0 != 0.0)
   {
     keepUpper(c, degree, step, s0 / s1);
   }

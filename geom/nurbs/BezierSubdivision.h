@@ -1,8 +1,8 @@
 // Restriction of rational Bezier patches and curves to a part of their parameters.
 #pragma once
 
-#include "ParameterRectangle.h"
-#include "PatchView.h"
+#include <cadrefine/nurbs/ParameterRectangle.h>
+#include <cadrefine/nurbs/PatchView.h>
 
 #include <vector>
 

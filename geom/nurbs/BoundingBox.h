@@ -1,7 +1,7 @@
 // Axis-aligned boxes. Private to geom/nurbs.
 #pragma once
 
-#include "Vector3.h"
+#include <cadrefine/base/Vector3.h>
 
 #include <algorithm>
 #include <limits>

@@ -3,7 +3,7 @@
 // heuristic, after I. Wald, "On fast construction of SAH-based bounding volume hierarchies", IEEE
 // Symposium on Interactive Ray Tracing 2007), as long as it leaves an eighth on either side.
 
-#include "BoundingBoxTree.h"
+#include <cadrefine/nurbs/BoundingBoxTree.h>
 
 #include <tuple>
 

@@ -1,11 +1,13 @@
 // Hierarchies of axis-aligned boxes. Private to geom/nurbs.
 #pragma once
 
-#include "BoundingBox.h"
+#include <cadrefine/nurbs/BoundingBox.h>
+#include <cadrefine/nurbs/FetchAhead.h>
 
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <vector>
 
 namespace cadrefine
@@ -35,15 +37,16 @@ public:
   /// A tree over `entries`, which are put into an order in which neighbours are near each other.
   Root build(std::vector<Entry>& entries);
 
-  /// A tree over two others, each of which may be `none`. Where both are equally near, `b` is
-  /// visited first.
+  /// A tree over two others, each of which may be `none`.
   Root join(Root a, Root b);
 
   /// Calls `visit(item, bound)` for every item below `root` whose box may be within the square root
   /// of `limit()` of q, nearer boxes first; the squared distance of the box is at least `bound`.
-  /// `limit` is asked again after every visit.
-  template<typename Limit, typename Visit>
-  void visitNear(Root root, const Point3& q, const Limit& limit, const Visit& visit) const;
+  /// `limit` is asked again after every visit. `expect(item)` is called before for items that may
+  /// be visited, so that they can be fetched from memory meanwhile.
+  template<typename Limit, typename Expect, typename Visit>
+  void visitNear(
+    Root root, const Point3& q, const Limit& limit, const Expect& expect, const Visit& visit) const;
 
 private:
   static constexpr int width = 4;
@@ -63,6 +66,20 @@ private:
     std::array<float, 3> low, high;
   };
 
+  using Waiting = std::uint64_t;
+  static constexpr Waiting nowhere = std::numeric_limits<Waiting>::max();
+
+  /// What a visit has still to look at.
+  struct Queue
+  {
+    static constexpr int mostWaiting = 256; // three times the depth of a tree over 2^31 items
+    Waiting next = nowhere;
+    int size = 0;
+    std::array<Waiting, mostWaiting> stack;
+  };
+
+  static Waiting waiting(Root root, float bound);
+  static float boundOf(Waiting waiting);
   static Root toRoot(int item) { return ~item; }
   static int toItem(Root root) { return ~root; }
 
@@ -70,6 +87,10 @@ private:
   Root addNode();
   Root buildRange(std::vector<Entry>& entries, std::size_t first, std::size_t last);
   RoundedPoint rounded(const Point3& p) const;
+  template<typename Expect>
+  void open(const Node& node, const RoundedPoint& q, Waiting reach, Queue& queue,
+    const Expect& expect) const;
+  static constexpr float mostForMiddle = 1e-13F; // in units of the squared size
   static Lanes squaredDistances(const Node& node, const RoundedPoint& q);
 
   std::vector<Node> nodes_;
@@ -92,12 +113,15 @@ inline BoundingBoxTree::RoundedPoint BoundingBoxTree::rounded(const Point3& p) c
   return r;
 }
 
-/// Lower bounds; infinite for children that are not there.
+/// Lower bounds, and at most mostForMiddle above them, so that of boxes that q lies in the one
+/// whose middle is nearest comes first; infinite for children that are not there.
 inline BoundingBoxTree::Lanes BoundingBoxTree::squaredDistances(
   const Node& node, const RoundedPoint& q)
 {
   constexpr float rounding = 1.0F - 1e-6F;
+  constexpr float farthest = 4.0F;
   Lanes sum{};
+  Lanes middles{}; // squares of twice the distances to them
   for (int k = 0; k < 3; ++k)
   {
     const Lanes below = node.low[k] - q.high[k];
@@ -105,58 +129,85 @@ inline BoundingBoxTree::Lanes BoundingBoxTree::squaredDistances(
     const Lanes larger = below > above ? below : above;
     const Lanes gap = larger > 0.0F ? larger : 0.0F;
     sum += gap * gap;
+    const Lanes middle = (below < farthest ? below : farthest) - above; // both may be infinite
+    middles += middle * middle;
   }
-  return rounding * sum;
+  const Lanes capped = middles < farthest ? middles : farthest;
+  return rounding * sum + mostForMiddle / farthest * capped;
 }
 
-template<typename Limit, typename Visit>
-void BoundingBoxTree::visitNear(
-  Root root, const Point3& q, const Limit& limit, const Visit& visit) const
+/// Lower bound and root of what waits to be visited, as one number that is the larger the larger
+/// the bound is.
+inline BoundingBoxTree::Waiting BoundingBoxTree::waiting(Root root, float bound)
 {
-  struct Waiting
+  std::uint32_t bits = 0; // of numbers that are not negative, in their order
+  std::memcpy(&bits, &bound, sizeof(bits));
+  return static_cast<Waiting>(bits) << 32 | static_cast<std::uint32_t>(root);
+}
+
+inline float BoundingBoxTree::boundOf(Waiting waiting)
+{
+  const auto bits = static_cast<std::uint32_t>(waiting >> 32);
+  float bound = 0;
+  std::memcpy(&bound, &bits, sizeof(bound));
+  return bound;
+}
+
+/// The nearest child of the node becomes `next`, others within reach go onto the stack: without
+/// branches, since which it is cannot be foretold.
+template<typename Expect>
+void BoundingBoxTree::open(
+  const Node& node, const RoundedPoint& q, Waiting reach, Queue& queue, const Expect& expect) const
+{
+  const Lanes bounds = squaredDistances(node, q);
+  for (int i = 0; i < width; ++i)
   {
-    Root root;
-    float bound;
-  };
-  constexpr int stackSize = 256; // three times the depth of a tree over 2^31 items, and more
-  constexpr double up = 1.0 + 1.2e-7;
-  constexpr float nowhere = std::numeric_limits<float>::infinity();
-  std::array<Waiting, stackSize> stack;
+    const Waiting child = waiting(node.child[i], bounds[i]);
+    if (child <= reach)
+    {
+      node.child[i] < 0 ? expect(toItem(node.child[i])) : fetchAhead(&nodes_[node.child[i]]);
+    }
+    const Waiting exchanged = (child ^ queue.next) & (Waiting{} - (child < queue.next));
+    const Waiting farther = child ^ exchanged;
+    queue.next ^= exchanged;
+    queue.stack[queue.size] = farther;
+    queue.size += farther <= reach ? 1 : 0;
+  }
+}
+
+template<typename Limit, typename Expect, typename Visit>
+void BoundingBoxTree::visitNear(
+  Root root, const Point3& q, const Limit& limit, const Expect& expect, const Visit& visit) const
+{
   const RoundedPoint at = rounded(q);
   const double unit = 1.0 / (scale_ * scale_);
   const auto reachOf = [&](double squaredLimit)
   {
-    return static_cast<float>(
-      std::min<double>(up * scale_ * scale_ * squaredLimit, std::numeric_limits<float>::max()));
+    constexpr double up = 1.0 + 1.2e-7;
+    return waiting(
+      -1, static_cast<float>(std::min<double>(up * (scale_ * scale_ * squaredLimit + mostForMiddle),
+            std::numeric_limits<float>::max())));
   };
-  float reach = reachOf(limit());
-  int size = 0;
-  Waiting next = { root, root == none ? nowhere : 0.0F };
-  while (next.bound <= reach || size > 0)
+  Waiting reach = reachOf(limit());
+  Queue queue;
+  queue.next = root == none ? nowhere : waiting(root, 0.0F);
+  while (queue.next <= reach || queue.size > 0)
   {
-    const Waiting here = next.bound <= reach ? next : stack[--size];
-    next.bound = nowhere;
-    if (here.bound > reach)
+    const Waiting here = queue.next <= reach ? queue.next : queue.stack[--queue.size];
+    queue.next = nowhere;
+    if (here > reach)
     {
       continue;
     }
-    if (here.root < 0)
+    const auto hereRoot = static_cast<Root>(here);
+    if (hereRoot < 0)
     {
-      visit(toItem(here.root), unit * here.bound);
+      visit(toItem(hereRoot), unit * (boundOf(here) - mostForMiddle));
       reach = reachOf(limit());
-      continue;
     }
-    // Without branches: the nearest child is next, others within reach go onto the stack.
-    const Node& node = nodes_[here.root];
-    const Lanes bounds = squaredDistances(node, at);
-    for (int i = 0; i < width; ++i)
+    else
     {
-      const Waiting child = { node.child[i], bounds[i] };
-      const bool nearer = child.bound <= next.bound;
-      const Waiting farther = nearer ? next : child;
-      next = nearer ? child : next;
-      stack[size] = farther;
-      size += farther.bound <= reach ? 1 : 0;
+      open(nodes_[hereRoot], at, reach, queue, expect);
     }
   }
 }

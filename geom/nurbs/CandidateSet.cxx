@@ -1,4 +1,4 @@
-#include "CandidateSet.h"
+#include <cadrefine/nurbs/CandidateSet.h>
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // The entities that a query may still answer with. Private to geom/nurbs.
 #pragma once
 
-#include "EntityId.h"
+#include <cadrefine/base/EntityId.h>
 
 #include <boost/container/small_vector.hpp>
 

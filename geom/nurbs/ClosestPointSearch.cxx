@@ -1,7 +1,8 @@
-#include "ClosestPointSearch.h"
+#include <cadrefine/nurbs/ClosestPointSearch.h>
 
-#include "LeafQuery.h"
-#include "SearchStructure.h"
+#include <cadrefine/nurbs/FetchAhead.h>
+#include <cadrefine/nurbs/LeafQuery.h>
+#include <cadrefine/nurbs/SearchStructure.h>
 
 #include <cmath>
 
@@ -43,7 +44,8 @@ void visitTree(const SearchStructure& structure, BoundingBoxTree::Root root, con
     const double limit = query.candidates().limit();
     return limit * limit;
   };
-  structure.tree.visitNear(root, q, squaredLimit,
+  structure.tree.visitNear(
+    root, q, squaredLimit, [&](int item) { fetchAhead(&structure.leaves[item]); },
     [&](int item, double squaredDistance)
     {
       const SearchLeaf& leaf = structure.leaves[item];
@@ -88,7 +90,16 @@ ClosestPoint ClosestPointSearch::Implementation::onPatch(
   ClosestPoint result;
   result.entity = candidate.id;
   result.parameters = patch.parametersAt(candidate.s, candidate.t);
-  result.point = patch.evaluateAt(result.parameters);
+  if (patch.trim)
+  {
+    result.borderEdge = patch.trim->edge;
+    result.parameters = structure.onGrid(patch.entity, evaluate(*patch.trim, result.parameters[0]));
+    result.point = structure.patchAt(patch.entity, result.parameters).evaluateAt(result.parameters);
+  }
+  else
+  {
+    result.point = patch.evaluateAt(result.parameters);
+  }
   const Seams& seams = structure.entities[patch.entity].seams;
   if (seams.any())
   {

@@ -1,7 +1,7 @@
-#include "ConvexityBounds.h"
+#include <cadrefine/nurbs/ConvexityBounds.h>
 
-#include "RationalForm.h"
-#include "SquareMinimum.h"
+#include <cadrefine/nurbs/DistanceMinimizer.h>
+#include <cadrefine/nurbs/RationalForm.h>
 
 #include <algorithm>
 #include <cmath>
@@ -232,14 +232,16 @@ ConvexityBounds::Answer ConvexityBounds::ask(const Point3& q) const
   const double gradientS = dot(k, tangentS_);
   const double gradientT = dot(k, tangentT_);
   const double r = answer.convex ? std::sqrt(a / d) : 1.0;
-  answer.squaredDistanceBound = squaredNorm(k) + 2.0 * (leastOverHalves(a - b * r, gradientS) +
-                                                         leastOverHalves(d - b / r, gradientT));
+  const double twistS = b * r;
+  const double twistT = b / r;
+  answer.squaredDistanceBound = squaredNorm(k) + 2.0 * (leastOverHalves(a - twistS, gradientS) +
+                                                         leastOverHalves(d - twistT, gradientT));
   // What the terms may have lost by rounding: close to the patch they cancel, and a bound that is
   // wrong by 1e-16 of the patch's squared size would hide points 1e-8 of its size away.
   constexpr double rounding = 32 * std::numeric_limits<double>::epsilon();
   const double terms = squaredNorm(k) + std::abs(gradientS) + std::abs(gradientT) +
                        ownSS.magnitude() + ownTT.magnitude() + rangeSS.magnitude() +
-                       rangeTT.magnitude() + b * (r + 1 / r);
+                       rangeTT.magnitude() + twistS + twistT;
   answer.squaredDistanceBound -= rounding * terms;
   if (!answer.convex)
   {

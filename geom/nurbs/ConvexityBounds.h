@@ -1,9 +1,9 @@
 // What is known beforehand about the distance to a small patch. Private to geom/nurbs.
 #pragma once
 
-#include "Interval.h"
-#include "PatchView.h"
-#include "Vector3.h"
+#include <cadrefine/base/Vector3.h>
+#include <cadrefine/nurbs/Interval.h>
+#include <cadrefine/nurbs/PatchView.h>
 
 #include <array>
 

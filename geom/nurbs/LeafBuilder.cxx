@@ -1,6 +1,6 @@
-#include "LeafBuilder.h"
+#include <cadrefine/nurbs/LeafBuilder.h>
 
-#include "BezierSubdivision.h"
+#include <cadrefine/nurbs/BezierSubdivision.h>
 
 #include <algorithm>
 #include <deque>

@@ -1,8 +1,8 @@
 // Cuts patches and segments into leaves. Private to geom/nurbs.
 #pragma once
 
-#include "BoundingBox.h"
-#include "SearchStructure.h"
+#include <cadrefine/nurbs/BoundingBox.h>
+#include <cadrefine/nurbs/SearchStructure.h>
 
 #include <vector>
 

@@ -1,7 +1,8 @@
-#include "LeafQuery.h"
+#include <cadrefine/nurbs/LeafQuery.h>
 
-#include "LeafSubdivision.h"
-#include "SquareMinimum.h"
+#include <cadrefine/nurbs/DistanceMinimizer.h>
+#include <cadrefine/nurbs/FetchAhead.h>
+#include <cadrefine/nurbs/LeafSubdivision.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +16,8 @@ namespace
 constexpr double tieTolerance = 1e-12;
 /// Of the model's size: how much nearer than the answer a point may be that is not looked for.
 constexpr double searchTolerance = 5e-10;
+/// Control points.
+constexpr int mostFetched = 16;
 
 } // namespace
 
@@ -63,7 +66,7 @@ void LeafQuery::offer(const SearchLeaf& leaf, double s, double t, double distanc
 void LeafQuery::solve(
   const SearchLeaf& leaf, const ParameterRectangle& part, double s, double t, double squaredLimit)
 {
-  const SquareMinimum foot = minimizeDistance(
+  const DistanceMinimizer foot = minimizeDistance(
     structure_.patches[leaf.patch].view, q_, part, s, t, leaf.bounds.radius(), squaredLimit);
   offer(leaf, foot.s, foot.t, std::sqrt(foot.squaredDistance));
 }
@@ -75,6 +78,12 @@ void LeafQuery::visit(const SearchLeaf& leaf, EntityId id, bool border, double s
     visitVertex(leaf);
     return;
   }
+  const SearchPatch& patch = structure_.patches[leaf.patch];
+  if ((ignoreTrim_ && patch.trim) || isDone(leaf.patch))
+  {
+    return;
+  }
+  fetchAhead(patch.view.points, std::min(patch.view.count(), mostFetched));
   const ConvexityBounds::Answer answer = leaf.bounds.ask(q_);
   const double bound = std::max(squaredBound, answer.squaredDistanceBound);
   if (!isWithinLimit(bound))
@@ -91,10 +100,61 @@ void LeafQuery::visit(const SearchLeaf& leaf, EntityId id, bool border, double s
   waiting_.push_back(waiting);
   id_ = id;
   border_ = border;
-  const Point3 start = answer.convex
-                         ? evaluateLocal(structure_.patches[leaf.patch].view, waiting.s, waiting.t)
-                         : leaf.bounds.middle();
+  const Point3 start =
+    answer.convex ? evaluateLocal(patch.view, waiting.s, waiting.t) : leaf.bounds.middle();
   offer(leaf, waiting.s, waiting.t, distance(start, q_));
+}
+
+bool LeafQuery::isDone(int patch) const
+{
+  return std::find(donePatches_.begin(), donePatches_.end(), patch) != donePatches_.end();
+}
+
+/// The minimum is unique. Where it is trimmed away, that over what is left of the leaf is on the
+/// trim border, which edges cover, or curves along it.
+void LeafQuery::finishConvex(const Waiting& waiting)
+{
+  const double limit = candidates_.limit();
+  solve(*waiting.leaf, waiting.leaf->part(), waiting.s, waiting.t, limit * limit);
+}
+
+bool LeafQuery::isWholePatchBetter(int patch) const
+{
+  constexpr int many = 6;
+  const auto isOfPatch = [&](const Waiting& waiting) {
+    return waiting.leaf->patch == patch && !waiting.convex && isWithinLimit(waiting.squaredBound);
+  };
+  return donePatches_.size() < donePatches_.capacity() &&
+         std::count_if(waiting_.begin(), waiting_.end(), isOfPatch) >= many;
+}
+
+void LeafQuery::subdivideWhole(int patch)
+{
+  donePatches_.push_back(patch);
+  const SearchPatch& of = structure_.patches[patch];
+  SearchLeaf whole;
+  whole.bounds = ConvexityBounds(of.view);
+  whole.patch = patch;
+  whole.entity = of.entity;
+  whole.cut = structure_.entities[of.entity].trim != nullptr && !of.trim;
+  LeafSubdivision(*this, whole).run();
+}
+
+void LeafQuery::subdivide(const Waiting& waiting)
+{
+  const int patch = waiting.leaf->patch;
+  if (isDone(patch))
+  {
+    return;
+  }
+  if (isWholePatchBetter(patch))
+  {
+    subdivideWhole(patch);
+  }
+  else
+  {
+    LeafSubdivision(*this, *waiting.leaf).run();
+  }
 }
 
 void LeafQuery::finish()
@@ -110,17 +170,7 @@ void LeafQuery::finish()
     }
     id_ = waiting.id;
     border_ = waiting.border;
-    if (waiting.convex)
-    {
-      // The minimum is unique. Where it is trimmed away, that over what is left of the leaf is on
-      // the trim border, which the edges cover.
-      const double limit = candidates_.limit();
-      solve(*waiting.leaf, waiting.leaf->part(), waiting.s, waiting.t, limit * limit);
-    }
-    else
-    {
-      LeafSubdivision(*this, *waiting.leaf).run();
-    }
+    waiting.convex ? finishConvex(waiting) : subdivide(waiting);
   }
   waiting_.clear();
 }

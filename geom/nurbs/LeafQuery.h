@@ -1,8 +1,8 @@
 // One query's work on the leaves. Private to geom/nurbs.
 #pragma once
 
-#include "CandidateSet.h"
-#include "SearchStructure.h"
+#include <cadrefine/nurbs/CandidateSet.h>
+#include <cadrefine/nurbs/SearchStructure.h>
 
 #include <boost/container/static_vector.hpp>
 
@@ -12,7 +12,8 @@ namespace cadrefine
 /// State of one query while it runs over the leaves, in two steps: while leaves are visited, a
 /// cheap point of each brings the limit down; those that remain within it are then solved, the most
 /// promising first. Leaves over which the distance is convex are solved by Newton's method, the
-/// others are subdivided.
+/// others are subdivided; where there are many of one patch, as round a centre of curvature, the
+/// patch is, as a whole.
 class LeafQuery
 {
 public:
@@ -53,6 +54,11 @@ private:
   void solve(const SearchLeaf& leaf, const ParameterRectangle& part, double s, double t,
     double squaredLimit = std::numeric_limits<double>::infinity());
   const TrimRegion* trimOf(const SearchLeaf& leaf) const;
+  void finishConvex(const Waiting& waiting);
+  void subdivide(const Waiting& waiting);
+  bool isWholePatchBetter(int patch) const;
+  bool isDone(int patch) const;
+  void subdivideWhole(int patch);
 
   const SearchStructure& structure_;
   Point3 q_;
@@ -63,7 +69,8 @@ private:
   double work_ = 0;
   static constexpr int mostWaiting = 64;
   boost::container::static_vector<Waiting, mostWaiting> waiting_;
-  EntityId id_; // of the leaf at work
+  boost::container::static_vector<int, mostWaiting> donePatches_; ///< Subdivided as a whole.
+  EntityId id_;                                                   // of the leaf at work
   bool border_ = false;
 };
 

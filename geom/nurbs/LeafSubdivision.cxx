@@ -1,6 +1,6 @@
-#include "LeafSubdivision.h"
+#include <cadrefine/nurbs/LeafSubdivision.h>
 
-#include "BezierSubdivision.h"
+#include <cadrefine/nurbs/BezierSubdivision.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@ namespace
 /// Multiplications, roughly, that one query may spend on subdivision.
 constexpr double workLimit = 4e7;
 /// Rectangles shorter than this part of the search tolerance are not split that way: the distance
-/// varies less over them than matters, and where loops cut them an edge is as near.
+/// varies less over them than matters, and where loops cut them their border is as near.
 constexpr double smallestLength = 0.25;
 
 std::vector<double>& threadScratch(int which)

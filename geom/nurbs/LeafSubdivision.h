@@ -1,8 +1,8 @@
 // Exact search of a leaf over which the distance need not be convex. Private to geom/nurbs.
 #pragma once
 
-#include "BernsteinForm.h"
-#include "LeafQuery.h"
+#include <cadrefine/nurbs/BernsteinForm.h>
+#include <cadrefine/nurbs/LeafQuery.h>
 
 #include <vector>
 

@@ -1,8 +1,8 @@
-#include "ModelCheck.h"
+#include <cadrefine/nurbs/ModelCheck.h>
 
-#include "BernsteinBasis.h"
-#include "Error.h"
-#include "PatchView.h"
+#include <cadrefine/base/Error.h>
+#include <cadrefine/nurbs/BernsteinBasis.h>
+#include <cadrefine/nurbs/PatchView.h>
 
 #include <cmath>
 #include <string>
@@ -12,102 +12,128 @@ namespace cadrefine
 namespace
 {
 
-[[noreturn]] void refuse(EntityId id, const std::string& what)
-{
-  const char* const kinds[] = { "vertex ", "edge ", "face " };
-  throw Error(
-    "CAD model: " + std::string(kinds[id.dimension]) + std::to_string(id.index) + " " + what);
-}
-
 bool isInRange(double coordinate)
 {
   return std::abs(coordinate) <= largestCoordinate; // false for NaN
 }
 
 template<typename Coordinates>
-void checkCoordinates(const Coordinates& coordinates, const char* what, EntityId id)
+void checkCoordinates(const Coordinates& coordinates, const char* what)
 {
   for (const double coordinate : coordinates)
   {
     if (!isInRange(coordinate))
     {
-      refuse(id, "has a " + std::string(what) + " that is not finite or beyond 1e50");
+      throw Error("has a " + std::string(what) + " that is not finite or beyond 1e50");
     }
   }
 }
 
 /// Control points of a curve or surface in space or in the parameter plane; the weight is last.
 template<typename Points>
-void checkPoints(const Points& points, EntityId id)
+void checkPoints(const Points& points)
 {
   for (const auto& point : points)
   {
-    checkCoordinates(point, "control point", id);
+    checkCoordinates(point, "control point");
     if (!(point.back() >= 1 / largestCoordinate))
     {
-      refuse(id, "has a control point of a weight that is not positive");
+      throw Error("has a control point of a weight that is not positive");
     }
     for (const double coordinate : point)
     {
-      checkCoordinates(std::array<double, 1>{ coordinate / point.back() }, "control point", id);
+      checkCoordinates(std::array<double, 1>{ coordinate / point.back() }, "control point");
     }
   }
 }
 
-void checkPatch(const PatchView& view, const std::vector<ControlPoint>& points, EntityId id)
+void checkPatch(const PatchView& view, const std::vector<ControlPoint>& points)
 {
   if (view.degreeU < 0 || view.degreeV < 0 || view.degreeU > maximumDegree ||
       view.degreeV > maximumDegree)
   {
-    refuse(id, "has a degree outside 0 to " + std::to_string(maximumDegree));
+    throw Error("has a degree outside 0 to " + std::to_string(maximumDegree));
   }
   if (points.size() != static_cast<std::size_t>(view.count()))
   {
-    refuse(id, "has control points that are too few or too many");
+    throw Error("has control points that are too few or too many");
   }
-  checkPoints(points, id);
+  checkPoints(points);
 }
 
-void checkFace(const NurbsFace& face, EntityId id)
+void checkFace(const NurbsFace& face)
 {
   for (const BezierPatch& patch : face.patches)
   {
-    checkPatch(viewOf(patch), patch.points, id);
-    checkCoordinates(std::array{ patch.u0, patch.u1, patch.v0, patch.v1 }, "parameter", id);
+    checkPatch(viewOf(patch), patch.points);
+    checkCoordinates(std::array{ patch.u0, patch.u1, patch.v0, patch.v1 }, "parameter");
   }
   for (const TrimLoop& loop : face.loops)
   {
     for (const BezierCurve2& curve : loop)
     {
-      checkPoints(curve.points, id);
+      checkPoints(curve.points);
     }
   }
 }
 
-void checkEdge(const NurbsEdge& edge, EntityId id)
+void checkEdge(const NurbsEdge& edge)
 {
   for (const BezierCurve& segment : edge.segments)
   {
-    checkPatch(viewOf(segment), segment.points, id);
-    checkCoordinates(std::array{ segment.t0, segment.t1 }, "parameter", id);
+    checkPatch(viewOf(segment), segment.points);
+    checkCoordinates(std::array{ segment.t0, segment.t1 }, "parameter");
+  }
+}
+
+/// What `check` throws; empty: nothing.
+template<typename Check>
+std::string faultFoundBy(const Check& check)
+{
+  try
+  {
+    check();
+    return {};
+  }
+  catch (const Error& fault)
+  {
+    return fault.what();
+  }
+}
+
+void refuse(const char* kind, int index, const std::string& fault)
+{
+  if (!fault.empty())
+  {
+    throw Error("CAD model: " + std::string(kind) + " " + std::to_string(index) + " " + fault);
   }
 }
 
 } // namespace
 
+std::string faultOf(const NurbsFace& face)
+{
+  return faultFoundBy([&] { checkFace(face); });
+}
+
+std::string faultOf(const NurbsEdge& edge)
+{
+  return faultFoundBy([&] { checkEdge(edge); });
+}
+
 void checkModel(const NurbsModel& model)
 {
-  for (std::int32_t i = 0; i < model.count(0); ++i)
+  for (int i = 0; i < model.count(0); ++i)
   {
-    checkCoordinates(model.vertices[i].point, "point", { 0, i });
+    refuse("vertex", i, faultFoundBy([&] { checkCoordinates(model.vertices[i].point, "point"); }));
   }
-  for (std::int32_t i = 0; i < model.count(1); ++i)
+  for (int i = 0; i < model.count(1); ++i)
   {
-    checkEdge(model.edges[i], { 1, i });
+    refuse("edge", i, faultOf(model.edges[i]));
   }
-  for (std::int32_t i = 0; i < model.count(2); ++i)
+  for (int i = 0; i < model.count(2); ++i)
   {
-    checkFace(model.faces[i], { 2, i });
+    refuse("face", i, faultOf(model.faces[i]));
   }
 }
 

@@ -2,8 +2,8 @@
 // geom/cad extracts from Open CASCADE, and all that the closest-point search needs.
 #pragma once
 
-#include "Bezier.h"
-#include "EntityId.h"
+#include <cadrefine/base/EntityId.h>
+#include <cadrefine/nurbs/Bezier.h>
 
 #include <array>
 #include <cstdint>
@@ -27,7 +27,12 @@ struct NurbsFace
   bool reversed = false;
   std::vector<std::int32_t> edges; ///< Bounding edges, each once, ascending.
   double tolerance = 0;            ///< How far its trim curves may lie off its edges.
+  /// How far the patches lie off the surface, where that had to be fitted; a length.
+  double fitError = 0;
 };
+
+/// The patch of a face that holds these parameters; of several the last, beyond them the nearest.
+const BezierPatch& patchAt(const NurbsFace& face, double u, double v);
 
 struct NurbsEdge
 {
@@ -64,5 +69,8 @@ struct NurbsModel
                                              : vertices.size());
   }
 };
+
+/// The face itself, or the first one that holds the edge, or the vertex's first edge; -1: none.
+std::int32_t firstFaceAt(const NurbsModel& model, EntityId entity);
 
 } // namespace cadrefine

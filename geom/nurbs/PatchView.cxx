@@ -1,6 +1,6 @@
-#include "PatchView.h"
+#include <cadrefine/nurbs/PatchView.h>
 
-#include "BernsteinBasis.h"
+#include <cadrefine/nurbs/BernsteinBasis.h>
 
 #include <type_traits>
 
@@ -9,74 +9,110 @@ namespace cadrefine
 namespace
 {
 
-inline void addScaled(ControlPoint& sum, double factor, const ControlPoint& term)
+/// Two numbers that are worked on at once (a vector type of GCC and Clang).
+using Pair = double __attribute__((vector_size(2 * sizeof(double))));
+
+/// Homogeneous coordinates.
+struct Quad
 {
-  for (int k = 0; k < 4; ++k)
-  {
-    sum[k] += factor * term[k];
-  }
+  Pair xy{};
+  Pair zw{};
+  double weight() const { return zw[1]; }
+};
+
+inline Quad operator*(double factor, const Quad& a)
+{
+  return { factor * a.xy, factor * a.zw };
 }
 
-inline Vector3 spatial(const ControlPoint& a)
+inline Quad operator-(const Quad& a, const Quad& b)
 {
-  return { a[0], a[1], a[2] };
+  return { a.xy - b.xy, a.zw - b.zw };
+}
+
+inline void add(Quad& sum, double factor, const Quad& term)
+{
+  sum.xy += factor * term.xy;
+  sum.zw += factor * term.zw;
+}
+
+inline Quad toQuad(const ControlPoint& p)
+{
+  return { Pair{ p[0], p[1] }, Pair{ p[2], p[3] } };
+}
+
+inline Vector3 spatial(const Quad& a)
+{
+  return { a.xy[0], a.xy[1], a.zw[0] };
 }
 
 /// Value and derivatives of the homogeneous numerator and weight.
 struct HomogeneousDerivatives
 {
-  ControlPoint value{}, u{}, v{}, uu{}, uv{}, vv{};
+  Quad value{}, u{}, v{}, uu{}, uv{}, vv{};
 };
 
 /// `U` and `V` are int, or a constant known to the compiler, which then unrolls all loops.
 template<typename U, typename V>
-HomogeneousDerivatives homogeneousDerivatives(
-  const ControlPoint* point, U degreeU, V degreeV, double s, double t)
+void addDerivatives(
+  const ControlPoint* point, U degreeU, V degreeV, double s, double t, HomogeneousDerivatives& h)
 {
   BernsteinBasis alongU;
   BernsteinBasis alongV;
   bernsteinDerivatives(degreeU, s, alongU);
   bernsteinDerivatives(degreeV, t, alongV);
-  HomogeneousDerivatives h;
   for (int i = 0; i <= degreeU; ++i)
   {
-    ControlPoint row{};
-    ControlPoint rowFirst{};
-    ControlPoint rowSecond{};
+    Quad row{};
+    Quad rowFirst{};
+    Quad rowSecond{};
     for (int j = 0; j <= degreeV; ++j, ++point)
     {
-      addScaled(row, alongV.value[j], *point);
-      addScaled(rowFirst, alongV.first[j], *point);
-      addScaled(rowSecond, alongV.second[j], *point);
+      const Quad p = toQuad(*point);
+      add(row, alongV.value[j], p);
+      if (degreeV > 0)
+      {
+        add(rowFirst, alongV.first[j], p);
+      }
+      if (degreeV > 1)
+      {
+        add(rowSecond, alongV.second[j], p);
+      }
     }
-    addScaled(h.value, alongU.value[i], row);
-    addScaled(h.u, alongU.first[i], row);
-    addScaled(h.uu, alongU.second[i], row);
-    addScaled(h.v, alongU.value[i], rowFirst);
-    addScaled(h.uv, alongU.first[i], rowFirst);
-    addScaled(h.vv, alongU.value[i], rowSecond);
+    add(h.value, alongU.value[i], row);
+    add(h.u, alongU.first[i], row);
+    if (degreeU > 1)
+    {
+      add(h.uu, alongU.second[i], row);
+    }
+    if (degreeV > 0)
+    {
+      add(h.v, alongU.value[i], rowFirst);
+      add(h.uv, alongU.first[i], rowFirst);
+    }
+    if (degreeV > 1)
+    {
+      add(h.vv, alongU.value[i], rowSecond);
+    }
   }
-  return h;
 }
 
 template<typename U, typename V>
-ControlPoint homogeneousValue(const ControlPoint* point, U degreeU, V degreeV, double s, double t)
+void addValue(const ControlPoint* point, U degreeU, V degreeV, double s, double t, Quad& sum)
 {
   BasisValues alongU;
   BasisValues alongV;
   bernsteinValues(degreeU, s, alongU);
   bernsteinValues(degreeV, t, alongV);
-  ControlPoint sum{};
   for (int i = 0; i <= degreeU; ++i)
   {
-    ControlPoint row{};
+    Quad row{};
     for (int j = 0; j <= degreeV; ++j, ++point)
     {
-      addScaled(row, alongV[j], *point);
+      add(row, alongV[j], toQuad(*point));
     }
-    addScaled(sum, alongU[i], row);
+    add(sum, alongU[i], row);
   }
-  return sum;
 }
 
 template<int degree>
@@ -129,25 +165,26 @@ PatchView viewOf(const BezierCurve& curve)
 
 Point3 evaluateLocal(const PatchView& patch, double s, double t)
 {
-  const ControlPoint p = withDegrees(patch, [&](auto degreeU, auto degreeV)
-    { return homogeneousValue(patch.points, degreeU, degreeV, s, t); });
-  return { p[0] / p[3], p[1] / p[3], p[2] / p[3] };
+  Quad p;
+  withDegrees(
+    patch, [&](auto degreeU, auto degreeV) { addValue(patch.points, degreeU, degreeV, s, t, p); });
+  return { p.xy[0] / p.weight(), p.xy[1] / p.weight(), p.zw[0] / p.weight() };
 }
 
 PatchDerivatives evaluateLocalDerivatives(const PatchView& patch, double s, double t)
 {
-  const HomogeneousDerivatives h = withDegrees(patch, [&](auto degreeU, auto degreeV)
-    { return homogeneousDerivatives(patch.points, degreeU, degreeV, s, t); });
-  const double weight = h.value[3];
+  HomogeneousDerivatives h;
+  withDegrees(patch,
+    [&](auto degreeU, auto degreeV) { addDerivatives(patch.points, degreeU, degreeV, s, t, h); });
+  const double weight = h.value.weight();
   const double inverse = 1.0 / weight;
-  PatchDerivatives d;
-  d.value = { h.value[0] / weight, h.value[1] / weight, h.value[2] / weight };
-  d.u = inverse * (spatial(h.u) - h.u[3] * d.value);
-  d.v = inverse * (spatial(h.v) - h.v[3] * d.value);
-  d.uu = inverse * (spatial(h.uu) - 2.0 * h.u[3] * d.u - h.uu[3] * d.value);
-  d.uv = inverse * (spatial(h.uv) - h.u[3] * d.v - h.v[3] * d.u - h.uv[3] * d.value);
-  d.vv = inverse * (spatial(h.vv) - 2.0 * h.v[3] * d.v - h.vv[3] * d.value);
-  return d;
+  const Quad value = { h.value.xy / weight, h.value.zw / weight };
+  const Quad u = inverse * (h.u - h.u.weight() * value);
+  const Quad v = inverse * (h.v - h.v.weight() * value);
+  const Quad uu = inverse * (h.uu - 2.0 * h.u.weight() * u - h.uu.weight() * value);
+  const Quad uv = inverse * (h.uv - h.u.weight() * v - h.v.weight() * u - h.uv.weight() * value);
+  const Quad vv = inverse * (h.vv - 2.0 * h.v.weight() * v - h.vv.weight() * value);
+  return { spatial(value), spatial(u), spatial(v), spatial(uu), spatial(uv), spatial(vv) };
 }
 
 } // namespace cadrefine

@@ -1,7 +1,7 @@
 // A rational Bezier patch or curve seen over the unit square. Private to geom/nurbs.
 #pragma once
 
-#include "Bezier.h"
+#include <cadrefine/nurbs/Bezier.h>
 
 namespace cadrefine
 {

@@ -1,6 +1,6 @@
-#include "RationalForm.h"
+#include <cadrefine/nurbs/RationalForm.h>
 
-#include "BernsteinBasis.h"
+#include <cadrefine/nurbs/BernsteinBasis.h>
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 // Private to geom/nurbs.
 #pragma once
 
-#include "BernsteinForm.h"
+#include <cadrefine/nurbs/BernsteinForm.h>
 
 #include <vector>
 

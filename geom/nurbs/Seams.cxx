@@ -1,6 +1,6 @@
-#include "Seams.h"
+#include <cadrefine/nurbs/Seams.h>
 
-#include "SearchStructure.h"
+#include <cadrefine/nurbs/SearchStructure.h>
 
 #include <algorithm>
 #include <cmath>

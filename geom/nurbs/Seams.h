@@ -2,7 +2,7 @@
 // geom/nurbs.
 #pragma once
 
-#include "PatchView.h"
+#include <cadrefine/nurbs/PatchView.h>
 
 #include <array>
 #include <vector>

@@ -1,10 +1,13 @@
-#include "SearchStructure.h"
+#include <cadrefine/nurbs/SearchStructure.h>
 
-#include "LeafBuilder.h"
-#include "ModelCheck.h"
+#include <cadrefine/nurbs/LeafBuilder.h>
+#include <cadrefine/nurbs/ModelCheck.h>
+#include <cadrefine/nurbs/PolynomialFit.h>
+#include <cadrefine/nurbs/TrimMeasure.h>
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace cadrefine
 {
@@ -15,19 +18,72 @@ constexpr int mostLeavesOfModel = 400000;
 constexpr int fewestLeavesOfPatch = 64;
 /// Of the model's size: points nearer to each other than this are one.
 constexpr double sameTolerance = 1e-12;
+/// Of the model's size: trim curves that lie no farther off their edge are covered by it.
+constexpr double coverTolerance = 2e-10;
+/// Of the model's size: how far curves along borders may lie off them.
+constexpr double borderTolerance = 5e-11;
+
+/// Of the edges and vertices, which span a trimmed model; of the patches, where there are none.
+double roughSize(const NurbsModel& model)
+{
+  BoundingBox box;
+  const auto includeAll = [&box](const std::vector<ControlPoint>& points)
+  {
+    for (const ControlPoint& p : points)
+    {
+      box.include(toPoint(p));
+    }
+  };
+  for (const NurbsEdge& edge : model.edges)
+  {
+    for (const BezierCurve& segment : edge.segments)
+    {
+      includeAll(segment.points);
+    }
+  }
+  if (box.isEmpty() || box.diagonal() == 0)
+  {
+    for (const NurbsFace& face : model.faces)
+    {
+      for (const BezierPatch& patch : face.patches)
+      {
+        includeAll(patch.points);
+      }
+    }
+  }
+  return box.diagonal();
+}
+
+/// Where the trim curve passes from one patch of the face to the next.
+std::vector<double> findCuts(const NurbsFace& face, const BezierCurve2& curve)
+{
+  std::vector<double> cuts, u, v;
+  for (int i = 1; i < face.patchesU; ++i)
+  {
+    u.push_back(face.patches[i * face.patchesV].u0);
+  }
+  for (int j = 1; j < face.patchesV; ++j)
+  {
+    v.push_back(face.patches[j].v0);
+  }
+  fit::addCrossings([&](double t) { return evaluate(curve, t)[0]; }, u, cuts);
+  fit::addCrossings([&](double t) { return evaluate(curve, t)[1]; }, v, cuts);
+  return cuts;
+}
 
 /// Fills a SearchStructure, entity by entity.
 class StructureBuilder
 {
 public:
   explicit StructureBuilder(SearchStructure& structure)
-    : structure_(structure), model_(structure.model)
+    : structure_(structure), model_(structure.model), roughSize_(roughSize(structure.model))
   {
   }
 
   void build()
   {
     chooseLimits();
+    findCovers();
     structure_.firstEntity = { 0, model_.count(0), model_.count(0) + model_.count(1) };
     for (int i = 0; i < model_.count(0); ++i)
     {
@@ -47,6 +103,42 @@ public:
 
 private:
   using Entries = std::vector<BoundingBoxTree::Entry>;
+
+  TrimSupport supportOf(const NurbsFace& face, const BezierCurve2& curve) const
+  {
+    return std::isfinite(curve.deviation) ? TrimSupport{ curve.edge, curve.deviation }
+                                          : trimSupport(model_, face, curve);
+  }
+
+  bool isCovered(const TrimSupport& support) const
+  {
+    return support.deviation <= coverTolerance * roughSize_;
+  }
+
+  /// For each edge the first face whose border it covers all along.
+  void findCovers()
+  {
+    coveredFace_.assign(model_.edges.size(), -1);
+    for (int i = model_.count(2) - 1; i >= 0; --i)
+    {
+      std::set<std::int32_t> covered, uncovered;
+      for (const TrimLoop& loop : model_.faces[i].loops)
+      {
+        for (const BezierCurve2& curve : loop)
+        {
+          const TrimSupport support = supportOf(model_.faces[i], curve);
+          (isCovered(support) ? covered : uncovered).insert(support.edge);
+        }
+      }
+      for (const std::int32_t edge : covered)
+      {
+        if (edge >= 0 && uncovered.count(edge) == 0)
+        {
+          coveredFace_[edge] = i;
+        }
+      }
+    }
+  }
 
   void chooseLimits()
   {
@@ -95,11 +187,12 @@ private:
     const NurbsEdge& edge = model_.edges[index];
     const int entity = addEntity({ 1, index });
     structure_.entities[entity].sharp = edge.sharp;
-    structure_.entities[entity].face = edge.faces.empty() ? -1 : edge.faces.front();
+    structure_.entities[entity].face = coveredFace_[index];
     startGrid(entity, static_cast<int>(edge.segments.size()), 1);
     for (const BezierCurve& segment : edge.segments)
     {
-      addPatch({ viewOf(segment), { segment.t0, segment.t1, 0.0, 0.0 }, entity, {} }, nullptr);
+      addPatch(
+        { viewOf(segment), { segment.t0, segment.t1, 0.0, 0.0 }, entity, {}, nullptr }, nullptr);
     }
   }
 
@@ -119,8 +212,37 @@ private:
       const int row = static_cast<int>(i) / columns;
       const int column = static_cast<int>(i) % columns;
       addPatch({ viewOf(patch), { patch.u0, patch.u1, patch.v0, patch.v1 }, entity,
-                 { row > 0, row + 1 < face.patchesU, column > 0, column + 1 < columns } },
+                 { row > 0, row + 1 < face.patchesU, column > 0, column + 1 < columns }, nullptr },
         structure_.entities[entity].trim.get());
+    }
+    for (const TrimLoop& loop : face.loops)
+    {
+      for (const BezierCurve2& curve : loop)
+      {
+        if (!isCovered(supportOf(face, curve)))
+        {
+          addBorder(face, curve, entity);
+        }
+      }
+    }
+  }
+
+  /// Adds curves in space that follow a trim curve.
+  void addBorder(const NurbsFace& face, const BezierCurve2& curve, int entity)
+  {
+    const double tolerance = borderTolerance * roughSize_;
+    const auto pieces = fit::pieces<3>([&](double t) { return pointOnFace(face, curve, t); },
+      findCuts(face, curve), Point3{ tolerance, tolerance, tolerance });
+    for (const auto& piece : pieces)
+    {
+      std::vector<ControlPoint>& points = structure_.borders.emplace_back();
+      for (const Point3& p : piece.coefficients)
+      {
+        points.push_back({ p[0], p[1], p[2], 1 });
+      }
+      addPatch(
+        { { points.data(), fit::degree, 0 }, { piece.from, piece.to, 0, 0 }, entity, {}, &curve },
+        nullptr);
     }
   }
 
@@ -231,6 +353,8 @@ private:
 
   SearchStructure& structure_;
   const NurbsModel& model_;
+  double roughSize_ = 0;
+  std::vector<int> coveredFace_; ///< Of each edge.
   LeafLimits limits_;
   Entries entries_;
 };
@@ -253,6 +377,16 @@ const SearchPatch& SearchStructure::patchAt(
     ++column;
   }
   return grid[row * e.columns + column];
+}
+
+std::array<double, 2> SearchStructure::onGrid(
+  int entity, const std::array<double, 2>& parameters) const
+{
+  const SearchEntity& e = entities[entity];
+  const ParameterRectangle& first = patches[e.firstPatch].range;
+  const ParameterRectangle& last = patches[e.firstPatch + e.rows * e.columns - 1].range;
+  return { std::clamp(parameters[0], first.s0, last.s1),
+    std::clamp(parameters[1], first.t0, last.t1) };
 }
 
 SearchStructure::SearchStructure(const NurbsModel& nurbsModel) : model(nurbsModel)

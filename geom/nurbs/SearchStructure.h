@@ -2,28 +2,31 @@
 // geom/nurbs.
 #pragma once
 
-#include "BoundingBoxTree.h"
-#include "ConvexityBounds.h"
-#include "NurbsModel.h"
-#include "ParameterRectangle.h"
-#include "PatchView.h"
-#include "Seams.h"
-#include "TrimRegion.h"
+#include <cadrefine/nurbs/BoundingBoxTree.h>
+#include <cadrefine/nurbs/ConvexityBounds.h>
+#include <cadrefine/nurbs/NurbsModel.h>
+#include <cadrefine/nurbs/ParameterRectangle.h>
+#include <cadrefine/nurbs/PatchView.h>
+#include <cadrefine/nurbs/Seams.h>
+#include <cadrefine/nurbs/TrimRegion.h>
 
+#include <deque>
 #include <memory>
 #include <vector>
 
 namespace cadrefine
 {
 
-/// A patch of a face or a segment of an edge, whole.
+/// A patch of a face or a segment of an edge, whole; or a curve in space along a part of a face's
+/// border, where no edge covers that.
 struct SearchPatch
 {
   PatchView view;
-  ParameterRectangle range; ///< Of the entity's own parameters.
+  ParameterRectangle range; ///< Of the entity's own parameters; along a border those of `trim`.
   int entity = -1;          ///< Number in SearchStructure::entities.
   /// Which of the sides s = 0, s = 1, t = 0, t = 1 are shared with another patch of the face.
   std::array<bool, 4> joined{ false, false, false, false };
+  const BezierCurve2* trim = nullptr; ///< Of a border: the trim curve that it follows.
 
   /// The entity's parameters at local ones; exact at the borders.
   std::array<double, 2> parametersAt(double s, double t) const
@@ -59,10 +62,10 @@ struct SearchEntity
   BoundingBoxTree::Root root = BoundingBoxTree::none;
   /// Of a face, tree over these and the leaves of its edges and their vertices.
   BoundingBoxTree::Root closure = BoundingBoxTree::none;
-  bool sharp = false;                     ///< Of an edge.
-  int face = -1;                          ///< Of an edge, the first face that it bounds.
+  bool sharp = false; ///< Of an edge.
+  int face = -1;      ///< Of an edge, the first face whose border it covers; -1: none.
   std::unique_ptr<const TrimRegion> trim; ///< Of a face.
-  int firstPatch = 0;                     ///< Its patches are consecutive, in a grid.
+  int firstPatch = 0; ///< Its patches are consecutive, in a grid; then come those of its border.
   int rows = 0;
   int columns = 0;
   Seams seams;
@@ -77,10 +80,14 @@ struct SearchStructure
   /// The patch of an entity that holds these of its parameters, the first of several.
   const SearchPatch& patchAt(int entity, const std::array<double, 2>& parameters) const;
 
+  /// The parameters of a face, moved onto its patches where they are beyond them.
+  std::array<double, 2> onGrid(int entity, const std::array<double, 2>& parameters) const;
+
   int entityNumber(EntityId id) const { return firstEntity[id.dimension] + id.index; }
 
   const NurbsModel& model;
   std::vector<SearchPatch> patches;
+  std::deque<std::vector<ControlPoint>> borders; ///< Control points of the curves along borders.
   std::vector<SearchLeaf> leaves;
   std::vector<SearchEntity> entities; ///< Vertices, edges, faces.
   std::array<int, 3> firstEntity{};   ///< Number of the first entity of each dimension.

@@ -1,6 +1,6 @@
-#include "TrimRegion.h"
+#include <cadrefine/nurbs/TrimRegion.h>
 
-#include "BernsteinBasis.h"
+#include <cadrefine/nurbs/BernsteinBasis.h>
 
 #include <algorithm>
 #include <cmath>

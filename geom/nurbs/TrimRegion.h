@@ -1,9 +1,9 @@
 // The trimmed region of a face in its parameter plane. Private to geom/nurbs.
 #pragma once
 
-#include "Interval.h"
-#include "NurbsModel.h"
-#include "ParameterRectangle.h"
+#include <cadrefine/nurbs/Interval.h>
+#include <cadrefine/nurbs/NurbsModel.h>
+#include <cadrefine/nurbs/ParameterRectangle.h>
 
 #include <cstdint>
 #include <vector>
@@ -34,6 +34,8 @@ public:
   bool contains(double u, double v) const;
   /// `cut` also where it cannot be told cheaply.
   TrimCover classify(const ParameterRectangle& rectangle) const;
+  /// Holds all control points of the loops.
+  const ParameterRectangle& extent() const { return extent_; }
 
 private:
   /// A curve piece monotone in u and in v, and its bounding rectangle (s is u, t is v).

@@ -5,14 +5,20 @@
 //   GenLocateExtPS  Open CASCADE's Newton method with the right face, as NURBS, and a good start
 //   GenLocateAsRead the same on the surface that the file has: a plane, a cylinder, ...
 //   DistShapeShape  Open CASCADE's search of the whole model (few points: it is slow)
-// Arguments are Google Benchmark's, for example --benchmark_filter=bearing.
+// Arguments are CAD files to measure besides the models below, each under its name without the
+// extension, and Google Benchmark's options, for example --benchmark_filter=bearing.
 
 #include "ClosestPointCase.h"
 #include "ClosestPointPeer.h"
 #include "ClosestPointTable.h"
 
+#include <cadrefine/base/Error.h>
+
 #include <benchmark/benchmark.h>
 
+#include <cstdio>
+#include <exception>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -20,7 +26,6 @@ namespace
 {
 
 using namespace cadbenchmark;
-using cadrefine::ClosestPoint;
 
 constexpr int pointsOfCase = 4096;
 constexpr int pointsOfSlowPeer = 16;
@@ -89,6 +94,45 @@ void addBenchmarks(
     ->Repetitions(3);
 }
 
+/// Of the models above those that are there, then of the files.
+std::vector<std::unique_ptr<const Case>> loadCases(const std::vector<std::string>& files)
+{
+  std::vector<std::unique_ptr<const Case>> cases;
+  for (const CaseSource& source : sources)
+  {
+    if (auto loaded = loadCase(source, pointsOfCase))
+    {
+      cases.push_back(std::move(loaded));
+    }
+  }
+  for (const std::string& file : files)
+  {
+    auto loaded =
+      loadCase({ std::filesystem::path(file).stem().string(), { file }, {} }, pointsOfCase);
+    if (!loaded)
+    {
+      throw cadrefine::Error(file + ": no such file");
+    }
+    cases.push_back(std::move(loaded));
+  }
+  return cases;
+}
+
+void run(const std::vector<std::string>& files)
+{
+  const std::vector<std::unique_ptr<const Case>> cases = loadCases(files);
+  std::vector<std::unique_ptr<const OpenCascadePeer>> peers;
+  std::vector<std::vector<cadrefine::EntityId>> known(cases.size());
+  for (std::size_t i = 0; i < cases.size(); ++i)
+  {
+    peers.push_back(std::make_unique<const OpenCascadePeer>(*cases[i]));
+    addBenchmarks(*cases[i], *peers[i], known[i]);
+  }
+  RateReporter reporter;
+  benchmark::RunSpecifiedBenchmarks(&reporter);
+  printTable(cases, reporter);
+}
+
 } // namespace
 
 int main(int argc, char** argv)
@@ -102,24 +146,14 @@ int main(int argc, char** argv)
   }
   argc = static_cast<int>(arguments.size());
   benchmark::Initialize(&argc, arguments.data());
-
-  std::vector<std::unique_ptr<const Case>> cases;
-  for (const CaseSource& source : sources)
+  try
   {
-    if (auto loaded = loadCase(source, pointsOfCase))
-    {
-      cases.push_back(std::move(loaded));
-    }
+    run({ arguments.begin() + 1, arguments.begin() + argc });
   }
-  std::vector<std::unique_ptr<const OpenCascadePeer>> peers;
-  std::vector<std::vector<cadrefine::EntityId>> known(cases.size());
-  for (std::size_t i = 0; i < cases.size(); ++i)
+  catch (const std::exception& error)
   {
-    peers.push_back(std::make_unique<const OpenCascadePeer>(*cases[i]));
-    addBenchmarks(*cases[i], *peers[i], known[i]);
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
   }
-  RateReporter reporter;
-  benchmark::RunSpecifiedBenchmarks(&reporter);
-  printTable(cases, reporter);
   return 0;
 }

@@ -1,6 +1,6 @@
 #include "ClosestPointCase.h"
 
-#include "CADFile.h"
+#include <cadrefine/cad/import/CADFile.h>
 
 #include <algorithm>
 #include <chrono>
@@ -108,6 +108,13 @@ NurbsModel extract(const NurbsModel& whole, const std::vector<FaceDrawing>& draw
       part.edges[edge].faces.push_back(static_cast<std::int32_t>(part.faces.size()));
     }
     std::sort(face.edges.begin(), face.edges.end());
+    for (TrimLoop& loop : face.loops)
+    {
+      for (BezierCurve2& curve : loop)
+      {
+        curve.edge = curve.edge < 0 ? -1 : edges[curve.edge];
+      }
+    }
     part.faces.push_back(std::move(face));
   }
   return part;

@@ -1,7 +1,7 @@
 // A model to measure on, with points near it.
 #pragma once
 
-#include "CADModel.h"
+#include <cadrefine/cad/model/CADModel.h>
 
 #include <memory>
 #include <optional>

@@ -1,7 +1,7 @@
 #include "ClosestPointPeer.h"
 
-#include "ModelBytes.h"
-#include "ShapeIndex.h"
+#include <cadrefine/cad/extraction/ShapeIndex.h>
+#include <cadrefine/cad/model/ModelBytes.h>
 
 #include <BRepAdaptor_Surface.hxx>
 #include <BRepBuilderAPI_MakeVertex.hxx>

@@ -31,7 +31,7 @@ void printTable(const std::vector<std::unique_ptr<const Case>>& cases, const Rat
   std::printf(
     "\nPoints a second, in thousands (medians of processor time), and ratios of nearest to the "
     "peers, of known and surface to nearest\n"
-    "%-10s %6s %7s | %8s %8s %8s %8s %8s | %8s %8s %8s %8s %8s\n",
+    "%-24s %6s %7s | %8s %8s %8s %8s %8s | %8s %8s %8s %8s %8s\n",
     "", "faces", "patches", "nearest", "known", "surface", "GenLoc", "as read", "/GenLoc",
     "/as read", "/BRepEx", "known", "surface");
   for (const auto& c : cases)
@@ -42,19 +42,19 @@ void printTable(const std::vector<std::unique_ptr<const Case>>& cases, const Rat
     {
       continue;
     }
-    std::printf("%-10s %6d %7zu | %8.1f %8.1f %8.1f %8.1f %8.1f | %8.2f %8.2f %8.0f %8.2f %8.2f\n",
+    std::printf("%-24s %6d %7zu | %8.1f %8.1f %8.1f %8.1f %8.1f | %8.2f %8.2f %8.0f %8.2f %8.2f\n",
       c->name.c_str(), c->nurbs.count(2), c->preparation.patches, nearest / 1e3,
       rate("known") / 1e3, rate("surface") / 1e3, rate("GenLocateExtPS") / 1e3,
       rate("GenLocateAsRead") / 1e3, nearest / rate("GenLocateExtPS"),
       nearest / rate("GenLocateAsRead"), nearest / rate("DistShapeShape"), rate("known") / nearest,
       rate("surface") / nearest);
   }
-  std::printf("\nPreparation\n%-10s %8s %8s %10s %8s %12s\n", "", "read s", "build s", "build/read",
+  std::printf("\nPreparation\n%-24s %8s %8s %10s %8s %12s\n", "", "read s", "build s", "build/read",
     "MB", "bytes/patch");
   for (const auto& c : cases)
   {
     const Preparation& p = c->preparation;
-    std::printf("%-10s %8.3f %8.3f %10.2f %8.2f %12.0f\n", c->name.c_str(), p.readSeconds,
+    std::printf("%-24s %8.3f %8.3f %10.2f %8.2f %12.0f\n", c->name.c_str(), p.readSeconds,
       p.buildSeconds, p.buildSeconds / p.readSeconds, 1e-6 * static_cast<double>(p.bytes),
       static_cast<double>(p.bytes) / static_cast<double>(p.patches));
   }

@@ -6,13 +6,14 @@
 //
 // Each rank holds a block of the mesh's cells and uses one thread. Times are those of the slowest
 // rank, the median of several runs.
-#include "BoundaryProjector.h"
-#include "CADFile.h"
-#include "CADModel.h"
-#include "DistributedBoundary.h"
-#include "DistributedMesh.h"
-#include "EvenWork.h"
 #include "Partition.h"
+#include "classification/DistributedBoundary.h"
+#include "comm/LoadBalancedMap.h"
+#include "mesh/DistributedMesh.h"
+
+#include <cadrefine/cad/import/CADFile.h>
+#include <cadrefine/cad/model/CADModel.h>
+#include <cadrefine/classification/BoundaryProjector.h>
 
 #include <vtkMPIController.h>
 #include <vtkNew.h>
@@ -62,7 +63,9 @@ ClosestPoint screenAllFaces(const CADModel& model, const Point3& point)
   {
     const ClosestPoint hit = model.nearestOn({ 2, face }, point);
     if (hit.distance < best.distance)
+    {
       best = hit;
+    }
   }
   return best;
 }
@@ -83,8 +86,8 @@ double measure(RankExchange& exchange, const std::function<void()>& work)
   return times[times.size() / 2];
 }
 
-template<class Question, class Function>
-void compare(RankExchange& exchange, const char* what, const std::vector<Question>& questions,
+template<class Query, class Function>
+void compare(RankExchange& exchange, const char* what, const std::vector<Query>& questions,
   const Function& answer)
 {
   double balanced = 0;
@@ -92,11 +95,13 @@ void compare(RankExchange& exchange, const char* what, const std::vector<Questio
   const double alone = measure(exchange,
     [&]
     {
-      for (const Question& question : questions)
+      for (const Query& question : questions)
+      {
         answer(question);
+      }
     });
   balanced = measure(
-    exchange, [&] { balance = answerEvenly<ClosestPoint>(exchange, questions, answer).balance; });
+    exchange, [&] { balance = mapBalanced<ClosestPoint>(exchange, questions, answer).balance; });
   if (exchange.rank() == 0)
   {
     std::printf("| %s | %lld | %.2f | %.4f | %.2f | %.4f |\n", what,
@@ -109,7 +114,9 @@ void run(RankExchange& exchange, char** arguments)
   const auto model = readCADFile(arguments[1]);
   std::array<double, 6> region{};
   for (int k = 0; k < 6; ++k)
+  {
     region[k] = std::atof(arguments[3 + k]);
+  }
   auto piece = readPiece(arguments[2], exchange.rank(), exchange.size());
   const DistributedMesh mesh = makeDistributedMesh(exchange, piece);
   const DistributedBoundary boundary = findBoundary(exchange, mesh, *model);
@@ -130,7 +137,9 @@ void run(RankExchange& exchange, char** arguments)
   for (const auto& [a, b] : boundary.edges.edges())
   {
     if (entities[a] && entities[b])
+    {
       middles.push_back({ 0.5 * (points[a] + points[b]), { entities[a], entities[b] } });
+    }
   }
 
   if (exchange.rank() == 0)
@@ -149,7 +158,7 @@ void run(RankExchange& exchange, char** arguments)
     [&](const Middle& middle)
     {
       return projector.projectMidpoint(
-        { EdgeClass::Smooth, -1 }, { middle.point, middle.point }, middle.classes);
+        { { EdgeClass::Smooth, -1 }, { middle.point, middle.point }, middle.classes });
     });
 }
 

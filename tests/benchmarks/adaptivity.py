@@ -3,7 +3,7 @@
 
     tests/benchmarks/adaptivity.py [--plots FOLDER] [CASE ...]
 
-Adapt to CAD with bulk marking, against its uniform method on the same mesh.
+Adapt To CAD with bulk marking, against its uniform method on the same mesh.
 """
 
 import argparse

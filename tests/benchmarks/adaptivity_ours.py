@@ -1,4 +1,4 @@
-"""Adapt to CAD in pvpython: its convergence table as JSON, and the seconds it took.
+"""Adapt To CAD in pvpython: its convergence table as JSON, and the seconds it took.
 
     adaptivity_ours.py CAD MESH PROPERTIES
 
@@ -13,7 +13,7 @@ import time
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(HERE, "..", "..", "plugin"))
 
-import cadrefine_session as session
+from cadrefine import session
 from paraview import simple
 
 
@@ -29,7 +29,7 @@ def main():
     mesh = simple.OpenDataFile(sys.argv[2])
     cad.UpdatePipeline()
     mesh.UpdatePipeline()
-    filter_ = simple.AdapttoCAD(Input=mesh, CAD=cad, **json.loads(sys.argv[3]))
+    filter_ = simple.AdaptToCAD(Input=mesh, CAD=cad, RecursionDepth=1, **json.loads(sys.argv[3]))
     start = time.perf_counter()
     filter_.UpdatePipeline()
     seconds = time.perf_counter() - start

@@ -25,7 +25,7 @@ def steps_of(ranks, mesh, cad, *options):
         report = os.path.join(folder, "report.json")
         subprocess.run(["mpirun", "--oversubscribe", "-np", str(ranks), "pvbatch",
                         os.path.join(ROOT, "plugin", "cadrefine.py"), os.path.join(DATA, mesh), os.path.join(DATA, cad),
-                        *options, "--quiet", "--report", report], env={**os.environ, **ENVIRONMENT}, check=True,
+                        *options, "--recursion-depth", "1", "--quiet", "--report", report], env={**os.environ, **ENVIRONMENT}, check=True,
                        timeout=TIMEOUT)
         with open(report, encoding="utf-8") as file:
             return json.load(file)["steps"]

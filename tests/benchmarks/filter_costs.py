@@ -13,7 +13,7 @@ import time
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(HERE, "..", "..", "plugin"))
 
-import cadrefine_session as session
+from cadrefine import session
 from paraview import simple
 
 DATA = os.path.join(HERE, "..", "..", "data")
@@ -45,19 +45,19 @@ def main():
     levels = int(sys.argv[1]) if len(sys.argv) > 1 else 4
     session.load_plugin()
     cad = simple.CADReader(FileName=os.path.join(DATA, "naca0012_sharp.igs"))
-    coarse = simple.ProjectontoCAD(Input=simple.OpenDataFile(os.path.join(DATA, "naca0012_coarse.vtu")), CAD=cad)
-    mesh = simple.RefinewithCAD(Input=coarse, CAD=cad, Method="Uniform Bisection", Levels=levels)
+    coarse = simple.ProjectOntoCAD(Input=simple.OpenDataFile(os.path.join(DATA, "naca0012_coarse.vtu")), CAD=cad)
+    mesh = simple.RefineWithCAD(Input=coarse, CAD=cad, Method="Uniform Bisection", Levels=levels)
     mesh.UpdatePipeline()
     print("| Filter | cells of the output | processor s | microseconds a cell | bytes a cell, peak |\n|---|---|---|---|---|")
-    measure("Project onto CAD", simple.ProjectontoCAD(Input=mesh, CAD=cad))
+    measure("Project Onto CAD", simple.ProjectOntoCAD(Input=mesh, CAD=cad))
     error = measure("CAD Geometric Error", simple.CADGeometricError(Input=mesh, CAD=cad))
-    measure("Refine with CAD, uniform", simple.RefinewithCAD(Input=mesh, CAD=cad, Method="Uniform Bisection"))
-    measure("Refine with CAD, bulk 0.5", simple.RefinewithCAD(Input=error, CAD=cad, MarkingArray="GeometricError",
+    measure("Refine With CAD, uniform", simple.RefineWithCAD(Input=mesh, CAD=cad, Method="Uniform Bisection"))
+    measure("Refine With CAD, bulk 0.5", simple.RefineWithCAD(Input=error, CAD=cad, MarkingArray="GeometricError",
                                                               Marking="Bulk", Fraction=0.5, CutFacets=1))
-    measure("Refine with CAD, quadratic cells alone",
-            simple.RefinewithCAD(Input=mesh, CAD=cad, Levels=0, QuadraticCells=1))
-    measure("Adapt to CAD, three steps, bulk 0.5",
-            simple.AdapttoCAD(Input=mesh, CAD=cad, ErrorMarking="Bulk", MaximumSteps=3))
+    measure("Refine With CAD, quadratic cells alone",
+            simple.RefineWithCAD(Input=mesh, CAD=cad, Levels=0, QuadraticCells=1))
+    measure("Adapt To CAD, three steps, bulk 0.5, recursion depth 1",
+            simple.AdaptToCAD(Input=mesh, CAD=cad, RecursionDepth=1, ErrorMarking="Bulk", MaximumSteps=3))
     measure("Mesh Validity", simple.MeshValidity(Input=mesh))
 
 

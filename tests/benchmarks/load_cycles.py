@@ -50,13 +50,13 @@ def indicated(mesh, cycle):
 class Coupling:
     def __init__(self, data):
         cad = simple.CADReader(FileName=os.path.join(data, "naca0012_sharp.igs"))
-        coarse = simple.ProjectontoCAD(
+        coarse = simple.ProjectOntoCAD(
             Input=simple.OpenDataFile(os.path.join(data, "naca0012_coarse.vtu")), CAD=cad)
-        start = simple.RefinewithCAD(Input=coarse, CAD=cad, Method="Uniform Bisection", Levels=2)
+        start = simple.RefineWithCAD(Input=coarse, CAD=cad, Method="Uniform Bisection", Levels=2)
         start.UpdatePipeline()
         self.mesh = start.GetClientSideObject().GetOutputDataObject(0)
         self.source = simple.TrivialProducer()
-        self.refine = simple.RefinewithCAD(MarkingArray="Indicator", CAD=cad, Input=self.give(0))
+        self.refine = simple.RefineWithCAD(MarkingArray="Indicator", CAD=cad, Input=self.give(0))
         self.measure = simple.CADGeometricError(Input=self.refine, CAD=cad)
 
     def give(self, cycle):

@@ -14,7 +14,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(HERE, "..", "..", "plugin"))
 sys.path.insert(0, HERE)
 
-import cadrefine_session as session
+from cadrefine import session
 import load_cycles
 from paraview import simple
 
@@ -45,11 +45,11 @@ def aeroplane(surface):
     cad = updated(simple.CADReader(FileName=os.path.join(DATA, "aeroplane.igs")))
     mesh = simple.OpenDataFile(os.path.join(DATA, "aeroplane_coarse.vtu"))
     mesh = simple.ExtractSurface(Input=mesh) if surface else mesh
-    return updated(simple.ProjectontoCAD(Input=mesh, CAD=cad)), cad
+    return updated(simple.ProjectOntoCAD(Input=mesh, CAD=cad)), cad
 
 
 def refined(mesh, cad, **properties):
-    return updated(simple.RefinewithCAD(Input=mesh, CAD=cad, **properties))
+    return updated(simple.RefineWithCAD(Input=mesh, CAD=cad, **properties))
 
 
 def measured(mesh, cad):
@@ -70,7 +70,7 @@ def surface():
     before = measured(coarse, cad)
     halved = refined(coarse, cad)
     fine = refined(halved, cad, Method="Uniform Bisection", Levels=5)
-    return checks(before, measured(updated(simple.ProjectontoCAD(Input=fine, CAD=cad)), cad))
+    return checks(before, measured(updated(simple.ProjectOntoCAD(Input=fine, CAD=cad)), cad))
 
 
 def uniform():
@@ -85,7 +85,8 @@ def adaptive():
     coarse, cad = aeroplane(surface=False)
     before = measured(coarse, cad)
     mesh = refined(coarse, cad, Method="Uniform Bisection", Levels=2)
-    return checks(before, updated(simple.AdapttoCAD(Input=mesh, CAD=cad, MaximumSteps=4, MaximumCells=0)))
+    return checks(before, updated(simple.AdaptToCAD(Input=mesh, CAD=cad, RecursionDepth=1, MaximumSteps=4,
+                                                            MaximumCells=0)))
 
 
 def cycles():

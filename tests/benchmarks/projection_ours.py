@@ -18,7 +18,7 @@ from vtkmodules.vtkFiltersGeneral import vtkVertexGlyphFilter
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(HERE, "..", "..", "plugin"))
 
-import cadrefine_session as session
+from cadrefine import session
 from paraview import simple
 
 REPETITIONS = 4
@@ -44,8 +44,8 @@ def points_near(cad):
 
 
 def refined(cad, mesh, levels):
-    projected = simple.ProjectontoCAD(Input=simple.OpenDataFile(mesh), CAD=cad)
-    return simple.RefinewithCAD(Input=projected, CAD=cad, Method="Uniform Bisection", Levels=levels)
+    projected = simple.ProjectOntoCAD(Input=simple.OpenDataFile(mesh), CAD=cad)
+    return simple.RefineWithCAD(Input=projected, CAD=cad, Method="Uniform Bisection", Levels=levels)
 
 
 def main():
@@ -56,7 +56,7 @@ def main():
     source.UpdatePipeline()
     times = []
     for _ in range(REPETITIONS):
-        projected = simple.ProjectontoCAD(Input=source, CAD=cad)
+        projected = simple.ProjectOntoCAD(Input=source, CAD=cad)
         start = time.perf_counter()
         projected.UpdatePipeline()
         times.append(time.perf_counter() - start)

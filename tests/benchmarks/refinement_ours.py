@@ -19,7 +19,7 @@ PLUGIN_FOLDER = os.path.join(HERE, "..", "..", "plugin")
 DATA = os.path.join(HERE, "..", "..", "data")
 sys.path.insert(0, PLUGIN_FOLDER)
 
-import cadrefine_session as session
+from cadrefine import session
 from paraview import simple
 
 REPETITIONS = 3
@@ -43,7 +43,7 @@ def box(edges):
 def wing(mesh, projected):
     reader = simple.OpenDataFile(mesh)
     cad = simple.CADReader(FileName=os.path.join(DATA, "naca0012_sharp.igs"))
-    source = simple.ProjectontoCAD(Input=reader, CAD=cad) if projected else reader
+    source = simple.ProjectOntoCAD(Input=reader, CAD=cad) if projected else reader
     source.UpdatePipeline()
     return source, cad
 
@@ -60,7 +60,7 @@ def measure(source, cad, **properties):
     before = resident_bytes()
     peak = 0
     for _ in range(REPETITIONS):
-        refined = simple.RefinewithCAD(Input=source, CAD=cad, **properties)
+        refined = simple.RefineWithCAD(Input=source, CAD=cad, **properties)
         started = time.process_time(), time.perf_counter()
         refined.UpdatePipeline()
         seconds, wall = time.process_time() - started[0], time.perf_counter() - started[1]

@@ -44,9 +44,40 @@ def drawn():
     return links
 
 
+def library_of(path):
+    """The library of a file below geom/ or filters/, such as CADRefineFiltersMesh of filters/mesh/CellReading.h."""
+    top, *folders, _ = path.split("/")
+    half = "Filters" if top == "filters" else ""
+    return f"CADRefine{half}{folders[0].capitalize() if folders else ''}"
+
+
+def included():
+    """Libraries whose headers the sources of each library include."""
+    seen = {}
+    for top in ("geom", "filters"):
+        for folder, _, names in os.walk(os.path.join(pages.ROOT, top)):
+            for name in names:
+                if not name.endswith((".h", ".cxx")):
+                    continue
+                path = os.path.join(folder, name)
+                library = library_of(os.path.relpath(path, pages.ROOT))
+                with open(path, encoding="utf-8") as file:
+                    text = file.read()
+                others = [f"geom/{header}" for header in re.findall(r"#include <cadrefine/(.*)>", text)]
+                others += [f"filters/{header}" for header in re.findall(r'#include "(.*)"', text)]
+                seen.setdefault(library, set()).update(map(library_of, others))
+    return seen
+
+
 class Architecture(unittest.TestCase):
+    def test_sources_include_what_is_linked(self):
+        links = reached(linked())
+        self.assertEqual(sorted(included()), sorted(links))
+        for library, others in included().items():
+            self.assertEqual(others - {library} - links[library], set(), library)
+
     def test_drawing_shows_what_is_linked(self):
-        self.assertGreaterEqual(len(linked()), 9)
+        self.assertGreaterEqual(len(linked()), 20)
         self.assertEqual(reached(drawn()), reached(linked()))
 
     def test_arrows_go_down_only(self):

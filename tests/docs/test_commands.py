@@ -5,7 +5,7 @@ The blocks of a page run in order in a folder of the page's own, where `build`, 
 those of the repository. Blocks of one language that follow each other run as one program, which has the page's line
 numbers. Blocks ```console are for people: they need a window, a cluster, or minutes.
 
-usage: test_commands.py BUILD [PAGE...]
+usage: test_commands.py BUILD [[--without] PAGE...]
 """
 
 import itertools
@@ -86,8 +86,9 @@ def run_page(page, build):
 
 def main():
     build = os.path.abspath(sys.argv[1])
-    wanted = {os.path.abspath(path) for path in sys.argv[2:]}
-    chosen = [page for page in pages.all_pages() if programs(page) and (not wanted or page.path in wanted)]
+    without = sys.argv[2:3] == ["--without"]
+    named = {os.path.abspath(path) for path in sys.argv[3 if without else 2:]}
+    chosen = [page for page in pages.all_pages() if programs(page) and (not named or (page.path in named) != without)]
     failures = [failure for page in chosen for failure in run_page(page, build)]
     print(*failures, sep="\n")
     if failures or not chosen:

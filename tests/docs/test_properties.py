@@ -11,11 +11,24 @@ import pages
 
 FILTERS = [page for page in pages.all_pages() if os.path.dirname(page.path) == os.path.join(pages.DOCS, "filters")]
 PROXY = re.compile(r"[Tt]he proxy is\s+`(\w+)`")
+PART = re.compile(r"<\?part (\w+)([^?]*)\?>")  # As filters/ServerManagerXMLs.cmake has it.
 
 
 def proxies():
     for path in sorted(glob.glob(os.path.join(pages.ROOT, "xml", "*.xml"))):
-        yield from ElementTree.parse(path).getroot().iter("SourceProxy")
+        yield from ElementTree.fromstring(PART.sub(part, text_of(path))).iter("SourceProxy")
+
+
+def text_of(path):
+    with open(path, encoding="utf-8") as file:
+        return file.read()
+
+
+def part(match):
+    """What stands for the line: a file of xml/parts with the values of its keys."""
+    values = dict(re.findall(r'(\w+)="([^"]*)"', match[2]))
+    text = text_of(os.path.join(pages.ROOT, "xml", "parts", match[1] + ".xml"))
+    return re.sub(r"@(\w+)@", lambda key: values[key[1]], text)
 
 
 def properties(proxy):
@@ -40,7 +53,7 @@ def expected_default(item):
         return value or "none"
     if item.find("BooleanDomain") is not None:
         return {"0": "off", "1": "on"}[value]
-    return entries(item).get(value, value)
+    return "none" if value is None else entries(item).get(value, value)
 
 
 def expected_values(item):

@@ -1,4 +1,4 @@
-// Adapt to CAD on several ranks: the same mesh and table as on one, and one failure on all.
+// Adapt To CAD on several ranks: the same mesh and table as on one, and one failure on all.
 
 #include "DataSets.h"
 #include "FilterRun.h"
@@ -19,6 +19,8 @@
 
 #include <functional>
 #include <limits>
+#include <string>
+#include <vector>
 
 namespace cadrefine
 {
@@ -30,7 +32,7 @@ using Mesh = vtkSmartPointer<vtkPointSet>;
 using Columns = std::map<std::string, std::vector<double>>;
 using Configure = std::function<void(vtkAdaptToCAD*)>;
 
-/// Adapt to CAD with each kind of marking.
+/// Adapt To CAD with each kind of marking.
 struct Marking
 {
   const char* name;
@@ -226,6 +228,98 @@ TEST_F(AdaptPieces, keepTheStepWhereOneRankIsInterrupted)
                                ->GetVariantValue(0)
                                .ToString();
   EXPECT_EQ(reason, "interrupted");
+  expectSame(gather(exchange, outcome),
+    [&](RankExchange& alone)
+    {
+      return gather(alone, cadtest::FilterRun(sphere).attempt<vtkAdaptToCAD>(
+                             whole, [](vtkAdaptToCAD* filter) { filter->SetMaximumSteps(2); }));
+    });
+}
+
+/// The steps, as they are told of on the last rank alone; all communicate meanwhile.
+struct Steps
+{
+  RankExchange& exchange;
+  std::vector<cadtest::CanonicalMesh> meshes;
+};
+
+void takeStep(vtkObject* caller, unsigned long, void* client, void*)
+{
+  auto& steps = *static_cast<Steps*>(client);
+  auto* output = static_cast<vtkAdaptToCAD*>(caller)->GetOutputDataObject(0);
+  steps.meshes.push_back(cadtest::gather(steps.exchange, vtkPointSet::SafeDownCast(output)));
+}
+
+void observeSteps(vtkAdaptToCAD* filter, Steps& steps)
+{
+  vtkNew<vtkCallbackCommand> command;
+  command->SetCallback(takeStep);
+  command->SetClientData(&steps);
+  filter->AddObserver(vtkAdaptToCAD::StepEvent, command);
+}
+
+void byAllSteps(vtkAdaptToCAD* filter)
+{
+  filter->SetUniformSteps(1);
+  filter->SetMaximumSteps(2);
+  filter->SetErrorThreshold(1e-3);
+}
+
+TEST_F(AdaptPieces, showTheSameSteps)
+{
+  const cadtest::FilterRun filters(sphere, worldController());
+  const Mesh whole = prepared(ball());
+  Steps steps{ exchange, {} };
+  filters.attempt<vtkAdaptToCAD>(pieceOf(whole, cadtest::Dealing::Random),
+    [&](vtkAdaptToCAD* filter)
+    {
+      byAllSteps(filter);
+      observeSteps(filter, steps);
+    });
+  ASSERT_EQ(steps.meshes.size(), 4u);
+  if (exchange.rank() == 0)
+  {
+    RankExchange alone(nullptr);
+    Steps expected{ alone, {} };
+    cadtest::FilterRun(sphere).attempt<vtkAdaptToCAD>(whole,
+      [&](vtkAdaptToCAD* filter)
+      {
+        byAllSteps(filter);
+        observeSteps(filter, expected);
+      });
+    ASSERT_EQ(expected.meshes.size(), 4u);
+    for (std::size_t s = 0; s < 4; ++s)
+    {
+      EXPECT_EQ(steps.meshes[s].contradictions, 0);
+      EXPECT_TRUE(steps.meshes[s].points == expected.meshes[s].points) << s;
+      EXPECT_TRUE(steps.meshes[s].cells == expected.meshes[s].cells) << s;
+    }
+  }
+}
+
+/// One that aborts, on the last rank: it alone has an observer.
+TEST_F(AdaptPieces, keepTheStepAfterWhichOneObserverAborts)
+{
+  const cadtest::FilterRun filters(sphere, worldController());
+  const Mesh whole = prepared(ball());
+  vtkNew<vtkCallbackCommand> command;
+  command->SetCallback(
+    [](vtkObject* caller, unsigned long, void*, void*)
+    {
+      auto* filter = static_cast<vtkAdaptToCAD*>(caller);
+      if (std::string(filter->GetStepStatistics()).find(R"("step": 2,)") != std::string::npos)
+      {
+        filter->SetAbortExecute(1);
+      }
+    });
+  const auto outcome = filters.attempt<vtkAdaptToCAD>(pieceOf(whole, cadtest::Dealing::Random),
+    [&](vtkAdaptToCAD* filter)
+    {
+      if (exchange.rank() == exchange.size() - 1)
+      {
+        filter->AddObserver(vtkAdaptToCAD::StepEvent, command);
+      }
+    });
   expectSame(gather(exchange, outcome),
     [&](RankExchange& alone)
     {

@@ -1,4 +1,4 @@
-// Adapt to CAD on one rank: what it makes, and why it stops.
+// Adapt To CAD on one rank: what it makes, and why it stops.
 
 #include "DataSets.h"
 #include "FilterRun.h"
@@ -19,6 +19,10 @@
 
 #include <algorithm>
 #include <functional>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
 namespace
 {
@@ -127,7 +131,7 @@ TEST_F(Adapt, isTheChainOfItsFilters)
         filter->SetMaximumSteps(3);
       }));
     ASSERT_EQ(adapted.steps(), 3u);
-    Data data = wing.measure(wing.project(coarse), 1);
+    Data data = wing.measure(wing.project(coarse), 0);
     expectRow(adapted, 0, data);
     EXPECT_EQ(adapted.columns.at("MarkedCells")[0], 0);
     for (std::size_t step = 1; step <= 3; ++step)
@@ -141,7 +145,7 @@ TEST_F(Adapt, isTheChainOfItsFilters)
                               filter->SetMarkingArray("GeometricError");
                               filter->SetThreshold(threshold);
                             }),
-        1);
+        0);
       expectRow(adapted, step, data);
     }
     EXPECT_TRUE(cadtest::areSame(adapted.mesh, data));
@@ -196,15 +200,18 @@ TEST_F(Adapt, stopsWhereNoCellIsMarked)
   const Adapted adapted =
     adapt(ball, [](vtkAdaptToCAD* filter) { filter->SetErrorThreshold(100); });
   EXPECT_EQ(adapted.steps(), 0u);
-  EXPECT_EQ(adapted.reason, "no cell is marked");
-  EXPECT_TRUE(cadtest::areSame(adapted.mesh, filters.measure(filters.project(ball), 1)));
+  std::ostringstream reason;
+  reason << "no cell is marked: the largest GeometricError is "
+         << largestOf(adapted.mesh, "GeometricError") << ", the threshold 100";
+  EXPECT_EQ(adapted.reason, reason.str());
+  EXPECT_TRUE(cadtest::areSame(adapted.mesh, filters.measure(filters.project(ball), 0)));
   const Adapted full = adapt(ball,
     [](vtkAdaptToCAD* filter)
     {
       filter->SetErrorThreshold(100);
       filter->SetMaximumCells(1);
     });
-  EXPECT_EQ(full.reason, "no cell is marked") << "that there are too many cells is no reason";
+  EXPECT_EQ(full.reason, reason.str()) << "that there are too many cells is no reason";
 }
 
 TEST_F(Adapt, refinesToAChordTolerance)
@@ -216,7 +223,10 @@ TEST_F(Adapt, refinesToAChordTolerance)
       filter->SetChordTolerance(0.02);
       filter->SetMaximumSteps(30);
     });
-  EXPECT_EQ(adapted.reason, "no cell is marked");
+  std::ostringstream reason;
+  reason << "no cell is marked: the largest ChordError is " << field(adapted, "MaximumChordError")
+         << ", the threshold 0.02";
+  EXPECT_EQ(adapted.reason, reason.str());
   EXPECT_LE(field(adapted, "MaximumChordError"), 0.02);
   EXPECT_EQ(largestOf(adapted.mesh, "ChordError"), field(adapted, "MaximumChordError"));
   EXPECT_GT(field(adapted, "MaximumChordError"), 0.002) << "not finer than needed";
@@ -234,7 +244,7 @@ TEST_F(Adapt, refinesToAChordToleranceOnATorus)
         filter->SetChordTolerance(0.05);
         filter->SetMaximumSteps(30);
       }));
-  EXPECT_EQ(adapted.reason, "no cell is marked");
+  EXPECT_EQ(adapted.reason.find("no cell is marked: the largest "), 0u) << adapted.reason;
   EXPECT_LE(field(adapted, "MaximumChordError"), 0.05);
   EXPECT_EQ(field(adapted, "UnprojectedVertices"), 0);
   expectSound(adapted.mesh);
@@ -249,7 +259,7 @@ TEST_F(Adapt, refinesToAnAngle)
       filter->SetNormalAngle(20);
       filter->SetMaximumSteps(30);
     });
-  EXPECT_EQ(adapted.reason, "no cell is marked");
+  EXPECT_EQ(adapted.reason.find("no cell is marked: the largest "), 0u) << adapted.reason;
   EXPECT_GT(adapted.columns.at("MaximumNormalAngle")[0], 40);
   EXPECT_LE(field(adapted, "MaximumNormalAngle"), 20);
   EXPECT_EQ(largestOf(adapted.mesh, "NormalAngle"), field(adapted, "MaximumNormalAngle"));
@@ -305,7 +315,7 @@ TEST_F(Adapt, projectsInsideItsRegion)
     });
   const Data projected =
     filters.run<vtkProjectOntoCAD>(ball, [&](vtkProjectOntoCAD* filter) { configure(filter); });
-  EXPECT_TRUE(cadtest::areSame(adapted.mesh, filters.measure(projected, 1)));
+  EXPECT_TRUE(cadtest::areSame(adapted.mesh, filters.measure(projected, 0)));
 }
 
 TEST_F(Adapt, refinesUniformly)
@@ -318,6 +328,270 @@ TEST_F(Adapt, refinesUniformly)
     });
   EXPECT_EQ(adapted.columns.at("GlobalCells"), (std::vector<double>{ 20, 160, 1280 }));
   EXPECT_EQ(adapted.columns.at("MarkedCells"), (std::vector<double>{ 0, 20, 160 }));
+}
+
+TEST_F(Adapt, refinesUniformlyFirst)
+{
+  constexpr double threshold = 1e-2;
+  const Adapted adapted = adapt(ball,
+    [](vtkAdaptToCAD* filter)
+    {
+      filter->SetUniformSteps(1);
+      filter->SetMaximumSteps(1);
+      filter->SetErrorThreshold(threshold);
+      filter->CutFacetsOff();
+    });
+  const Data fine = filters.measure(filters.refineUniformly(filters.project(ball)), 0);
+  const auto marked = countAbove(fine, "GeometricError", threshold);
+  EXPECT_GT(marked, 0);
+  EXPECT_LT(marked, 160);
+  EXPECT_EQ(
+    adapted.columns.at("MarkedCells"), (std::vector<double>{ 0, 20, static_cast<double>(marked) }));
+  expectRow(adapted, 1, fine);
+  EXPECT_TRUE(cadtest::areSame(
+    adapted.mesh, filters.measure(filters.refineWhereErrorExceeds(fine, threshold), 0)));
+  const Adapted none = adapt(ball,
+    [](vtkAdaptToCAD* filter)
+    {
+      filter->SetUniformSteps(1);
+      filter->SetMaximumSteps(0);
+      filter->SetErrorThreshold(100);
+    });
+  EXPECT_EQ(none.steps(), 1u);
+  EXPECT_NE(none.reason.find("MaximumSteps"), std::string::npos) << none.reason;
+}
+
+TEST_F(Adapt, goesOnWithAProjectedMesh)
+{
+  const auto steps = [&](vtkPointSet* mesh, int count, bool projected)
+  {
+    return adapt(mesh,
+      [&](vtkAdaptToCAD* filter)
+      {
+        filter->SetMaximumSteps(count);
+        filter->SetStartProjected(projected);
+        filter->ProjectNewVerticesOff(); // so that projecting again would move vertices
+      });
+  };
+  const Adapted whole = steps(ball, 3, false);
+  const Adapted second = steps(steps(ball, 2, false).mesh, 1, true);
+  EXPECT_TRUE(cadtest::areSame(second.mesh, whole.mesh));
+  for (const auto& [name, values] : whole.columns)
+  {
+    if (name != "Step" && name != "MarkedCells" && name != "ProjectedPoints")
+    {
+      EXPECT_EQ(second.columns.at(name), (std::vector<double>{ values.at(2), values.at(3) }))
+        << name;
+    }
+  }
+  EXPECT_EQ(second.columns.at("ProjectedPoints")[0], 0) << "none is looked up";
+
+  const auto outcome =
+    filters.attempt<vtkAdaptToCAD>(ball, [](vtkAdaptToCAD* filter) { filter->StartProjectedOn(); });
+  EXPECT_FALSE(outcome.succeeded);
+  ASSERT_EQ(outcome.errors.size(), 1u);
+  EXPECT_NE(outcome.errors[0].find("apply the filter Project Onto CAD first"), std::string::npos)
+    << outcome.errors[0];
+}
+
+TEST_F(Adapt, makesQuadraticCellsInTheEnd)
+{
+  const auto configure = [](vtkAdaptToCAD* filter) { filter->SetMaximumSteps(2); };
+  const Adapted adapted = adapt(ball,
+    [&](vtkAdaptToCAD* filter)
+    {
+      configure(filter);
+      filter->QuadraticCellsOn();
+    });
+  const Data quadratic = filters.measure(filters.run<vtkRefineWithCAD>(adapt(ball, configure).mesh,
+                                           [](vtkRefineWithCAD* filter)
+                                           {
+                                             filter->SetLevels(0);
+                                             filter->QuadraticCellsOn();
+                                           }),
+    0);
+  EXPECT_TRUE(cadtest::areSame(adapted.mesh, quadratic));
+  ASSERT_EQ(adapted.steps(), 3u);
+  expectRow(adapted, 3, quadratic);
+  EXPECT_NE(adapted.reason.find("MaximumSteps"), std::string::npos) << adapted.reason;
+
+  const Adapted alone = adapt(quadratic,
+    [](vtkAdaptToCAD* filter)
+    {
+      filter->StartProjectedOn();
+      filter->SetMaximumSteps(0);
+    });
+  EXPECT_TRUE(cadtest::areSame(alone.mesh, quadratic)) << "measured, not refined";
+  const auto outcome =
+    filters.attempt<vtkAdaptToCAD>(cadtest::toPolyData(cadtest::sphereMesh(2, 0.03)),
+      [](vtkAdaptToCAD* filter) { filter->QuadraticCellsOn(); });
+  EXPECT_FALSE(outcome.succeeded);
+  ASSERT_EQ(outcome.errors.size(), 1u);
+  EXPECT_NE(outcome.errors[0].find("poly data cannot hold quadratic cells"), std::string::npos);
+}
+
+/// What there is when a step is told of.
+struct Told
+{
+  std::vector<Data> meshes;
+  std::vector<std::string> statistics;
+  std::vector<std::size_t> rows;
+  int abortAfter = -1; ///< Step.
+  int failAfter = -1;
+};
+
+void takeStep(vtkObject* caller, unsigned long, void* client, void*)
+{
+  auto* filter = static_cast<vtkAdaptToCAD*>(caller);
+  auto& told = *static_cast<Told*>(client);
+  const auto* output = vtkPointSet::SafeDownCast(filter->GetOutputDataObject(0));
+  const auto mesh = Data::Take(output->NewInstance());
+  mesh->DeepCopy(filter->GetOutputDataObject(0));
+  told.meshes.push_back(mesh);
+  told.statistics.emplace_back(filter->GetStepStatistics());
+  told.rows.push_back(cadtest::columnsOf(filter->GetOutputDataObject(1)).at("Step").size());
+  EXPECT_NE(std::string(filter->GetFitReport()), "");
+  const int step = static_cast<int>(told.meshes.size()) - 1;
+  if (step == told.abortAfter)
+  {
+    filter->SetAbortExecute(1);
+  }
+  if (step == told.failAfter)
+  {
+    throw std::runtime_error("the disk is full");
+  }
+}
+
+class AdaptObserved : public Adapt
+{
+protected:
+  vtkSmartPointer<vtkAdaptToCAD> makeFilter(int steps) const
+  {
+    auto filter = vtkSmartPointer<vtkAdaptToCAD>::New();
+    filter->SetController(nullptr);
+    filter->SetInputDataObject(0, ball);
+    filter->SetInputDataObject(1, filters.cad());
+    filter->SetUniformSteps(1);
+    filter->SetMaximumSteps(steps);
+    return filter;
+  }
+
+  static void observe(vtkAdaptToCAD* filter, Told& told)
+  {
+    vtkNew<vtkCallbackCommand> command;
+    command->SetCallback(takeStep);
+    command->SetClientData(&told);
+    filter->AddObserver(vtkAdaptToCAD::StepEvent, command);
+  }
+};
+
+TEST_F(AdaptObserved, seesTheMeshOfEachStep)
+{
+  cadtest::addArrays(ball);
+  Told told;
+  const auto filter = makeFilter(2);
+  filter->QuadraticCellsOn();
+  observe(filter, told);
+  const Adapted adapted = resultOf(cadtest::execute(filter));
+  ASSERT_EQ(told.meshes.size(), 5u);
+  const char* const kinds[] = { "projection", "uniform", "longest-edge", "longest-edge",
+    "quadratic" };
+  for (std::size_t step = 0; step < 5; ++step)
+  {
+    Data expected;
+    if (step == 0)
+    {
+      expected = filters.measure(filters.project(ball), 0);
+    }
+    else if (step < 4)
+    {
+      expected = resultOf(cadtest::execute(makeFilter(static_cast<int>(step) - 1))).mesh;
+    }
+    EXPECT_TRUE(cadtest::areSame(told.meshes[step], expected ? expected : adapted.mesh)) << step;
+    expectRow(adapted, step, told.meshes[step]);
+    EXPECT_EQ(told.rows[step], step + 1);
+    std::ostringstream begin;
+    begin << R"({"step": )" << step << R"(, "kind": ")" << kinds[step] << R"(", "seconds": {)";
+    EXPECT_EQ(told.statistics[step].find(begin.str()), 0u) << told.statistics[step];
+    EXPECT_NE(told.statistics[step].find(R"("error imbalance after")"), std::string::npos);
+    EXPECT_EQ(
+      told.statistics[step].find(R"("marked cells")") != std::string::npos, step == 2 || step == 3);
+  }
+  const Adapted unseen = [&]
+  {
+    const auto other = makeFilter(2);
+    other->QuadraticCellsOn();
+    return resultOf(cadtest::execute(other));
+  }();
+  EXPECT_TRUE(cadtest::areSame(adapted.mesh, unseen.mesh));
+  EXPECT_EQ(adapted.columns, unseen.columns);
+}
+
+TEST_F(AdaptObserved, endsWhereItsObserverAborts)
+{
+  Told told;
+  told.abortAfter = 2;
+  const auto filter = makeFilter(5);
+  filter->QuadraticCellsOn();
+  observe(filter, told);
+  const Adapted adapted = resultOf(cadtest::execute(filter));
+  EXPECT_EQ(adapted.reason, "interrupted");
+  EXPECT_EQ(adapted.steps(), 2u);
+  ASSERT_EQ(told.meshes.size(), 3u);
+  EXPECT_TRUE(cadtest::areSame(adapted.mesh, told.meshes[2]));
+
+  Told last;
+  last.abortAfter = 2;
+  const auto whole = makeFilter(1);
+  whole->QuadraticCellsOn();
+  observe(whole, last);
+  EXPECT_EQ(resultOf(cadtest::execute(whole)).steps(), 2u) << "no quadratic cells either";
+}
+
+TEST_F(AdaptObserved, failsWithItsObserver)
+{
+  Told told;
+  told.failAfter = 1;
+  const auto filter = makeFilter(3);
+  observe(filter, told);
+  const cadtest::Outcome outcome = cadtest::execute(filter);
+  EXPECT_FALSE(outcome.succeeded);
+  ASSERT_EQ(outcome.errors.size(), 1u);
+  EXPECT_NE(outcome.errors[0].find("the disk is full"), std::string::npos) << outcome.errors[0];
+  EXPECT_EQ(outcome.pointSet()->GetNumberOfPoints(), 0);
+  EXPECT_TRUE(cadtest::columnsOf(outcome.secondOutput).empty());
+  EXPECT_EQ(std::string(filter->GetFitReport()), "");
+}
+
+/// The texts of a run, in order.
+void takeText(vtkObject* caller, unsigned long, void* client, void*)
+{
+  const char* text = static_cast<vtkAdaptToCAD*>(caller)->GetProgressText();
+  static_cast<std::vector<std::string>*>(client)->emplace_back(text ? text : "");
+}
+
+TEST_F(AdaptObserved, countsCellsBeforeItCutsThem)
+{
+  for (const int method :
+    { vtkAdaptToCAD::UNIFORM_BISECTION, vtkAdaptToCAD::LONGEST_EDGE_BISECTION })
+  {
+    std::vector<std::string> texts;
+    vtkNew<vtkCallbackCommand> command;
+    command->SetCallback(takeText);
+    command->SetClientData(&texts);
+    const auto filter = makeFilter(5);
+    filter->SetMethod(method);
+    filter->SetMaximumCells(161); // one more than the uniform step makes
+    filter->AddObserver(vtkCommand::ProgressEvent, command);
+    const Adapted adapted = resultOf(cadtest::execute(filter));
+    EXPECT_EQ(adapted.steps(), 1u);
+    EXPECT_NE(adapted.reason.find("MaximumCells"), std::string::npos) << adapted.reason;
+    const auto has = [&](const char* text)
+    { return std::find(texts.begin(), texts.end(), text) != texts.end(); };
+    EXPECT_TRUE(has("Step 1: cutting cells"));
+    EXPECT_TRUE(has("Step 2: marking cells"));
+    EXPECT_FALSE(has("Step 2: cutting cells"));
+  }
 }
 
 /// Aborts an adaptation where its second step begins.

@@ -7,6 +7,7 @@
 #include "TestShapes.h"
 
 #include <gtest/gtest.h>
+#include <vtkAdaptToCAD.h>
 #include <vtkCellData.h>
 #include <vtkCellType.h>
 #include <vtkDataArray.h>
@@ -16,10 +17,14 @@
 #include <vtkPolyData.h>
 #include <vtkUnstructuredGrid.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <set>
+#include <string>
+#include <vector>
 
 namespace
 {
@@ -55,6 +60,67 @@ protected:
     return values;
   }
 };
+
+const std::vector<const char*> errorsOfCells{ "GeometricError", "GeometricDistance", "ChordError",
+  "NormalAngle" };
+const std::vector<const char*> errorsOfMesh{ "GlobalGeometricError", "GeometricErrorDimension",
+  "MaximumGeometricDistance", "MaximumChordError", "MaximumNormalAngle" };
+const std::vector<const char*> qualities{ "CellValidity", "CellQuality" };
+
+/// Which of these arrays there are.
+std::vector<std::string> found(vtkFieldData* data, const std::vector<const char*>& names)
+{
+  std::vector<std::string> there;
+  std::copy_if(names.begin(), names.end(), std::back_inserter(there),
+    [&](const char* name) { return data->HasArray(name); });
+  return there;
+}
+
+/// What was measured of the mesh before it changed does not hold any more.
+TEST_F(TaggedBall, losesWhatWasMeasuredWhereItChanges)
+{
+  const auto judged = filters.run<vtkMeshValidity>(
+    filters.measure(filters.project(coarse), 1), [](vtkMeshValidity*) {});
+  const auto measured = filters.measure(judged, 1);
+  for (const auto& data : { judged, measured })
+  {
+    EXPECT_EQ(found(data->GetCellData(), errorsOfCells).size(), errorsOfCells.size());
+    EXPECT_EQ(found(data->GetFieldData(), errorsOfMesh).size(), errorsOfMesh.size());
+    EXPECT_EQ(found(data->GetCellData(), qualities).size(), qualities.size());
+  }
+  for (const auto& changed : { filters.project(measured), filters.refineUniformly(measured),
+         filters.refineWhereErrorExceeds(measured, 0),
+         filters.run<vtkRefineWithCAD>(measured,
+           [](vtkRefineWithCAD* filter)
+           {
+             filter->SetMarkingArray("CellQuality");
+             filter->SetLevels(2);
+           }) })
+  {
+    EXPECT_EQ(found(changed->GetCellData(), errorsOfCells), std::vector<std::string>());
+    EXPECT_EQ(found(changed->GetFieldData(), errorsOfMesh), std::vector<std::string>());
+    EXPECT_EQ(found(changed->GetCellData(), qualities), std::vector<std::string>());
+    EXPECT_TRUE(changed->GetCellData()->HasArray("Tag"));
+    EXPECT_EQ(cadtest::fieldValue(changed, "InvalidCells"), 0);
+  }
+}
+
+/// Its own errors are those of the last step; an indicator serves all of them.
+TEST_F(TaggedBall, hasTheErrorsOfTheLastStepAfterAnAdaptation)
+{
+  const auto judged = filters.run<vtkMeshValidity>(
+    filters.measure(filters.project(coarse), 1), [](vtkMeshValidity*) {});
+  const auto adapted = filters.run<vtkAdaptToCAD>(judged,
+    [](vtkAdaptToCAD* filter)
+    {
+      filter->SetIndicatorArray("CellQuality");
+      filter->SetMaximumSteps(2);
+    });
+  EXPECT_EQ(found(adapted->GetCellData(), qualities), std::vector<std::string>());
+  const auto again = filters.measure(adapted, 0);
+  EXPECT_EQ(cadtest::fieldValue(adapted, "GlobalGeometricError"),
+    cadtest::fieldValue(again, "GlobalGeometricError"));
+}
 
 TEST_F(TaggedBall, keepsALinearFieldLinearUnderStraightRefinement)
 {

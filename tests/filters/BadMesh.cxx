@@ -25,11 +25,11 @@ cadtest::Outcome attemptAdapt(const cadtest::FilterRun& filters, vtkPointSet* me
 const std::vector<NamedFilter>& BadMesh::allFilters()
 {
   static const std::vector<NamedFilter> filters{
-    { "Project onto CAD", attemptFilter<vtkProjectOntoCAD> },
-    { "Adapt to CAD", attemptAdapt },
+    { "Project Onto CAD", attemptFilter<vtkProjectOntoCAD> },
+    { "Adapt To CAD", attemptAdapt },
     { "Mesh Validity", attemptFilter<vtkMeshValidity> },
     { "CAD Geometric Error", attemptFilter<vtkCADGeometricError> },
-    { "Refine with CAD", attemptFilter<vtkRefineWithCAD> },
+    { "Refine With CAD", attemptFilter<vtkRefineWithCAD> },
   };
   return filters;
 }

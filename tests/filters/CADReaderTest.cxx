@@ -20,6 +20,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 
 namespace
@@ -68,13 +69,14 @@ protected:
     *static_cast<std::string*>(client) += static_cast<const char*>(text);
   }
 
-  ReadOutcome read(const IgesWriter& file) const
+  ReadOutcome read(const IgesWriter& file, bool drawing = true) const
   {
     ReadOutcome result;
     file.write(folder.file("file.igs"));
     vtkNew<vtkCADReader> reader;
     reader->SetController(nullptr);
     reader->SetFileName(folder.file("file.igs").c_str());
+    reader->SetDrawing(drawing);
     vtkNew<vtkCallbackCommand> observer;
     observer->SetCallback(keepWarning);
     observer->SetClientData(&result.warning);
@@ -87,7 +89,7 @@ protected:
   TemporaryFolder folder;
 };
 
-TEST_F(CADReader, ShowsNamesAndColours)
+TEST_F(CADReader, showsNamesAndColours)
 {
   const ReadOutcome result = this->read(sample());
   vtkCellData* const faces = result.cells(0);
@@ -109,7 +111,7 @@ TEST_F(CADReader, ShowsNamesAndColours)
   EXPECT_FALSE(result.cells(1)->GetAbstractArray("Name")) << "no edge has one";
 }
 
-TEST_F(CADReader, ListsWhatIsNotInTheModel)
+TEST_F(CADReader, listsWhatIsNotInTheModel)
 {
   const ReadOutcome result = this->read(sample());
   EXPECT_EQ(result.text("CADUnit"), "mm");
@@ -120,7 +122,7 @@ TEST_F(CADReader, ListsWhatIsNotInTheModel)
   EXPECT_NE(result.warning.find("blanked"), std::string::npos) << result.warning;
 }
 
-TEST_F(CADReader, ListsGaps)
+TEST_F(CADReader, listsGaps)
 {
   const ReadOutcome result = this->read(sample());
   auto* const gaps = result.fields()->GetArray("CADGaps");
@@ -135,7 +137,29 @@ TEST_F(CADReader, ListsGaps)
   EXPECT_LT(tolerance->GetComponent(0, 0), 1e-3);
 }
 
-TEST_F(CADReader, IsSilentWhereAllIsWell)
+TEST_F(CADReader, drawsNothingWhereNothingIsAskedFor)
+{
+  const ReadOutcome drawn = this->read(sample());
+  const ReadOutcome bare = this->read(sample(), false);
+  const auto bytesOf = [](const ReadOutcome& outcome)
+  { return vtkUnsignedCharArray::SafeDownCast(outcome.fields()->GetArray("CADModel")); };
+  ASSERT_TRUE(bytesOf(drawn) && bytesOf(bare));
+  const vtkIdType size = bytesOf(drawn)->GetNumberOfValues();
+  ASSERT_EQ(bytesOf(bare)->GetNumberOfValues(), size);
+  EXPECT_TRUE(std::equal(
+    bytesOf(drawn)->GetPointer(0), bytesOf(drawn)->GetPointer(size), bytesOf(bare)->GetPointer(0)));
+  const auto textOf = [](const ReadOutcome& outcome)
+  { return outcome.warning.substr(outcome.warning.find('\n', outcome.warning.find("): ")) + 1); };
+  EXPECT_EQ(textOf(bare), textOf(drawn)); // before that stands the filter's address
+  for (unsigned int part = 0; part < 3; ++part)
+  {
+    EXPECT_GT(drawn.cells(part)->GetNumberOfTuples(), 0);
+    EXPECT_EQ(bare.cells(part)->GetNumberOfTuples(), 0);
+    EXPECT_TRUE(bare.cells(part)->GetArray("CADEntity"));
+  }
+}
+
+TEST_F(CADReader, isSilentWhereAllIsWell)
 {
   IgesWriter file;
   addSquare(file, { 0, 0, 0 }, {});

@@ -1,7 +1,7 @@
 // Checks of meshes of second order by sampling, with shape functions of their own.
 #pragma once
 
-#include "Vector3.h"
+#include <cadrefine/base/Vector3.h>
 
 #include <array>
 #include <functional>

@@ -2,6 +2,7 @@
 
 #include "TestMeshes.h"
 
+#include <vtkAbstractArray.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkCellType.h>
@@ -17,9 +18,11 @@
 #include <vtkPolyData.h>
 #include <vtkTable.h>
 #include <vtkUnstructuredGrid.h>
+#include <vtkVariant.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
 #include <cstring>
+#include <map>
 #include <stdexcept>
 
 namespace cadtest
@@ -125,6 +128,35 @@ vtkNew<vtkIdTypeArray> scatteredIds(const char* name, vtkIdType count)
   return ids;
 }
 
+struct Values
+{
+  std::vector<double> numbers;
+  std::vector<std::string> texts;
+
+  bool operator==(const Values& other) const
+  {
+    return numbers == other.numbers && texts == other.texts;
+  }
+};
+
+std::map<std::string, Values> fieldValues(vtkPointSet* mesh)
+{
+  std::map<std::string, Values> values;
+  vtkFieldData* fields = mesh->GetFieldData();
+  for (int a = 0; a < fields->GetNumberOfArrays(); ++a)
+  {
+    vtkAbstractArray* array = fields->GetAbstractArray(a);
+    Values& here = values[array->GetName()];
+    for (vtkIdType i = 0; i < array->GetNumberOfValues(); ++i)
+    {
+      const vtkVariant value = array->GetVariantValue(i);
+      value.IsString() ? here.texts.push_back(value.ToString())
+                       : here.numbers.push_back(value.ToDouble());
+    }
+  }
+  return values;
+}
+
 } // namespace
 
 vtkSmartPointer<vtkUnstructuredGrid> toGrid(const SimplexMesh& mesh)
@@ -180,6 +212,25 @@ vtkSmartPointer<vtkUnstructuredGrid> readGrid(const std::string& path)
     throw std::runtime_error("cannot read " + path);
   }
   return reader->GetOutput();
+}
+
+std::vector<std::string> differentFields(vtkPointSet* found, vtkPointSet* expected)
+{
+  auto values = fieldValues(found);
+  std::vector<std::string> different;
+  for (const auto& [name, value] : fieldValues(expected))
+  {
+    if (values.count(name) == 0 || !(values[name] == value))
+    {
+      different.push_back(name);
+    }
+    values.erase(name);
+  }
+  for (const auto& [name, value] : values)
+  {
+    different.push_back(name);
+  }
+  return different;
 }
 
 double fieldValue(vtkPointSet* dataSet, const char* name)

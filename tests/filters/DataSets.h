@@ -1,7 +1,7 @@
 // Between the tests' meshes and VTK's data sets.
 #pragma once
 
-#include "SimplexMesh.h"
+#include <cadrefine/mesh/SimplexMesh.h>
 
 #include <vtkSmartPointer.h>
 
@@ -29,6 +29,9 @@ cadrefine::SimplexMesh toMesh(vtkPointSet* dataSet);
 
 /// Reads a .vtu file; throws where it cannot be read or is empty.
 vtkSmartPointer<vtkUnstructuredGrid> readGrid(const std::string& path);
+
+/// Names of the field arrays that only one of them has, or that are not the same, bit for bit.
+std::vector<std::string> differentFields(vtkPointSet* found, vtkPointSet* expected);
 
 /// The only value of a field array; throws where there is none.
 double fieldValue(vtkPointSet* dataSet, const char* name);

@@ -176,11 +176,16 @@ protected:
     const cadtest::Outcome outcome = run();
     places.insert(InjectedFault::place());
     const bool hit = exchange.any(InjectedFault::place() != Place::Nowhere);
-    EXPECT_NE(outcome.succeeded, hit) << "allocation " << allocation;
-    EXPECT_EQ(outcome.errors.size(), hit && exchange.rank() == 0 ? 1u : 0u);
-    for (const std::string& error : outcome.errors)
+    const bool inReader = exchange.any(InjectedFault::place() == Place::OtherProcess);
+    // A CAD file is read again without the step or the entity that failed, which a warning tells.
+    const bool mended = inReader && outcome.succeeded;
+    EXPECT_NE(outcome.succeeded && !mended, hit) << "allocation " << allocation;
+    const auto& told = mended ? outcome.warnings : outcome.errors;
+    EXPECT_EQ(outcome.errors.size() + (mended ? outcome.warnings.size() : 0),
+      hit && exchange.rank() == 0 ? 1u : 0u);
+    for (const std::string& text : told)
     {
-      EXPECT_NE(error.find(cadtest::traceOf(kind)), std::string::npos) << error;
+      EXPECT_NE(text.find(cadtest::traceOf(kind)), std::string::npos) << text;
     }
   }
 
@@ -246,7 +251,7 @@ TEST_F(Faults, error)
 {
   expectAllFailTogether(
     runOf<vtkCADGeometricError>(filters.project(ownPiece()), [](vtkCADGeometricError*) {}),
-    { "reading the mesh", "measuring" });
+    { "reading the mesh", "projecting", "measuring facets" });
 }
 
 TEST_F(Faults, uniformRefinement)
@@ -285,8 +290,32 @@ TEST_F(Faults, adaptation)
 {
   expectAllFailTogether(
     runOf<vtkAdaptToCAD>(ownPiece(), [](vtkAdaptToCAD* filter) { filter->SetMaximumSteps(1); }),
-    withBalance({ "finding the boundary", "projecting", "measuring", "marking cells",
+    withBalance({ "finding the boundary", "projecting", "measuring facets", "marking cells",
       "cutting cells", "smoothing cells" }));
+}
+
+/// With all of its steps, each of which is told of on the last rank.
+TEST_F(Faults, observedAdaptation)
+{
+  vtkNew<vtkCallbackCommand> observer;
+  observer->SetCallback(
+    [](vtkObject* filter, unsigned long, void*, void*)
+    {
+      auto* output = vtkAlgorithm::SafeDownCast(filter)->GetOutputDataObject(0);
+      EXPECT_NE(vtkPointSet::SafeDownCast(output), nullptr);
+    });
+  expectAllFailTogether(runOf<vtkAdaptToCAD>(ownPiece(),
+                          [this, &observer](vtkAdaptToCAD* filter)
+                          {
+                            filter->SetUniformSteps(1);
+                            filter->SetMaximumSteps(1);
+                            filter->QuadraticCellsOn();
+                            if (exchange.rank() == exchange.size() - 1)
+                            {
+                              filter->AddObserver(vtkAdaptToCAD::StepEvent, observer);
+                            }
+                          }),
+    withBalance({ "marking cells", "cutting cells" }));
 }
 
 TEST_F(Faults, validity)
@@ -295,7 +324,7 @@ TEST_F(Faults, validity)
     { "reading the mesh", "looking at cells" });
 }
 
-/// Rank 0 reads in a process of its own, then all draw.
+/// Rank 0 reads in a process of its own, then all draw, each in one.
 TEST_F(Faults, reading)
 {
   failEverywhere(
@@ -306,7 +335,7 @@ TEST_F(Faults, reading)
       reader->SetFileName(cadFile.c_str());
       return cadtest::execute(reader);
     },
-    { "reading the CAD file", "drawing Faces" });
+    { "reading the CAD file", "drawing the CAD" });
   EXPECT_TRUE(exchange.any(places.count(Place::OtherProcess) > 0));
 }
 

@@ -1,5 +1,5 @@
-// A fault, wherever one wishes. A program that links this has an operator new of its own: nothing
-// in what is tested has to know.
+// A fault, wherever one candidates. A program that links this has an operator new of its own:
+// nothing in what is tested has to know.
 #pragma once
 
 #include <cstdint>

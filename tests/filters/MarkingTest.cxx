@@ -1,4 +1,4 @@
-// Which cells Refine with CAD cuts.
+// Which cells Refine With CAD cuts.
 
 #include "DataSets.h"
 #include "FilterRun.h"

@@ -1,8 +1,9 @@
 // Meshes in pieces, and meshes put together again to be compared.
 #pragma once
 
-#include "RankExchange.h"
-#include "SimplexMesh.h"
+#include "comm/RankExchange.h"
+
+#include <cadrefine/mesh/SimplexMesh.h>
 
 #include <vtkSmartPointer.h>
 

@@ -94,7 +94,14 @@ TEST_F(FilterProgress, tellsWhatIsDone)
   }
   const Data projected = filters.project(ball);
   const auto measuring = textsOf<vtkCADGeometricError>(projected, [](vtkCADGeometricError*) {});
-  EXPECT_EQ(measuring.count("measuring 0 of 20 facets"), 1u) << testing::PrintToString(measuring);
+  for (const char* text : { "projecting 0 of 30 boundary edges", "measuring facets" })
+  {
+    EXPECT_EQ(measuring.count(text), 1u) << text << testing::PrintToString(measuring);
+  }
+  const auto measuringDeeper = textsOf<vtkCADGeometricError>(
+    projected, [](vtkCADGeometricError* filter) { filter->SetRecursionDepth(2); });
+  EXPECT_EQ(measuringDeeper.count("measuring 0 of 120 edges"), 1u)
+    << testing::PrintToString(measuringDeeper);
   const auto refining =
     textsOf<vtkRefineWithCAD>(projected, [](vtkRefineWithCAD* filter) { filter->SetLevels(2); });
   for (const char* text : { "level 1 of 2: marking cells", "level 2 of 2: cutting cells" })
@@ -108,9 +115,23 @@ TEST_F(FilterProgress, namesTheStepsOfAnAdaptation)
   const auto texts =
     textsOf<vtkAdaptToCAD>(ball, [](vtkAdaptToCAD* filter) { filter->SetMaximumSteps(2); });
   for (const char* text : { "Projection", "Projection: finding the boundary", "Step 1",
-         "Step 2: marking cells", "Step 2: reading the mesh" })
+         "Projection: reading the mesh", "Step 2: marking cells", "Step 2: measuring facets" })
   {
     EXPECT_EQ(texts.count(text), 1u) << text << testing::PrintToString(texts);
+  }
+  EXPECT_EQ(texts.count("Step 2: reading the mesh"), 0u) << "it is read once";
+  const auto others = textsOf<vtkAdaptToCAD>(filters.project(ball),
+    [](vtkAdaptToCAD* filter)
+    {
+      filter->StartProjectedOn();
+      filter->SetUniformSteps(1);
+      filter->SetMaximumSteps(0);
+      filter->QuadraticCellsOn();
+    });
+  for (const char* text : { "Input", "Input: measuring facets", "Step 1: cutting cells",
+         "Quadratic cells", "Quadratic cells: measuring 0 of 80 facets" })
+  {
+    EXPECT_EQ(others.count(text), 1u) << text << testing::PrintToString(others);
   }
 }
 
@@ -127,7 +148,8 @@ TEST_F(FilterProgress, resultsAreColouredByWhatMatters)
   EXPECT_EQ(nameOf(measured->GetPointData()->GetScalars()), "none");
   EXPECT_EQ(nameOf(measured->GetCellData()->GetScalars()), "GeometricError");
   const Data refined = filters.refineWhereErrorExceeds(measured, 0);
-  EXPECT_EQ(nameOf(refined->GetCellData()->GetScalars()), "GeometricError");
+  EXPECT_EQ(nameOf(refined->GetCellData()->GetScalars()), "none") << "its error is not known";
+  EXPECT_EQ(nameOf(refined->GetPointData()->GetScalars()), "CADEntity");
   const Data judged = filters.run<vtkMeshValidity>(refined, [](vtkMeshValidity*) {});
   EXPECT_EQ(nameOf(judged->GetCellData()->GetScalars()), "CellQuality");
 }

@@ -46,8 +46,8 @@ TEST(Reach, aGivenDistanceReachesFartherThanFacetsDo)
   const auto mesh = fineBall(filters);
   const double all = fieldValue(mesh, "CADVertices");
   scale(mesh, 1.4);
-  EXPECT_EQ(projectedOf(filters, mesh, 0), 0);
-  EXPECT_EQ(projectedOf(filters, mesh, 0.79), 0);
+  EXPECT_THROW(projectedOf(filters, mesh, 0), std::runtime_error);
+  EXPECT_THROW(projectedOf(filters, mesh, 0.79), std::runtime_error);
   EXPECT_EQ(projectedOf(filters, mesh, 0.81), all);
 }
 
@@ -58,10 +58,10 @@ TEST(Reach, aMeshElsewhereIsToldOf)
   const auto mesh = fineBall(filters);
   scale(mesh, 1000);
   const Outcome outcome = filters.attempt<vtkProjectOntoCAD>(mesh, [](vtkProjectOntoCAD*) {});
-  EXPECT_TRUE(outcome.succeeded);
-  ASSERT_EQ(outcome.warnings.size(), 1u);
-  EXPECT_NE(outcome.warnings[0].find("no vertex was put onto the CAD"), std::string::npos)
-    << outcome.warnings[0];
+  EXPECT_FALSE(outcome.succeeded);
+  ASSERT_EQ(outcome.errors.size(), 1u);
+  EXPECT_NE(outcome.errors[0].find("no vertex was put onto the CAD"), std::string::npos)
+    << outcome.errors[0];
 }
 
 } // namespace

@@ -1,7 +1,7 @@
 // Whether a mesh in pieces is that of one rank.
 #pragma once
 
-#include "RankExchange.h"
+#include "comm/RankExchange.h"
 
 class vtkPointSet;
 

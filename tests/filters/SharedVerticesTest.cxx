@@ -1,10 +1,10 @@
 // The vertices that pieces share, also where the mesh is no manifold.
 
 #include "DataSets.h"
-#include "DistributedMesh.h"
 #include "ParallelTest.h"
 #include "Partition.h"
 #include "TestMeshes.h"
+#include "mesh/DistributedMesh.h"
 
 #include <vtkUnstructuredGrid.h>
 

@@ -20,6 +20,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <ostream>
 
 namespace
 {
@@ -36,6 +37,11 @@ struct Case
   /// The first percentile of the mean ratio, at least so many times that without CAD.
   double quality;
 };
+
+void PrintTo(const Case& tried, std::ostream* out)
+{
+  *out << tried.name;
+}
 
 vtkSmartPointer<vtkPointSet> bundled(const std::string& name)
 {

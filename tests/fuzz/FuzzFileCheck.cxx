@@ -2,8 +2,8 @@
 
 #include "MemoryFile.h"
 
-#include "Error.h"
-#include "FileCheck.h"
+#include <cadrefine/base/Error.h>
+#include <cadrefine/cad/import/FileCheck.h>
 
 #include <array>
 #include <cstdlib>

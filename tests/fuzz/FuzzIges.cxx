@@ -3,9 +3,9 @@
 
 #include "MemoryFile.h"
 
-#include "Error.h"
-#include "IgesRepair.h"
-#include "IgesRoots.h"
+#include <cadrefine/base/Error.h>
+#include <cadrefine/cad/import/iges/IgesRepair.h>
+#include <cadrefine/cad/import/iges/IgesTopLevel.h>
 
 #include <cstdlib>
 

@@ -2,8 +2,8 @@
 // shape is the input's; the shape, which Open CASCADE reads, is a sound one; the check sum is
 // right.
 
-#include "Error.h"
-#include "ModelBytes.h"
+#include <cadrefine/base/Error.h>
+#include <cadrefine/cad/model/ModelBytes.h>
 
 #include <BRepPrimAPI_MakeBox.hxx>
 

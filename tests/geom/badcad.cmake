@@ -19,4 +19,11 @@ target_link_libraries(badcad PUBLIC CADRefineCad ${data_exchange} TKXSBase TKPri
 add_executable(badcad_table badcad/BadCADTable.cxx)
 target_link_libraries(badcad_table PRIVATE badcad CADRefineWarnings)
 
-cadrefine_geom_test(badcad_tests SOURCES badcad/BadCADTest.cxx LINKS badcad)
+# Files by the hundred are slow.
+set(slow BadCAD.igesMadeByPrograms BadCAD.splinesInStepAndBrep BadCAD.brepMadeByPrograms BadCAD.binaryBrep
+  BadCAD.soundFacesAreNotLost BadCAD.manyPatchesInOnePlace)
+foreach (file RANGE 2 6)
+  list(APPEND slow Files/Mutations.endWell/${file})
+endforeach ()
+list(JOIN slow ":" slow)
+cadrefine_geom_test(badcad_tests SOURCES badcad/BadCADTest.cxx LINKS badcad SLOW "${slow}")

@@ -12,7 +12,8 @@ cadrefine_geom_test(cad_tests
     cad/IgesSurfacesTest.cxx
     cad/IgesWriter.cxx
     cad/IsolatedRunTest.cxx
-    cad/LooksTest.cxx
+    cad/AttributesTest.cxx
+    cad/LossTest.cxx
     cad/ModelBytesTest.cxx
     cad/NakedFacesTest.cxx
     cad/RealFilesTest.cxx
@@ -23,3 +24,13 @@ cadrefine_geom_test(cad_tests
     cad/UnreadTest.cxx
   LINKS CADRefineFloatingPoint CADRefineCad ${CADREFINE_IGES} ${CADREFINE_STEP} TKXSBase TKPrim TKBO TKTopAlgo TKBRep)
 target_include_directories(cad_tests SYSTEM PRIVATE ${OpenCASCADE_INCLUDE_DIR})
+
+# What is read of CAD files, beside what Open CASCADE's plain reader reads: for any folder, see cad_files.py.
+add_executable(cad_file_probe cad/CADFileProbe.cxx)
+target_include_directories(cad_file_probe SYSTEM PRIVATE ${OpenCASCADE_INCLUDE_DIR})
+target_link_libraries(cad_file_probe PRIVATE CADRefineCad CADRefineWarnings
+  ${CADREFINE_IGES} ${CADREFINE_STEP} TKXSBase TKPrim TKTopAlgo TKBRep)
+add_test(NAME cad_files COMMAND /usr/bin/python3 -B "${CMAKE_CURRENT_SOURCE_DIR}/cad_files.py" --all
+  $<TARGET_FILE:cad_file_probe> "${CMAKE_SOURCE_DIR}/data" /usr/share/opencascade/data/iges
+  /usr/share/opencascade/data/step)
+set_tests_properties(cad_files PROPERTIES LABELS unit TIMEOUT 300)

@@ -4,7 +4,6 @@ endif ()
 
 cadrefine_geom_test(mesh_tests
   SOURCES
-    mesh/CurvedCellsTest.cxx
     mesh/EdgeTableTest.cxx
     mesh/FacetsTest.cxx
     mesh/OrientationTest.cxx

@@ -1,7 +1,7 @@
 cadrefine_geom_test(nurbs_tests
   SOURCES
-    nurbs/TestBezier.cxx
-    nurbs/TestBruteForce.cxx
-    nurbs/TestClosedForms.cxx
-    nurbs/TestContract.cxx
+    nurbs/BezierTest.cxx
+    nurbs/BruteForceTest.cxx
+    nurbs/ClosedFormsTest.cxx
+    nurbs/ContractTest.cxx
   LINKS CADRefineFloatingPoint CADRefineNurbs)

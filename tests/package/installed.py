@@ -76,7 +76,7 @@ class Installation:
         return only_one(self.path("lib", "python3*", "dist-packages"))
 
     def plugin_folder(self):
-        return only_one(self.path("lib", "paraview-*"))
+        return only_one(self.path("lib", "cadrefine"))
 
     def scratch(self, name):
         return os.path.join(self.folder.name, name)

@@ -49,7 +49,7 @@ class Debian(unittest.TestCase):
         for name in ("usr/bin/cadrefine", "usr/share/cadrefine/plugin/cadrefine.py", "usr/lib/libCADRefineFilters.so",
                      "usr/share/doc/cadrefine/copyright"):
             self.assertIn(name, runtime)
-        for name in ("usr/include/cadrefine/cad/CADModel.h", "usr/lib/cmake/CADRefine/CADRefineConfig.cmake"):
+        for name in ("usr/include/cadrefine/cad/model/CADModel.h", "usr/lib/cmake/CADRefine/CADRefineConfig.cmake"):
             self.assertIn(name, development)
         self.assertFalse([name for name in runtime if name.endswith((".h", ".a", ".cmake", ".pyc"))])
         self.assertTrue(all(name.startswith("usr/") for name in runtime + development))

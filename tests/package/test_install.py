@@ -28,7 +28,7 @@ class Install(unittest.TestCase):
     def test_driver_and_paraview_have_links_to_the_one_plugin(self):
         for link in (("share", "cadrefine", "plugin", "CADRefine.so"), ("bin", "plugins", "CADRefine", "CADRefine.so")):
             self.assertEqual(os.path.realpath(self.installation.path(*link)), os.path.realpath(self.plugin))
-        self.assertEqual(only_one(os.path.join(installed.BUILD, "**", "CADRefine.so")).count("paraview-"), 1)
+        self.assertEqual(only_one(os.path.join(installed.BUILD, "**", "CADRefine.so")).count("/lib/cadrefine/"), 1)
 
     def test_command_runs_the_driver_with_the_installed_plugin(self):
         command = self.installation.path("bin", "cadrefine")
@@ -74,8 +74,8 @@ class Install(unittest.TestCase):
         self.assertEqual(len(adapted.points), int(vertices))
         self.assertEqual(len(adapted.cells_dict["tetra"]), int(cells))
         self.assertGreater(int(cells), 2 * len(meshio.read(mesh).cells_dict["tetra"]))
-        # Bulk marking cuts, in each of three steps, the cells with half of the error.
-        self.assertLess(float(error), 0.06)
+        # 0.184 before; bulk marking cuts, in each of three steps, the cells with half of the error.
+        self.assertLess(float(error), 0.065)
         self.assertAlmostEqual(float(error), adapted.cell_data_dict["GeometricError"]["tetra"].sum(), delta=1e-4)
 
     def test_uninstall_leaves_no_file(self):

@@ -1,6 +1,5 @@
 // The same mesh, bit for bit, whichever way cells are dealt out to ranks.
 
-#include "BulkMarking.h"
 #include "DataSets.h"
 #include "MeshChecks.h"
 #include "ParallelTest.h"
@@ -8,6 +7,7 @@
 #include "RandomProblem.h"
 #include "SamePieces.h"
 #include "TestShapes.h"
+#include "refinement/BulkMarking.h"
 
 #include <algorithm>
 #include <cmath>
@@ -90,7 +90,7 @@ protected:
   }
 };
 
-TEST_F(PartitionProperty, MeshesAreTheSame)
+TEST_F(PartitionProperty, meshesAreTheSame)
 {
   forEachSeed(12, [this](Random& random) { expectSameAsOnOneRank(random); });
 }
@@ -127,7 +127,7 @@ std::vector<unsigned char> fewestThatCarry(
   return marks;
 }
 
-TEST_F(PartitionProperty, BulkMarkingIsTheLeast)
+TEST_F(PartitionProperty, bulkMarkingIsTheLeast)
 {
   forEachSeed(200,
     [this](Random& random)

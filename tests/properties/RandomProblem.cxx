@@ -1,9 +1,10 @@
 #include "RandomProblem.h"
 
 #include "DataSets.h"
-#include "Facets.h"
 #include "TestMeshes.h"
 #include "TestShapes.h"
+
+#include <cadrefine/mesh/Facets.h>
 
 #include <vtkPolyData.h>
 #include <vtkUnstructuredGrid.h>

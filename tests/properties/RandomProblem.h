@@ -3,7 +3,8 @@
 
 #include "FilterRun.h"
 #include "RandomShapes.h"
-#include "SimplexMesh.h"
+
+#include <cadrefine/mesh/SimplexMesh.h>
 
 #include <TopoDS_Shape.hxx>
 

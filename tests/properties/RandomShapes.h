@@ -2,11 +2,13 @@
 #pragma once
 
 #include "Rounds.h"
-#include "Vector3.h"
+
+#include <cadrefine/base/Vector3.h>
 
 #include <TopoDS_Shape.hxx>
 
 #include <array>
+#include <ostream>
 
 namespace propertytest
 {
@@ -23,6 +25,10 @@ enum class ShapeKind
 constexpr std::array<ShapeKind, 5> shapeKinds{ ShapeKind::Patch, ShapeKind::Trimmed,
   ShapeKind::Closed, ShapeKind::Revolved, ShapeKind::Curves };
 const char* nameOf(ShapeKind kind);
+inline void PrintTo(ShapeKind kind, std::ostream* out)
+{
+  *out << nameOf(kind);
+}
 
 /// Some 1 in size.
 TopoDS_Shape randomShape(Random& random, ShapeKind kind);

@@ -1,13 +1,14 @@
 // Refinement of random meshes with random marks.
 
-#include "EdgeTable.h"
 #include "LeastMarking.h"
-#include "LongestEdgeMarking.h"
 #include "MeshChecks.h"
-#include "Quality.h"
 #include "Rounds.h"
-#include "Split.h"
 #include "TestMeshes.h"
+
+#include <cadrefine/mesh/EdgeTable.h>
+#include <cadrefine/mesh/Quality.h>
+#include <cadrefine/refinement/LongestEdgeMarking.h>
+#include <cadrefine/refinement/Split.h>
 
 #include <gtest/gtest.h>
 
@@ -258,7 +259,7 @@ std::set<cadtest::IdPair> markedIds(const SimplexMesh& mesh, const Refined& refi
 
 constexpr std::size_t mostCells = 3000;
 
-TEST(RefinementProperty, LongestEdgeBisectionIsConformingNestedAndLeast)
+TEST(RefinementProperty, longestEdgeBisectionIsConformingNestedAndLeast)
 {
   forEachSeed(40,
     [](Random& random)
@@ -284,7 +285,7 @@ TEST(RefinementProperty, LongestEdgeBisectionIsConformingNestedAndLeast)
     });
 }
 
-TEST(RefinementProperty, UniformSplittingIsConformingAndNested)
+TEST(RefinementProperty, uniformSplittingIsConformingAndNested)
 {
   forEachSeed(20,
     [](Random& random)
@@ -305,7 +306,7 @@ TEST(RefinementProperty, UniformSplittingIsConformingAndNested)
 }
 
 /// Powers of two scale without rounding.
-TEST(RefinementProperty, ScalesWithPowersOfTwo)
+TEST(RefinementProperty, scalesWithPowersOfTwo)
 {
   forEachSeed(40,
     [](Random& random)

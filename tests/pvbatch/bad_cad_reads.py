@@ -1,4 +1,4 @@
-"""Gives CAD files, bad ones among them, to the reader and to Project onto CAD, one after the other, in one process.
+"""Gives CAD files, bad ones among them, to the reader and to Project Onto CAD, one after the other, in one process.
 
 usage: bad_cad_reads.py PLUGIN RESULT.json MESH.vtu CAD...
 
@@ -24,7 +24,7 @@ def main():
     counts = []
     for file in files:
         cad = simple.CADReader(FileName=file)
-        counts.append([cells_of(cad), cells_of(simple.ProjectontoCAD(Input=mesh, CAD=cad))])
+        counts.append([cells_of(cad), cells_of(simple.ProjectOntoCAD(Input=mesh, CAD=cad))])
     if servermanager.vtkProcessModule.GetProcessModule().GetPartitionId() == 0:
         with open(result, "w", encoding="ascii") as output:
             json.dump(counts, output)

@@ -16,19 +16,19 @@ import unittest.mock
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.path.insert(0, os.path.join(ROOT, "plugin"))
 
-import cadrefine
-import cadrefine_options
-import cadrefine_session as session
-from cadrefine_files import Results
-from cadrefine_terminal import Terminal
+import cadrefine.cli
+import cadrefine.options
+from cadrefine import session
+from cadrefine.results import Results
+from cadrefine.terminal import Terminal
 
 
 def run(arguments):
     """The line of the failure, or None."""
     results = Results()
     try:
-        options = cadrefine_options.parse(arguments)
-        cadrefine.run(options, results, Terminal(options.quiet), 0.0)
+        options = cadrefine.options.parse(arguments)
+        cadrefine.cli.run(options, results, Terminal(options.quiet), 0.0)
     except session.Failure as failure:
         results.discard()
         return str(failure)

@@ -129,6 +129,22 @@ def sides_of(cells, triangles):
     return np.array([found[tuple(triple)] for triple in np.sort(triangles, axis=1).tolist()])
 
 
+def write_ball(folder):
+    """A ball of radius 1 about the origin, by gmsh."""
+    gmsh.initialize()
+    try:
+        gmsh.option.setNumber("General.Terminal", 0)
+        gmsh.model.occ.addSphere(0, 0, 0, 1)
+        gmsh.model.occ.synchronize()
+        gmsh.write(os.path.join(folder, "ball.brep"))
+        gmsh.option.setNumber("Mesh.MeshSizeMin", 0.7)
+        gmsh.option.setNumber("Mesh.MeshSizeMax", 0.7)
+        gmsh.model.mesh.generate(3)
+        gmsh.write(os.path.join(folder, "ball.msh"))
+    finally:
+        gmsh.finalize()
+
+
 def write_plane(folder):
     """A square in the plane z = 0, with tagged sides, by gmsh."""
     gmsh.initialize()

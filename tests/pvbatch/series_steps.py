@@ -14,10 +14,10 @@ STEPS = (0, 1, 2)
 
 def pipeline(series, cad):
     """The filters by their names, each with those before it."""
-    projected = simple.ProjectontoCAD(Input=series, CAD=cad)
+    projected = simple.ProjectOntoCAD(Input=series, CAD=cad)
     error = simple.CADGeometricError(Input=projected, CAD=cad)
-    refined = simple.RefinewithCAD(Input=error, CAD=cad, MarkingArray="GeometricError", Threshold=1e-5, Levels=2)
-    adapted = simple.AdapttoCAD(Input=series, CAD=cad, MaximumSteps=3, ErrorThreshold=1e-5)
+    refined = simple.RefineWithCAD(Input=error, CAD=cad, MarkingArray="GeometricError", Threshold=1e-5, Levels=2)
+    adapted = simple.AdaptToCAD(Input=series, CAD=cad, MaximumSteps=3, ErrorThreshold=1e-5)
     return {"project": projected, "error": error, "refine": refined, "adapt": adapted,
             "validity": simple.MeshValidity(Input=refined)}
 

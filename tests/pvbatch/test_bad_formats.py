@@ -106,11 +106,11 @@ class BadFormats(unittest.TestCase):
         before = self.contents()
         self.assertLessEqual({"out.vtu", "out.pvtu", "out/out_0.vtu", "out.msh", "out.xdmf", "out.h5"}, set(before))
         steps[-2] = "1"
-        broken = {".vtu": "cadrefine_pieces.write_grid", ".msh": "cadrefine_msh.write",
-                  ".xdmf": "cadrefine_xdmf.arrange"}
+        broken = {".vtu": "cadrefine.pieces.write_grid", ".msh": "cadrefine.formats.msh.write",
+                  ".xdmf": "cadrefine.formats.xdmf.arrange"}
         runs = [{"arguments": [*steps, results[ending]], "fails": function} for ending, function in broken.items()]
         late = ["--plot", self.path("plot.png")]
-        runs += [{"arguments": [*steps, path, *late], "fails": "cadrefine_plot.plot"} for path in results.values()]
+        runs += [{"arguments": [*steps, path, *late], "fails": "cadrefine.plot.plot"} for path in results.values()]
         failures, _ = driver.many(RANKS, self.folder, runs)
         for run, line in zip(runs, failures):
             self.assertIn("No space left on device", line)

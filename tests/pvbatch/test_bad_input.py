@@ -2,6 +2,7 @@
 """Bad input ends in one line on standard error, exit status 1 on every rank, and no output."""
 
 import os
+import shutil
 import sys
 import tempfile
 import unittest
@@ -11,6 +12,10 @@ import meshio
 
 RANKS = int(sys.argv.pop()) if sys.argv[-1].isdigit() else 1
 
+PIECES = """<VTKFile type="PUnstructuredGrid" version="0.1"><PUnstructuredGrid GhostLevel="0">
+<PPoints><PDataArray type="Float64" NumberOfComponents="3"/></PPoints><Piece Source="pieces/pieces_0.vtu"/>
+</PUnstructuredGrid></VTKFile>
+"""
 GRID = """# vtk DataFile Version 3.0
 bad input
 ASCII
@@ -22,7 +27,7 @@ CELL_TYPES {types}
 """
 
 
-class BadInput(unittest.TestCase):
+class Case(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
@@ -51,6 +56,8 @@ class BadInput(unittest.TestCase):
         else:
             self.assertEqual(run.status, 1)
 
+
+class BadFiles(Case):
     def test_no_file(self):
         missing = os.path.join(self.folder, "missing")
         self.assert_fails(missing + ".vtu", self.cad, names="missing.vtu: no such file")
@@ -97,6 +104,8 @@ class BadInput(unittest.TestCase):
                 "ORIGIN 0 0 0\nSPACING 1 1 1\n")
         self.assert_fails(self.file("image.vtk", text), self.cad, names="image.vtk: holds a vtkImageData")
 
+
+class BadInput(Case):
     def test_options(self):
         self.assert_fails(self.mesh, self.cad, "--steps", "many", names="--steps")
         self.assert_fails(self.mesh, self.cad, "--indicator", "error", names="--indicator-threshold")
@@ -110,6 +119,95 @@ class BadInput(unittest.TestCase):
                                ("--region", ["0", "1", "1", "0", "0", "1"])):
             with self.subTest(option, values=values):
                 self.assert_fails("none.vtu", "none.igs", option, *values, names=option + ": ")
+
+    def assert_refused(self, cases):
+        """Each of `cases` is what follows MESH and CAD, or all arguments, and a text of its line. No file changes."""
+        before = self.contents()
+        arguments = [case if os.path.isfile(case[0]) else [self.mesh, self.cad, *case] for case, _ in cases]
+        failures, _ = driver.many(RANKS, self.folder, [{"arguments": case} for case in arguments])
+        for (case, text), line in zip(cases, failures):
+            with self.subTest(case=case):
+                self.assertIn(text, line or "no failure")
+                self.assertEqual(len(line.splitlines()), 1)
+        self.assertEqual(self.contents(), before)
+
+    def contents(self):
+        """Of all files below the folder."""
+        found = {}
+        for folder, _, names in os.walk(self.folder):
+            for path in (os.path.join(folder, name) for name in names):
+                with open(path, "rb") as file:
+                    found[path] = os.path.islink(path), file.read()
+        return found
+
+    def test_numbers_that_are_no_values(self):
+        """The line names the option and the range."""
+        long = "1" + "0" * 5000
+        steps, cells = "a whole number from 0 to 1000000", "a whole number from 0 to 9223372036854775807"
+        ranges = {"--steps": (steps, "-1", "10000000000", long, "1.5", "nan", "inf", "1e3", ""),
+                  "--uniform-steps": (steps, "-1", "10000000000", "x"),
+                  "--maximum-cells": (cells, "-1", "1e6", "9223372036854775808"),
+                  "--recursion-depth": ("a whole number from 0 to 8", "9", "-1", "1.5"),
+                  "--target-error": ("a finite number of 0 or more", "-1", "nan", "inf", "-1e-3", "1e999"),
+                  "--threshold": ("a finite number of 0 or more", "-1e-9", "nan", "inf"),
+                  "--chord-tolerance": ("a finite number of 0 or more", "-1", "nan", "inf"),
+                  "--normal-angle": ("a finite number from 0 to 180", "-1", "181", "nan", "inf"),
+                  "--maximum-distance": ("a finite number of 0 or more", "-1", "-1e5", "nan", "inf", "1e309"),
+                  "--indicator-threshold": ("a finite number", "nan", "-inf", "x")}
+        cases = [([option, value], f"argument {option}: {value[:40]!r} is not {wanted}")
+                 for option, (wanted, *values) in ranges.items() for value in values]
+        cases += [(["--region", "0", "1", "0", bad, "0", "1"], f"argument --region: '{bad}' is not a finite number")
+                  for bad in ("nan", "-inf", "1e999")]
+        cases += [(["--region", "0", "1", "-1e-3", "-2e-3", "0", "1"], "--region: the box is empty"),
+                  (["--focus", "0", "1", "0", "1", "0", "1e300"], "argument --focus: '1e300' is not a finite number"),
+                  (["--view", "0", "0", "nan"], "argument --view: 'nan' is not a finite number")]
+        self.assert_refused(cases)
+
+    def test_results_in_place_of_what_is_read(self):
+        """By whatever name."""
+        os.makedirs(os.path.join(self.folder, "pieces"))
+        mesh, cad, piece = (os.path.join(self.folder, name) for name in ("mesh.vtu", "cad.igs", "pieces/pieces_0.vtu"))
+        for path, source in ((mesh, self.mesh), (cad, self.cad), (piece, self.mesh)):
+            shutil.copy(source, path)
+        index = self.file("pieces.pvtu", PIECES)
+        report = self.file("old.json", '{"steps": [{"vertices": 1, "global_error": 1}]}')
+        for name, target in (("soft.vtu", mesh), ("soft.json", mesh), ("soft.png", cad), ("folder", self.folder)):
+            os.symlink(target, os.path.join(self.folder, name))
+        os.link(mesh, os.path.join(self.folder, "hard.vtu"))
+        os.link(piece, os.path.join(self.folder, "hard_piece.vtu"))
+        os.link(report, os.path.join(self.folder, "other.json"))
+
+        def place(name):
+            return os.path.join(self.folder, name)
+
+        of_mesh, of_cad = f"would replace {mesh}, which MESH reads", f"would replace {cad}, which CAD reads"
+        cases = [([mesh, cad, "--output", path], of_mesh) for path in (
+            mesh, os.path.relpath(mesh), place("soft.vtu"), place("hard.vtu"), place("folder/mesh.vtu"),
+            place("pieces/../mesh.vtu"))]
+        cases += [([mesh, cad, "--report", place("soft.json")], of_mesh),
+                  ([mesh, cad, "--plot", place("soft.png")], of_cad),
+                  ([index, cad, "--output", index], f"would replace {index}, which MESH reads"),
+                  ([index, cad, "--output", place("hard_piece.vtu")], f"would replace {piece}, which MESH reads"),
+                  ([piece, cad, "--output", index], f"would replace {piece}, which MESH reads"),
+                  ([mesh, cad, "--compare-report", report, "--report", place("other.json")],
+                   f"would replace {report}, which --compare-report reads"),
+                  ([mesh, cad, "--report", place("new.json"), "--compare-report", report, "--output",
+                    place("folder/soft.vtu")], of_mesh),
+                  ([mesh, cad, "--plot", place("a.png"), "--screenshot", place("folder/a.png")],
+                   "a.png: is given twice, by --plot and --screenshot")]
+        self.assert_refused(cases)
+
+    def test_coordinates_that_are_too_large(self):
+        """Where the ranges that VTK writes with them cannot be read."""
+        text = """<VTKFile type="UnstructuredGrid" version="1.0"><UnstructuredGrid>
+<Piece NumberOfPoints="4" NumberOfCells="1"><Points><DataArray type="Float64" NumberOfComponents="3" format="ascii">
+0 0 0 1 0 0 0 1e300 0 0 0 1 <InformationKey name="L2_NORM_RANGE" location="vtkDataArray" length="2">
+<Value index="0">0</Value><Value index="1">inf</Value></InformationKey></DataArray></Points><Cells>
+<DataArray type="Int64" Name="connectivity" format="ascii">0 1 2 3</DataArray>
+<DataArray type="Int64" Name="offsets" format="ascii">4</DataArray>
+<DataArray type="UInt8" Name="types" format="ascii">10</DataArray></Cells></Piece></UnstructuredGrid></VTKFile>"""
+        self.assert_fails(self.file("large.vtu", text), self.cad,
+                          names="large.vtu: the mesh has a coordinate that is beyond 1.5e51 (point 2); correct it")
 
     def test_mesh_that_was_not_projected(self):
         self.assert_fails(self.mesh, self.cad, "--projected",

@@ -153,10 +153,9 @@ class Formats(unittest.TestCase):
         program = os.path.join(driver.ROOT, "plugin")
         sys.path.insert(0, program)
         self.addCleanup(sys.path.remove, program)
-        import cadrefine_grid
-        import cadrefine_xdmf
+        from cadrefine.formats import grid, xdmf
 
-        mesh = cadrefine_grid.from_grid(cadrefine_xdmf.read(self.path("square.xdmf")))
+        mesh = grid.from_grid(xdmf.read(self.path("square.xdmf")))
         (kind, corners), = mesh.blocks
         self.assertEqual((kind, len(corners)), (5, 18))
         sides = mesh.points[corners[:, 1:], :2] - mesh.points[corners[:, :1], :2]

@@ -12,9 +12,9 @@ import driver
 
 sys.path.insert(0, os.path.join(driver.ROOT, "plugin"))
 
-import cadrefine_options
-import cadrefine_table as table
-from cadrefine_terminal import Terminal, shows_colours
+import cadrefine.options
+from cadrefine import table
+from cadrefine.terminal import Terminal, shows_colours
 
 ARCS = [driver.data("three_arcs_coarse.vtu"), driver.data("three_arcs.igs"), "--steps", "0"]
 STEP = {"step": 12, "vertices": 12345678, "cells": 123456789, "cad_vertices": 1234567, "projected_points": 123456789,
@@ -49,12 +49,12 @@ class Algorithm:
 
 
 class Output(unittest.TestCase):
-    def news(self, events, quiet=False):
+    def news(self, events, quiet=False, **following):
         """Lines of a step whose events are (seconds, text, fraction)."""
         now, lines, algorithm = [100.0], [], Algorithm()
         terminal = Terminal(quiet, clock=lambda: now[0])
         with unittest.mock.patch("builtins.print", lambda line, flush: lines.append(line)):
-            with terminal.following(algorithm, "projecting"):
+            with terminal.following(algorithm, **(following or {"title": "projecting"})):
                 for seconds, text, fraction in events:
                     now[0] = 100.0 + seconds
                     if algorithm.observers:
@@ -71,6 +71,14 @@ class Output(unittest.TestCase):
         self.assertEqual(self.news(events, quiet=True), [])
         self.assertEqual(len(self.news([(3.0, "x" * 200, 0.1)])[0]), 100)
 
+    def test_news_of_the_steps_of_an_adaptation(self):
+        """Each is told of as if it were alone."""
+        events = [(0.0, "Projection", 0.0), (2.5, "Projection: finding the boundary", 0.1),
+                  (3.0, "Step 1", 0.25), (4.9, "Step 1: marking cells", 0.3), (5.5, "Step 1: cutting cells", 0.375),
+                  (6.0, "Step 2", 0.5), (9.0, "Step 2", 0.625), (9.5, "Quadratic cells", 0.75), (30.0, "done", 1.0)]
+        self.assertEqual(self.news(events, parts=4), ["  projection, 2 s: finding the boundary, 40%",
+                                                      "  step 1, 2 s: cutting cells, 50%", "  step 2, 3 s: 50%"])
+
     def test_table_fits(self):
         plain = lambda text, *_: text
         for line in [*table.headings(plain), table.row(STEP, plain)]:
@@ -84,11 +92,11 @@ class Output(unittest.TestCase):
         self.assertEqual(unknown.split()[4], "-")
 
     def test_help(self):
-        text = cadrefine_options.option_parser().format_help()
+        text = cadrefine.options.option_parser().format_help()
         self.assertLessEqual(max(map(len, text.splitlines())), 100)
         with open(os.path.join(driver.ROOT, "docs", "command-line.md"), encoding="utf-8") as file:
             guide = file.read()
-        for action in cadrefine_options.option_parser()._actions:
+        for action in cadrefine.options.option_parser()._actions:
             self.assertTrue(action.help and action.help.strip(), action.dest)
             for option in action.option_strings:
                 self.assertIn(f"`{option}", guide)

@@ -1,6 +1,6 @@
 #include "LeastMarking.h"
 
-#include "Vector3.h"
+#include <cadrefine/base/Vector3.h>
 
 #include <algorithm>
 #include <tuple>

@@ -1,7 +1,7 @@
 // Which edges longest edge bisection has to cut, by brute force.
 #pragma once
 
-#include "SimplexMesh.h"
+#include <cadrefine/mesh/SimplexMesh.h>
 
 #include <array>
 #include <set>

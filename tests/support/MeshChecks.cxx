@@ -1,7 +1,7 @@
 #include "MeshChecks.h"
 
-#include "Orientation.h"
-#include "Quality.h"
+#include <cadrefine/mesh/Orientation.h>
+#include <cadrefine/mesh/Quality.h>
 
 #include <algorithm>
 #include <map>

@@ -1,7 +1,7 @@
 // Checks that hold for every mesh that CADRefine makes.
 #pragma once
 
-#include "SimplexMesh.h"
+#include <cadrefine/mesh/SimplexMesh.h>
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #include "TestMeshes.h"
 
-#include "Quality.h"
+#include <cadrefine/mesh/Quality.h>
 
 #include <algorithm>
 #include <cmath>

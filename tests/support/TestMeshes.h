@@ -1,7 +1,7 @@
 // Small meshes with known volumes and boundaries.
 #pragma once
 
-#include "SimplexMesh.h"
+#include <cadrefine/mesh/SimplexMesh.h>
 
 #include <array>
 #include <cstdint>

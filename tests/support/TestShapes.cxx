@@ -1,6 +1,6 @@
 #include "TestShapes.h"
 
-#include "CADFile.h"
+#include <cadrefine/cad/import/CADFile.h>
 
 #include <BRepAlgoAPI_BuilderAlgo.hxx>
 #include <BRepAlgoAPI_Cut.hxx>
@@ -13,6 +13,7 @@
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRepPrimAPI_MakeTorus.hxx>
+#include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
@@ -26,6 +27,7 @@
 #include <gp_Trsf.hxx>
 
 #include <cmath>
+#include <stdexcept>
 
 namespace cadtest
 {
@@ -128,11 +130,21 @@ TopoDS_Shape threeSheets()
   return together.Shape();
 }
 
+TopoDS_Shape readShape(const std::string& path)
+{
+  TopoDS_Shape shape;
+  if (!BRepTools::Read(shape, path.c_str(), BRep_Builder()))
+  {
+    throw std::runtime_error("cannot read " + path);
+  }
+  return shape;
+}
+
 std::string writeInto(
   const TemporaryFolder& folder, const TopoDS_Shape& shape, const std::string& extension)
 {
   Message::DefaultMessenger()->ChangePrinters().Clear(); // Open CASCADE reports every file
-  const std::string path = folder.file("shape" + extension);
+  std::string path = folder.file("shape" + extension);
   writeShape(shape, path);
   return path;
 }

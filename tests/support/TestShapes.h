@@ -1,9 +1,10 @@
 // CAD models of simple shapes: made with Open CASCADE, written to a file and read back.
 #pragma once
 
-#include "CADModel.h"
 #include "TestFiles.h"
-#include "Vector3.h"
+
+#include <cadrefine/base/Vector3.h>
+#include <cadrefine/cad/model/CADModel.h>
 
 #include <TopoDS_Shape.hxx>
 
@@ -43,6 +44,9 @@ TopoDS_Shape moved(const TopoDS_Shape& shape, const cadrefine::Vector3& by);
 TopoDS_Shape scaled(const TopoDS_Shape& shape, double factor);
 /// Two shapes as one, not joined.
 TopoDS_Shape together(const TopoDS_Shape& a, const TopoDS_Shape& b);
+
+/// The shape of a BREP file; throws where it cannot be read.
+TopoDS_Shape readShape(const std::string& path);
 
 /// Writes `shape` into the folder with this extension (".step", ".igs", ".brep"); the file's path.
 std::string writeInto(

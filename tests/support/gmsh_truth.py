@@ -5,8 +5,9 @@ usage: gmsh_truth.py FOLDER [SOLID ...]
 
 For each solid writes the CAD file FOLDER/SOLID.brep and, at two sizes, the meshes FOLDER/SOLID_coarse.vtu and
 FOLDER/SOLID_fine.vtu of tetrahedra. Each node is moved in a random direction (of a fixed seed) by up to 5% of the mean
-length of its edges. Of each solid that is read from a file, writes FOLDER/SOLID.vtu, with its nodes where gmsh put
-them. Point arrays: TruthDimension and TruthTag, the dimension and tag of gmsh's entity that the node
+length of its edges. Of a wing with a blunt trailing edge, which is thinner than that, writes three sizes moved by up to
+2% with three seeds each, FOLDER/blunt_wing_SIZE_SEED.vtu; moving inverts some of its cells. Of the wing and of each
+solid that is read from a file, writes FOLDER/SOLID.vtu, with its nodes where gmsh put them. Point arrays: TruthDimension and TruthTag, the dimension and tag of gmsh's entity that the node
 belongs to (3: inside); ExactPosition, where gmsh had put it.
 """
 
@@ -18,7 +19,9 @@ import gmsh
 import meshio
 import numpy as np
 
-LARGEST_MOVE = 0.05  # In parts of the mean length of a node's edges.
+# In parts of the mean length of a node's edges.
+LARGEST_MOVE = 0.05
+LARGEST_MOVE_OF_WING = 0.02
 occ = gmsh.model.occ
 
 
@@ -93,6 +96,34 @@ def air_round_wing():
     occ.cut([(3, occ.addBox(-0.6, -0.5, -0.6, 2.2, 2.2, 1.2))], wing)
 
 
+def blunt_section(chord, nose):
+    """A section of 12% with a trailing edge of 0.25%, of five curves: fore and aft of 30% of the chord on both sides."""
+    def point(x, side):
+        return occ.addPoint(nose[0] + chord * x, nose[1], nose[2] + side * chord * (
+            naca_half_thickness(x, 0.12) + 0.00126 * x**4))
+
+    def curve(first, last, side, begin, end):
+        stations = [(1 - math.cos(math.pi * i / 20)) / 2 for i in range(1, 20)]
+        inner = [point(x, side) for x in stations if begin < x < end]
+        spline = occ.addBSpline([first, *(inner if side > 0 else inner[::-1]), last])
+        occ.remove([(0, tag) for tag in inner])
+        return spline
+
+    front = occ.addPoint(*nose)
+    (upper, upper_back), (lower, lower_back) = [[point(x, side) for x in (0.3, 1)] for side in (1, -1)]
+    return occ.addWire([curve(front, upper, 1, 0, 0.3), curve(upper, upper_back, 1, 0.3, 1),
+                        occ.addLine(upper_back, lower_back),
+                        curve(lower_back, lower, -1, 0.3, 1), curve(lower, front, -1, 0, 0.3)])
+
+
+def blunt_wing():
+    """Two panels with a kink between them: 12 faces, two of which are the trailing edge."""
+    panels = [occ.addThruSections([blunt_section(*root), blunt_section(*tip)], makeSolid=True, makeRuled=True)
+              for root, tip in (((1, (0, 0, 0)), (0.7, (0.2, 1, 0))), ((0.7, (0.2, 1, 0)), (0.4, (0.6, 2, 0.1))))]
+    inner, outer = [[entity for entity in panel if entity[0] == 3] for panel in panels]
+    return occ.fuse(inner, outer)[0]
+
+
 # Solid: what makes the CAD file, what makes the domain of the mesh (none: the same), sizes of cells. The size near
 # the CAD is given where the domain is the air round it; it is a quarter of that far away.
 SOLIDS = {
@@ -105,6 +136,9 @@ SOLIDS = {
     "thin_wing": (thin_wing, air_round_wing, (0.12, 0.06)),
 }
 
+
+WING_SIZES = {"coarse": 0.12, "medium": 0.09, "fine": 0.06}
+WING_SEEDS = (1, 2, 3)
 
 # Solid: its file, and the size of cells.
 FILES = {
@@ -158,27 +192,34 @@ def volumes(points, cells):
     return np.linalg.det(corners[:, 1:] - corners[:, :1]) / 6
 
 
-def moved(points, cells, seed):
+def moved(points, cells, seed, largest):
     random = np.random.default_rng(seed)
     directions = random.normal(size=points.shape)
     directions /= np.linalg.norm(directions, axis=1)[:, None]
-    lengths = LARGEST_MOVE * random.random(len(points)) * mean_edge_lengths(points, cells)
+    lengths = largest * random.random(len(points)) * mean_edge_lengths(points, cells)
     return points + lengths[:, None] * directions
 
 
-def write_mesh(path, make, size, graded=False, seed=None):
+def write_mesh(path, make, size, graded=False, seed=None, largest=LARGEST_MOVE):
     """Moves the nodes where there is a seed."""
     points, cells, truth = mesh_domain(make, size, graded)
     used, cells = np.unique(cells, return_inverse=True)  # No nodes of curves that the mesh does not use.
     points, truth, cells = points[used], truth[used], cells.reshape(-1, 4)
     cells[volumes(points, cells) < 0] = cells[volumes(points, cells) < 0][:, [1, 0, 2, 3]]
-    after = points if seed is None else moved(points, cells, seed)
-    if volumes(after, cells).min() <= 0:
-        raise RuntimeError(f"{path}: moving the nodes inverted a cell; choose another size or seed")
+    after = points if seed is None else moved(points, cells, seed, largest)
     meshio.write(path, meshio.Mesh(after, [("tetra", cells)], point_data={
         "TruthDimension": truth[:, 0], "TruthTag": truth[:, 1], "ExactPosition": points}))
     print(f"{os.path.basename(path)}: {len(points)} vertices, {np.count_nonzero(truth[:, 0] < 3)} on the boundary, "
-          f"{len(cells)} tetrahedra")
+          f"{len(cells)} tetrahedra, {np.count_nonzero(volumes(after, cells) <= 0)} inverted")
+
+
+def write_wing(folder):
+    path = os.path.join(folder, "blunt_wing")
+    write_cad(path + ".brep", blunt_wing)
+    write_mesh(path + ".vtu", blunt_wing, WING_SIZES["fine"])
+    for label, size in WING_SIZES.items():
+        for seed in WING_SEEDS:
+            write_mesh(f"{path}_{label}_{seed}.vtu", blunt_wing, size, seed=seed, largest=LARGEST_MOVE_OF_WING)
 
 
 def main():
@@ -199,6 +240,8 @@ def main():
         for label, size in zip(("coarse", "fine"), sizes):
             write_mesh(os.path.join(folder, f"{name}_{label}.vtu"), domain or cad, size, domain is not None,
                        seed=1 + list(SOLIDS).index(name))
+    if not sys.argv[2:] or "blunt_wing" in sys.argv[2:]:
+        write_wing(folder)
     gmsh.finalize()
 
 

@@ -1,7 +1,7 @@
 """Makes the pictures of docs/window.md in the real ParaView window.
 
 usage: pictures.py PLUGIN DATA FOLDER, for example
-       /usr/bin/python3 tests/window/pictures.py build/release/lib/paraview-5.11/CADRefine/CADRefine.so data docs/images
+       /usr/bin/python3 tests/window/pictures.py build/release/lib/cadrefine/CADRefine/CADRefine.so data docs/images
 """
 
 import os

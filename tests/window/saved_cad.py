@@ -13,7 +13,7 @@ from paraview import simple
 
 def projected(mesh, cad):
     """Field data of the mesh projected onto the CAD, and its points' bounds."""
-    project = simple.ProjectontoCAD(Input=mesh, CAD=cad)
+    project = simple.ProjectOntoCAD(Input=mesh, CAD=cad)
     project.UpdatePipeline()
     names = ("ProjectedPoints", "CADVertices", "UnprojectedVertices")
     values = [project.FieldData[name].GetRange(0)[0] for name in names]

@@ -46,7 +46,7 @@ simple.LoadPlugin(plugin, remote=False, ns=globals())  # the server has it
 exec(open(helpers).read())
 cad = simple.OpenDataFile(os.path.join(data, "cylinder.brep"))
 mesh = simple.OpenDataFile(os.path.join(data, "cylinder_coarse.vtu"))
-adapted = AdapttoCAD(Input=mesh, CAD=cad)
+adapted = AdaptToCAD(Input=mesh, CAD=cad)
 values = {"adapted": adapted_values(adapted), "ranks": largest_rank(adapted) + 1}
 adapted.MaximumSteps = 6  # for some seconds: a server sends no more than a text a second
 adapted.UpdatePipeline()
@@ -76,7 +76,7 @@ class Server:
         self.log = open(os.path.join(folder, "log.txt"), "w", encoding="utf-8")
         environment = {**window.environment(self.display), "PV_PLUGIN_CONFIG_FILE": configuration_of(window.plugin),
                        "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
-                       "OMPI_MCA_btl_vader_single_copy_mechanism": "none"}
+                       "OMPI_MCA_btl_vader_single_copy_mechanism": "none", "OMPI_MCA_btl": "^tcp"}
         self.process = subprocess.Popen(["mpirun", "-np", str(ranks), "--oversubscribe", "pvserver",
                                          f"--server-port={self.port}"],
                                         env=environment, stdout=self.log, stderr=subprocess.STDOUT)
@@ -121,7 +121,7 @@ def play(window, data, result):
                 *panel(("MaximumSteps", "visible", "true"), ("MaximumCells", "visible", "false"),
                        ("IndicatorThreshold", "visible", "false"), ("CADRegion", "visible", "false")), APPLY)
     window.picture("adapted")
-    window.play(python("adapted = simple.FindSource('AdapttoCAD1')"),
+    window.play(python("adapted = simple.FindSource('AdaptToCAD1')"),
                 python("values = {'adapted': adapted_values(adapted), 'ranks': largest_rank(adapted) + 1}"),
                 python(f"json.dump(values, open({result!r}, 'w'))"))
 

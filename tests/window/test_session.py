@@ -137,7 +137,7 @@ def play_undo(window):
 
 def play_copies(window):
     """Not traced: ParaView leaves pasted properties out of its traces."""
-    window.play(python("simple.SetActiveSource(simple.FindSource('ProjectontoCAD1'))"),
+    window.play(python("simple.SetActiveSource(simple.FindSource('ProjectOntoCAD1'))"),
                 event(BUTTONS + "PropertiesCopy", "activate"),
                 python("simple.SetActiveSource(simple.FindSource('cylinder_coarse.vtu'))"),
                 *choose_from_menu("ProjectOntoCAD"), *choose_inputs(),

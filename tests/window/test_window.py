@@ -59,8 +59,8 @@ with open(FILE, "w") as file:
     json.dump(report, file)
 """
 
-FILTERS = {"ProjectOntoCAD": "Project onto CAD", "CADGeometricError": "CAD Geometric Error",
-           "RefineWithCAD": "Refine with CAD", "MeshValidity": "Mesh Validity", "AdaptToCAD": "Adapt to CAD"}
+FILTERS = {"ProjectOntoCAD": "Project Onto CAD", "CADGeometricError": "CAD Geometric Error",
+           "RefineWithCAD": "Refine With CAD", "MeshValidity": "Mesh Validity", "AdaptToCAD": "Adapt To CAD"}
 FUNCTIONS = ["CADReader"] + [label.replace(" ", "") for label in FILTERS.values()]
 
 
@@ -217,7 +217,7 @@ def check_results(report):
 
 
 def check_adaptation(report):
-    """The mesh that Adapt to CAD made, and the line chart of its steps."""
+    """The mesh that Adapt To CAD made, and the line chart of its steps."""
     adapt = by_type(report, "AdaptToCAD")
     assert adapt["properties"]["MaximumSteps"] == "3" and adapt["properties"]["ErrorMarking"] == "Fraction of Largest"
     assert {"GeometricError", "ChordError", "NormalAngle"} <= set(adapt["cell_arrays"])

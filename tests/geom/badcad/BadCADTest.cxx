@@ -7,7 +7,7 @@
 #include "Tally.h"
 #include "TestFiles.h"
 
-#include "CADFile.h"
+#include <cadrefine/cad/import/CADFile.h>
 
 #include <gtest/gtest.h>
 
@@ -77,32 +77,32 @@ std::string textOf(const std::string& path)
 const std::string data = CADREFINE_DATA "/";
 const std::string samples = "/usr/share/opencascade/data/";
 
-TEST_F(BadCAD, IgesMadeByPrograms)
+TEST_F(BadCAD, igesMadeByPrograms)
 {
   this->expectGoodEndings(badcad::badIgesFiles());
 }
 
-TEST_F(BadCAD, StepMadeByPrograms)
+TEST_F(BadCAD, stepMadeByPrograms)
 {
   this->expectGoodEndings(badcad::badStepFiles());
 }
 
-TEST_F(BadCAD, BrepMadeByPrograms)
+TEST_F(BadCAD, brepMadeByPrograms)
 {
   this->expectGoodEndings(badcad::badBrepFiles());
 }
 
-TEST_F(BadCAD, SplinesInStepAndBrep)
+TEST_F(BadCAD, splinesInStepAndBrep)
 {
   this->expectGoodEndings(badcad::badSplineFiles());
 }
 
-TEST_F(BadCAD, RandomBytes)
+TEST_F(BadCAD, randomBytes)
 {
   this->expectGoodEndings(badcad::garbageFiles());
 }
 
-TEST_F(BadCAD, BinaryBrep)
+TEST_F(BadCAD, binaryBrep)
 {
   const BadFile sound = badcad::soundBinaryBrep();
   this->expectGoodEndings(badcad::cutAnywhere(sound, 40));
@@ -113,12 +113,12 @@ TEST_F(BadCAD, BinaryBrep)
   }
 }
 
-TEST_F(BadCAD, ShapesThatAreNoModels)
+TEST_F(BadCAD, shapesThatAreNoModels)
 {
   this->expectGoodEndings(badcad::badShapes());
 }
 
-TEST_F(BadCAD, CutOffInEachLine)
+TEST_F(BadCAD, cutOffInEachLine)
 {
   for (const char* name : { "three_arcs.igs", "three_arcs_nurbs.igs", "cylinder.brep" })
   {
@@ -129,18 +129,19 @@ TEST_F(BadCAD, CutOffInEachLine)
 }
 
 /// A face that is there 10,000 times is read once.
-TEST_F(BadCAD, ManyPatchesInOnePlace)
+TEST_F(BadCAD, manyPatchesInOnePlace)
 {
   const BadFile file = badcad::dearFiles().front();
   const auto model = cadrefine::readCADFile(this->folder.write("crowd.igs", file.text));
   EXPECT_EQ(model->count(2), 1);
-  ASSERT_EQ(model->report().leftOut.size(), 1u);
-  EXPECT_EQ(model->report().leftOut.front().reason, "9999 of them are another one over again");
+  ASSERT_EQ(model->report().leftOut.size(), 9999u);
+  EXPECT_GT(model->report().leftOut.front().entity, 0);
+  EXPECT_EQ(model->report().leftOut.front().reason, "is a duplicate of another face");
 }
 
 /// Of a bad surface and a sound one, the sound one is read, and the bad one is listed unless it is
 /// only odd.
-TEST_F(BadCAD, SoundFacesAreNotLost)
+TEST_F(BadCAD, soundFacesAreNotLost)
 {
   const auto isBeside = [](const BadFile& file)
   { return file.name.find(", and a sound face") != std::string::npos; };
@@ -176,7 +177,7 @@ class Mutations
 {
 };
 
-TEST_P(Mutations, EndWell)
+TEST_P(Mutations, endWell)
 {
   const std::string text = textOf(GetParam().path);
   ASSERT_FALSE(text.empty()) << GetParam().path;

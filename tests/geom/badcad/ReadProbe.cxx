@@ -1,8 +1,10 @@
 #include "ReadProbe.h"
 
-#include "CADFile.h"
-#include "Error.h"
+#include <cadrefine/base/Error.h>
+#include <cadrefine/cad/import/CADFile.h>
+#include <cadrefine/cad/model/ModelDrawing.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cmath>
@@ -21,7 +23,6 @@ namespace
 
 using cadrefine::CADModel;
 using cadrefine::Point3;
-using cadrefine::operator+;
 
 bool isFinite(const Point3& p)
 {
@@ -46,7 +47,8 @@ std::vector<Point3> queryPoints(const CADModel& model, int most)
   for (std::size_t i = 0; i < count; ++i)
   {
     const double off = 0.1 * model.size() * static_cast<double>(i % 5);
-    points.push_back(points[i] + Point3{ off, -0.7 * off, 0.3 * off });
+    const Point3& p = points[i];
+    points.push_back({ p[0] + off, p[1] - 0.7 * off, p[2] + 0.3 * off });
   }
   return points;
 }
@@ -73,18 +75,14 @@ std::string checkQueries(const CADModel& model, const CADModel& again)
 
 std::string checkDrawing(const CADModel& model)
 {
-  const double deflection = 1e-3 * model.size();
-  for (int dimension = 1; dimension <= 2; ++dimension)
+  const auto drawing = cadrefine::drawModel(model, 1e-3 * model.size());
+  for (const auto& drawings : { drawing.edges, drawing.faces })
   {
-    for (int i = 0; i < model.count(dimension); ++i)
+    for (const cadrefine::Tessellation& one : drawings)
     {
-      const auto drawing = model.tessellate({ static_cast<std::int8_t>(dimension), i }, deflection);
-      for (const Point3& point : drawing.points)
+      if (!std::all_of(one.points.begin(), one.points.end(), isFinite))
       {
-        if (!isFinite(point))
-        {
-          return "a drawn point is not finite";
-        }
+        return "a drawn point is not finite";
       }
     }
   }

@@ -28,7 +28,7 @@ struct ReadOutcome
   bool isGood() const { return ending == Ending::Model || ending == Ending::Error; }
   /// Whether Open CASCADE crashed, ran out of time or ran out of memory in the child.
   bool hadCrash() const { return text.find("crashes on it") != std::string::npos; }
-  bool hadTimeOut() const { return text.find("no end within") != std::string::npos; }
+  bool hadTimeOut() const { return text.find("did not finish within") != std::string::npos; }
   bool hadNoMemory() const { return text.find("memory") != std::string::npos; }
 };
 

@@ -1,8 +1,9 @@
 #include "ShapeText.h"
 
-#include "Error.h"
-#include "IsolatedRun.h"
 #include "TestFiles.h"
+
+#include <cadrefine/base/Error.h>
+#include <cadrefine/cad/import/IsolatedRun.h>
 
 #include <BinTools.hxx>
 

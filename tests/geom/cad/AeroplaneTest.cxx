@@ -1,8 +1,8 @@
 // The bundled aeroplane: patches side by side in the file, one closed solid after sewing.
 
-#include "CADFile.h"
-#include "ModelBytes.h"
-#include "ShapeIndex.h"
+#include <cadrefine/cad/extraction/ShapeIndex.h>
+#include <cadrefine/cad/import/CADFile.h>
+#include <cadrefine/cad/model/ModelBytes.h>
 
 #include <BRepCheck_Analyzer.hxx>
 #include <BRepExtrema_DistShapeShape.hxx>
@@ -40,7 +40,7 @@ double length(const TopoDS_Edge& edge)
   return properties.Mass();
 }
 
-TEST(Aeroplane, IsReadWholeAsOneClosedShell)
+TEST(Aeroplane, isReadWholeAsOneClosedShell)
 {
   EXPECT_EQ(aeroplane().count(2), 962);
   EXPECT_EQ(aeroplane().unit(), "m");
@@ -65,7 +65,7 @@ TEST(Aeroplane, IsReadWholeAsOneClosedShell)
   }
 }
 
-TEST(Aeroplane, IsSymmetricWithThePartsInPlace)
+TEST(Aeroplane, isSymmetricWithThePartsInPlace)
 {
   GProp_GProps volume;
   BRepGProp::VolumeProperties(shape(), volume);
@@ -83,7 +83,7 @@ TEST(Aeroplane, IsSymmetricWithThePartsInPlace)
   }
 }
 
-TEST(Aeroplane, NoseHas52Faces)
+TEST(Aeroplane, noseHas52Faces)
 {
   const TopoDS_Shape nose =
     BRepPrimAPI_MakeBox(gp_Pnt(0.05, -0.25, -0.2), gp_Pnt(0.2, 0.25, 0.2)).Shape();
@@ -94,7 +94,7 @@ TEST(Aeroplane, NoseHas52Faces)
   EXPECT_EQ(count, 52);
 }
 
-TEST(Aeroplane, TrailingEdgesAreCreasesAndPatchLinesAreNot)
+TEST(Aeroplane, trailingEdgesAreCreasesAndPatchLinesAreNot)
 {
   const auto sharp = [](const Point3& p)
   {

@@ -1,7 +1,8 @@
 // Shapes whose closest points are known in closed form, in every format.
 
-#include "CADFile.h"
 #include "TestFiles.h"
+
+#include <cadrefine/cad/import/CADFile.h>
 
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
@@ -84,7 +85,7 @@ void expectCounts(const CADModel& model, int faces, int edges, int vertices)
   EXPECT_TRUE(model.unread().empty());
 }
 
-TEST_P(AnalyticShapes, Sphere)
+TEST_P(AnalyticShapes, sphere)
 {
   const Point3 center{ 1, 2, 3 };
   const double radius = 2.5;
@@ -97,7 +98,7 @@ TEST_P(AnalyticShapes, Sphere)
     [&](const Point3& p) { return std::abs(distance(p, center) - radius); });
 }
 
-TEST_P(AnalyticShapes, SphereNormalsPointOutwardAlsoAtThePoles)
+TEST_P(AnalyticShapes, sphereNormalsPointOutwardAlsoAtThePoles)
 {
   const Point3 center{ 1, 2, 3 };
   const auto model = this->roundTrip(BRepPrimAPI_MakeSphere(gp_Pnt(1, 2, 3), 2.5).Shape());
@@ -116,7 +117,7 @@ TEST_P(AnalyticShapes, SphereNormalsPointOutwardAlsoAtThePoles)
   }
 }
 
-TEST_P(AnalyticShapes, Torus)
+TEST_P(AnalyticShapes, torus)
 {
   const auto model = this->roundTrip(BRepPrimAPI_MakeTorus(3, 1).Shape());
   expectCounts(*model, 1, 2, 1);
@@ -125,7 +126,7 @@ TEST_P(AnalyticShapes, Torus)
     [](const Point3& p) { return std::abs(std::hypot(std::hypot(p[0], p[1]) - 3, p[2]) - 1); });
 }
 
-TEST_P(AnalyticShapes, CylinderWithSharpRims)
+TEST_P(AnalyticShapes, cylinderWithSharpRims)
 {
   const auto model = this->roundTrip(BRepPrimAPI_MakeCylinder(2, 5).Shape());
   expectCounts(*model, 3, 3, 2);
@@ -139,7 +140,7 @@ TEST_P(AnalyticShapes, CylinderWithSharpRims)
     });
 }
 
-TEST_P(AnalyticShapes, ConeWithApex)
+TEST_P(AnalyticShapes, coneWithApex)
 {
   const auto model = this->roundTrip(BRepPrimAPI_MakeCone(2, 0, 2).Shape());
   expectCounts(*model, 2, 2, 2);
@@ -150,7 +151,7 @@ TEST_P(AnalyticShapes, ConeWithApex)
   EXPECT_NEAR(side.distance, std::sqrt(2.0), 1e-9);
 }
 
-TEST_P(AnalyticShapes, BoxWithHole)
+TEST_P(AnalyticShapes, boxWithHole)
 {
   const TopoDS_Shape box = BRepPrimAPI_MakeBox(10, 10, 10).Shape();
   const gp_Ax2 axis(gp_Pnt(5, 5, -1), gp_Dir(0, 0, 1));
@@ -175,7 +176,7 @@ TEST_P(AnalyticShapes, BoxWithHole)
   }
 }
 
-TEST_P(AnalyticShapes, ClosureFollowsTheTopology)
+TEST_P(AnalyticShapes, closureFollowsTheTopology)
 {
   const auto model = this->roundTrip(BRepPrimAPI_MakeBox(1, 2, 3).Shape());
   expectCounts(*model, 6, 12, 8);

@@ -1,7 +1,8 @@
 // Files that hold only curves give edges with common vertices.
 
-#include "CADFile.h"
 #include "TestFiles.h"
+
+#include <cadrefine/cad/import/CADFile.h>
 
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
@@ -80,19 +81,19 @@ void expectClosedChainOfThree(const CADModel& model)
   }
 }
 
-TEST_P(CurveModel, ThreeArcsShareThreeVertices)
+TEST_P(CurveModel, threeArcsShareThreeVertices)
 {
   const auto model = this->roundTrip(threeArcs(0));
   expectClosedChainOfThree(*model);
   EXPECT_NEAR(model->nearest({ 2, -2, 0 }).distance, 1.5, 1e-9);
 }
 
-TEST_P(CurveModel, SmallGapsAreClosed)
+TEST_P(CurveModel, smallGapsAreClosed)
 {
   expectClosedChainOfThree(*this->roundTrip(threeArcs(1e-5)));
 }
 
-TEST_P(CurveModel, ACircleIsOneEdgeThatEndsWhereItBegins)
+TEST_P(CurveModel, aCircleIsOneEdgeThatEndsWhereItBegins)
 {
   const gp_Circ circle(gp_Ax2(gp_Pnt(1, 1, 0), gp_Dir(0, 0, 1)), 3);
   const auto model = this->roundTrip(compoundOf({ BRepBuilderAPI_MakeEdge(circle).Edge() }));
@@ -107,7 +108,7 @@ TEST_P(CurveModel, ACircleIsOneEdgeThatEndsWhereItBegins)
   EXPECT_NEAR(norm(model->tangent(0, t)), 1, 1e-12);
 }
 
-TEST_P(CurveModel, CurvesBesideFacesStay)
+TEST_P(CurveModel, curvesBesideFacesStay)
 {
   const TopoDS_Shape box = BRepPrimAPI_MakeBox(1, 1, 1).Shape();
   const TopoDS_Edge line = BRepBuilderAPI_MakeEdge(gp_Pnt(5, 0, 0), gp_Pnt(6, 0, 0)).Edge();

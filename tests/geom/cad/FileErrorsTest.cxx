@@ -2,6 +2,8 @@
 
 #include "TestFiles.h"
 
+#include <cadrefine/cad/import/CADFile.h>
+
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRep_Builder.hxx>
 #include <TopoDS_Compound.hxx>
@@ -29,25 +31,25 @@ protected:
   cadtest::TemporaryFolder folder;
 };
 
-TEST_F(FileErrors, NoSuchFile)
+TEST_F(FileErrors, noSuchFile)
 {
   expectError(this->folder.file("missing.igs"), "no such file");
 }
 
-TEST_F(FileErrors, Directory)
+TEST_F(FileErrors, directory)
 {
   std::filesystem::create_directory(this->folder.file("folder.igs"));
   expectError(this->folder.file("folder.igs"), "directory");
 }
 
-TEST_F(FileErrors, Pipe)
+TEST_F(FileErrors, pipe)
 {
   const std::string path = this->folder.file("pipe.igs");
   ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
   expectError(path, "is a device or a pipe");
 }
 
-TEST_F(FileErrors, Hole)
+TEST_F(FileErrors, hole)
 {
   constexpr std::uintmax_t gigabyte = 1000000000;
   const std::string start = "Nothing follows" + std::string(57, ' ') + "S      1\n";
@@ -63,7 +65,7 @@ TEST_F(FileErrors, Hole)
   expectError(empty, "does not begin like");
 }
 
-TEST_F(FileErrors, NoPermission)
+TEST_F(FileErrors, noPermission)
 {
   const std::string path = this->folder.write("secret.igs", "text");
   ASSERT_EQ(chmod(path.c_str(), 0), 0);
@@ -77,7 +79,7 @@ TEST_F(FileErrors, NoPermission)
   EXPECT_NE(error.find("Permission denied"), std::string::npos) << error;
 }
 
-TEST_F(FileErrors, EmptyFile)
+TEST_F(FileErrors, emptyFile)
 {
   for (const char* name : { "a.igs", "a.iges", "a.stp", "a.step", "a.brep", "A.IGS" })
   {
@@ -85,13 +87,13 @@ TEST_F(FileErrors, EmptyFile)
   }
 }
 
-TEST_F(FileErrors, UnknownExtension)
+TEST_F(FileErrors, unknownExtension)
 {
   expectError(this->folder.write("a.stl", "solid"), "extension '.stl'");
   expectError(this->folder.write("a", "solid"), "extension ''");
 }
 
-TEST_F(FileErrors, TextThatIsNoCAD)
+TEST_F(FileErrors, textThatIsNoCAD)
 {
   const std::string text(500, 'x');
   expectError(this->folder.write("a.igs", text), "IGES");
@@ -100,7 +102,7 @@ TEST_F(FileErrors, TextThatIsNoCAD)
   expectError(this->folder.write("b.igs", "Once upon a time\nthere was no CAD.\n"), "IGES");
 }
 
-TEST_F(FileErrors, FilesThatOnlyBeginWell)
+TEST_F(FileErrors, filesThatOnlyBeginWell)
 {
   expectError(this->folder.write("a.step", "ISO-10303-21;\nHEADER;\nnonsense"), "STEP");
   expectError(
@@ -110,7 +112,7 @@ TEST_F(FileErrors, FilesThatOnlyBeginWell)
 }
 
 /// Open CASCADE would read the face, and crash on it.
-TEST_F(FileErrors, FaceWithoutASurface)
+TEST_F(FileErrors, faceWithoutASurfaceIsLostAlone)
 {
   const std::string path = this->folder.file("box.brep");
   cadtest::writeShape(BRepPrimAPI_MakeBox(1, 2, 3).Shape(), path);
@@ -119,11 +121,16 @@ TEST_F(FileErrors, FaceWithoutASurface)
   ASSERT_TRUE(surfaces != lines.end());
   *(surfaces + 1) = "9 0 0 0 0 1 1 2 2 2 2 0 0 0 0 1 0 1 0 0 1 1 0 0 2 0 2 0 2 1 2"; // equal knots
   cadtest::writeLines(path, lines);
-  expectError(path, "the file is damaged: face 1 has no surface that can be read");
+  const auto model = cadrefine::readCADFile(path);
+  EXPECT_EQ(model->count(2), 5);
+  ASSERT_EQ(model->unread().size(), 1u);
+  EXPECT_EQ(model->unread()[0].entity, 1);
+  EXPECT_EQ(model->unread()[0].type, "BREP face");
+  EXPECT_EQ(model->unread()[0].reason, "has no surface that can be read");
 }
 
 /// Open CASCADE never ends on points at infinity.
-TEST_F(FileErrors, NumbersBeyondDouble)
+TEST_F(FileErrors, numbersBeyondDouble)
 {
   const std::string path = this->folder.file("box.step");
   cadtest::writeShape(BRepPrimAPI_MakeBox(1, 2, 3).Shape(), path);
@@ -139,7 +146,7 @@ TEST_F(FileErrors, NumbersBeyondDouble)
   expectError(path, "#12 holds a number that is too large, -2.E999");
 }
 
-TEST_F(FileErrors, CutShort)
+TEST_F(FileErrors, cutShort)
 {
   for (const char* extension : { ".igs", ".step", ".brep" })
   {
@@ -152,7 +159,7 @@ TEST_F(FileErrors, CutShort)
   }
 }
 
-TEST_F(FileErrors, NothingInside)
+TEST_F(FileErrors, nothingInside)
 {
   TopoDS_Compound nothing;
   BRep_Builder().MakeCompound(nothing);

@@ -1,8 +1,9 @@
 // Patches that the file leaves apart become one topology; gaps that stay are reported.
 
-#include "CADFile.h"
 #include "IgesCases.h"
 #include "TestFiles.h"
+
+#include <cadrefine/cad/import/CADFile.h>
 
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRep_Builder.hxx>
@@ -33,7 +34,7 @@ std::shared_ptr<const CADModel> twoSquaresApart(double gap)
   return readWritten(file);
 }
 
-TEST(Gaps, PatchesThatMeetShareAnEdge)
+TEST(Gaps, patchesThatMeetShareAnEdge)
 {
   for (const double gap : { 0.0, 0.5 * tolerance })
   {
@@ -47,7 +48,7 @@ TEST(Gaps, PatchesThatMeetShareAnEdge)
   }
 }
 
-TEST(Gaps, AWiderOneIsReportedWithItsPlace)
+TEST(Gaps, aWiderOneIsReportedWithItsPlace)
 {
   const double width = 5 * tolerance;
   const auto model = twoSquaresApart(width);
@@ -64,7 +65,7 @@ TEST(Gaps, AWiderOneIsReportedWithItsPlace)
   }
 }
 
-TEST(Gaps, AreNotSeenWhereEdgesMeetAtAnAngle)
+TEST(Gaps, areNotSeenWhereEdgesMeetAtAnAngle)
 {
   IgesWriter file;
   addSquare(file, { 0, 0, 0 }, {});
@@ -84,7 +85,7 @@ TopoDS_Shell shellAt(double x, const gp_Dir& normal)
   return shell;
 }
 
-TEST(Gaps, BetweenOpenShellsAreSewnToo)
+TEST(Gaps, betweenOpenShellsAreSewnToo)
 {
   TopoDS_Compound both;
   BRep_Builder().MakeCompound(both);

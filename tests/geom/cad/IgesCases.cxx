@@ -1,7 +1,8 @@
 #include "IgesCases.h"
 
-#include "CADFile.h"
 #include "TestFiles.h"
+
+#include <cadrefine/cad/import/CADFile.h>
 
 #include <gtest/gtest.h>
 

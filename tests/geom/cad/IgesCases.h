@@ -1,8 +1,9 @@
 // Entities of IGES with closed forms, and the check of a model against them.
 #pragma once
 
-#include "CADModel.h"
 #include "IgesWriter.h"
+
+#include <cadrefine/cad/model/CADModel.h>
 
 #include <iosfwd>
 #include <memory>

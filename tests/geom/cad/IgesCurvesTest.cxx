@@ -155,7 +155,7 @@ const std::vector<IgesCase> curves{
 INSTANTIATE_TEST_SUITE_P(
   Entities, IgesCurves, testing::ValuesIn(curves), [](const auto& c) { return c.param.name; });
 
-TEST_P(IgesCurves, IsRead)
+TEST_P(IgesCurves, isRead)
 {
   IgesWriter file;
   GetParam().write(file);

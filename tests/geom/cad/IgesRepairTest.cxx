@@ -1,8 +1,9 @@
 // Faults of files in the wild: what can be repaired safely is, and is told; the rest is listed.
 
-#include "CADFile.h"
 #include "IgesCases.h"
 #include "TestFiles.h"
+
+#include <cadrefine/cad/import/CADFile.h>
 
 #include <gtest/gtest.h>
 
@@ -61,7 +62,7 @@ protected:
     EXPECT_LT(model.nearest({ 0.5, 0.5, 1.5e-3 }).distance, 1e-12);
     EXPECT_NEAR(model.nearest({ 5, 3, 0 }).distance, 2, 1e-9);
     EXPECT_NEAR(model.nearest({ 0.5, 4, 0 }).distance, 1, 1e-9);
-    EXPECT_EQ(model.look({ 2, 0 }).name,
+    EXPECT_EQ(model.attributes({ 2, 0 }).name,
       "a name, longer than one line of parameters; with all delimiters in");
     const auto& repairs = model.report().repairs;
     EXPECT_EQ(repairs.size(), repair.empty() ? 0u : 1u);
@@ -75,23 +76,23 @@ protected:
   TemporaryFolder folder;
 };
 
-TEST_F(IgesRepairs, ASoundFileNeedsNone)
+TEST_F(IgesRepairs, aSoundFileNeedsNone)
 {
   expectSame(*this->read(this->sound), "");
 }
 
-TEST_F(IgesRepairs, LineEndsOfOtherSystems)
+TEST_F(IgesRepairs, lineEndsOfOtherSystems)
 {
   expectSame(*this->read(this->sound, "\r\n"), "");
   expectSame(*this->read(this->sound, "\r"), "");
 }
 
-TEST_F(IgesRepairs, TrailingBlanks)
+TEST_F(IgesRepairs, trailingBlanks)
 {
   expectSame(*this->read(this->sound, std::string(40, ' ') + "\n"), "more than 80 columns");
 }
 
-TEST_F(IgesRepairs, BlankLinesAndAnEndOfFileMark)
+TEST_F(IgesRepairs, blankLinesAndAnEndOfFileMark)
 {
   Lines lines = this->sound;
   lines.insert(lines.begin() + 3, "");
@@ -99,7 +100,7 @@ TEST_F(IgesRepairs, BlankLinesAndAnEndOfFileMark)
   expectSame(*this->read(lines), "");
 }
 
-TEST_F(IgesRepairs, Tabs)
+TEST_F(IgesRepairs, tabs)
 {
   Lines expanded = this->sound;
   Lines single = this->sound;
@@ -117,21 +118,21 @@ TEST_F(IgesRepairs, Tabs)
   expectSame(*this->read(single), "hold tabs");
 }
 
-TEST_F(IgesRepairs, NoTerminateSection)
+TEST_F(IgesRepairs, noTerminateSection)
 {
   Lines lines = this->sound;
   lines.pop_back();
   expectSame(*this->read(lines), "terminate section is missing");
 }
 
-TEST_F(IgesRepairs, WrongCountsAtTheEnd)
+TEST_F(IgesRepairs, wrongCountsAtTheEnd)
 {
   Lines lines = this->sound;
   lines.back().replace(17, 7, "     99");
   expectSame(*this->read(lines), "counts 99 D lines");
 }
 
-TEST_F(IgesRepairs, WrongSequenceNumbers)
+TEST_F(IgesRepairs, wrongSequenceNumbers)
 {
   Lines lines = this->sound;
   for (std::string& line : lines)
@@ -144,7 +145,7 @@ TEST_F(IgesRepairs, WrongSequenceNumbers)
   expectSame(*this->read(lines), "wrong sequence numbers");
 }
 
-TEST_F(IgesRepairs, WrongParameterPointersAndLineCounts)
+TEST_F(IgesRepairs, wrongParameterPointersAndLineCounts)
 {
   Lines lines = this->sound;
   bool first = true;
@@ -159,7 +160,7 @@ TEST_F(IgesRepairs, WrongParameterPointersAndLineCounts)
   expectSame(*this->read(lines), "wrong parameter lines or counts");
 }
 
-TEST_F(IgesRepairs, WrongEntryNumbersInParameterLines)
+TEST_F(IgesRepairs, wrongEntryNumbersInParameterLines)
 {
   Lines lines = this->sound;
   for (std::string& line : lines)
@@ -178,7 +179,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return at == std::string::npos ? text : text.replace(at, from.size(), to);
 }
 
-TEST_F(IgesRepairs, ExponentsOfAllKinds)
+TEST_F(IgesRepairs, exponentsOfAllKinds)
 {
   for (const char* number : { "1.5E-3", "1.5e-3", "1.5D-3", "1.5d-3", "+1.5D-03", "15.d-4" })
   {
@@ -207,7 +208,7 @@ Lines withoutTerminator(Lines lines, const std::string& type)
   return lines;
 }
 
-TEST_F(IgesRepairs, AMissingTerminator)
+TEST_F(IgesRepairs, aMissingTerminator)
 {
   for (const char* type : { "128", "144", "100", "110" })
   {
@@ -217,7 +218,7 @@ TEST_F(IgesRepairs, AMissingTerminator)
   }
 }
 
-TEST_F(IgesRepairs, ACutNumberIsNotGuessed)
+TEST_F(IgesRepairs, aCutNumberIsNotGuessed)
 {
   // The file ends in the middle of the last number: what is missing cannot be known.
   Lines lines = withoutTerminator(this->sound, "110");
@@ -228,7 +229,7 @@ TEST_F(IgesRepairs, ACutNumberIsNotGuessed)
   EXPECT_EQ(model->unread()[0].reason, "its parameters have no end");
 }
 
-TEST_F(IgesRepairs, StringsThatCrossLinesKeepEveryColumn)
+TEST_F(IgesRepairs, stringsThatCrossLinesKeepEveryColumn)
 {
   // The name of the sound file does; here a repair makes the parameters be wrapped anew as well.
   Lines lines = this->sound;
@@ -236,7 +237,7 @@ TEST_F(IgesRepairs, StringsThatCrossLinesKeepEveryColumn)
   expectSame(*this->read(lines), "terminate section");
 }
 
-TEST_F(IgesRepairs, SeveralAreAllTold)
+TEST_F(IgesRepairs, severalAreAllTold)
 {
   Lines lines = withoutTerminator(this->sound, "100");
   lines.pop_back();

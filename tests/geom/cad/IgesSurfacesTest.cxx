@@ -354,7 +354,7 @@ const std::vector<IgesCase> surfaces{
 INSTANTIATE_TEST_SUITE_P(
   Entities, IgesSurfaces, testing::ValuesIn(surfaces), [](const auto& c) { return c.param.name; });
 
-TEST_P(IgesSurfaces, IsRead)
+TEST_P(IgesSurfaces, isRead)
 {
   IgesWriter file;
   GetParam().write(file);

@@ -1,8 +1,9 @@
 // A model rebuilt from its bytes is the same, bit for bit.
 
-#include "CADFile.h"
-#include "Error.h"
 #include "TestFiles.h"
+
+#include <cadrefine/base/Error.h>
+#include <cadrefine/cad/import/CADFile.h>
 
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
@@ -69,7 +70,7 @@ std::shared_ptr<const CADModel> readSample()
   return readCADFile(folder.file("sample.igs"));
 }
 
-TEST(ModelBytes, RoundTripIsIdentical)
+TEST(ModelBytes, roundTripIsIdentical)
 {
   const auto model = readSample();
   const auto again = CADModel::fromBytes(model->toBytes());
@@ -82,12 +83,12 @@ TEST(ModelBytes, RoundTripIsIdentical)
   EXPECT_TRUE(same(again->nurbs().vertices, model->nurbs().vertices));
 }
 
-TEST(ModelBytes, ReadingTwiceGivesTheSameBytes)
+TEST(ModelBytes, readingTwiceGivesTheSameBytes)
 {
   EXPECT_EQ(readSample()->toBytes(), readSample()->toBytes());
 }
 
-TEST(ModelBytes, DamagedBytesAreAnError)
+TEST(ModelBytes, damagedBytesAreAnError)
 {
   const std::vector<char> bytes = readSample()->toBytes();
   EXPECT_THROW(CADModel::fromBytes({}), Error);

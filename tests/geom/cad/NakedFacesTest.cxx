@@ -1,7 +1,8 @@
 // Faces without edges: the whole of their surface.
 
-#include "CADFile.h"
 #include "TestFiles.h"
+
+#include <cadrefine/cad/import/CADFile.h>
 
 #include <BRep_Builder.hxx>
 #include <Geom_Plane.hxx>
@@ -27,7 +28,7 @@ std::shared_ptr<const CADModel> modelOf(const Handle(Geom_Surface) & surface)
   return readCADFile(folder.file("face.brep"));
 }
 
-TEST(NakedFaces, ASphereGetsItsSeam)
+TEST(NakedFaces, aSphereGetsItsSeam)
 {
   const auto model = modelOf(new Geom_SphericalSurface(gp_Ax3(), 2));
   ASSERT_EQ(model->count(2), 1);
@@ -35,7 +36,7 @@ TEST(NakedFaces, ASphereGetsItsSeam)
   EXPECT_NEAR(model->nearest({ 3, 4, 0 }).distance, 3, 1e-9);
 }
 
-TEST(NakedFaces, APatchGetsItsBorder)
+TEST(NakedFaces, aPatchGetsItsBorder)
 {
   const Handle(Geom_Surface) plane = new Geom_Plane(gp_Pln());
   const auto model = modelOf(new Geom_RectangularTrimmedSurface(plane, 0.0, 1.0, 0.0, 1.0));
@@ -46,7 +47,7 @@ TEST(NakedFaces, APatchGetsItsBorder)
   EXPECT_NEAR(model->nearest({ 0.5, -1, 0 }).distance, 1, 1e-9);
 }
 
-TEST(NakedFaces, AnUnboundedOneIsListed)
+TEST(NakedFaces, anUnboundedOneIsListed)
 {
   TopoDS_Compound both;
   BRep_Builder builder;
@@ -61,7 +62,8 @@ TEST(NakedFaces, AnUnboundedOneIsListed)
   const auto model = readCADFile(folder.file("face.brep"));
   EXPECT_EQ(model->count(2), 1);
   ASSERT_EQ(model->unread().size(), 1u);
-  EXPECT_EQ(model->unread()[0].reason, "1 of them have neither border nor end");
+  EXPECT_EQ(model->unread()[0].entity, 1);
+  EXPECT_EQ(model->unread()[0].reason, "has neither border nor end");
 }
 
 } // namespace

@@ -1,8 +1,8 @@
 // Real files of Debian packages (occt-misc, libdeal.ii-doc), against Open CASCADE's own distances.
 
-#include "CADFile.h"
-#include "ModelBytes.h"
-#include "ShapeIndex.h"
+#include <cadrefine/cad/extraction/ShapeIndex.h>
+#include <cadrefine/cad/import/CADFile.h>
+#include <cadrefine/cad/model/ModelBytes.h>
 
 #include <BRepBndLib.hxx>
 #include <BRepBuilderAPI_MakeVertex.hxx>
@@ -12,6 +12,7 @@
 
 #include <gtest/gtest.h>
 
+#include <ostream>
 #include <random>
 
 namespace
@@ -26,6 +27,11 @@ struct RealFile
   int faces;
   const char* unit;
 };
+
+void PrintTo(const RealFile& tried, std::ostream* out)
+{
+  *out << tried.name;
+}
 
 class RealFiles : public testing::TestWithParam<RealFile>
 {
@@ -85,7 +91,7 @@ bool liesOnModel(const ClosestPoint& answer, const ShapeIndex& index, double tol
   return distanceByOcc(answer.point, shape) <= tolerance;
 }
 
-TEST_P(RealFiles, IsReadWhole)
+TEST_P(RealFiles, isReadWhole)
 {
   const auto model = readCADFile(GetParam().path);
   EXPECT_EQ(model->count(2), GetParam().faces);
@@ -98,7 +104,7 @@ TEST_P(RealFiles, IsReadWhole)
   }
 }
 
-TEST_P(RealFiles, DistancesAgreeWithOpenCASCADE)
+TEST_P(RealFiles, distancesAgreeWithOpenCASCADE)
 {
   const auto model = readCADFile(GetParam().path);
   const TopoDS_Shape shape = decodeModel(model->toBytes()).shape;

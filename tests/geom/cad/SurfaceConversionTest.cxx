@@ -1,6 +1,6 @@
 // Patches of analytic surfaces agree with Open CASCADE's surfaces, parameter for parameter.
 
-#include "SurfaceConversion.h"
+#include <cadrefine/cad/extraction/SurfaceConversion.h>
 
 #include <Geom_BezierCurve.hxx>
 #include <Geom_Circle.hxx>
@@ -76,7 +76,7 @@ void expectSame(
     << window.v0 << ".." << window.v1;
 }
 
-TEST(SurfaceConversion, Elementary)
+TEST(SurfaceConversion, elementary)
 {
   for (const gp_Ax3& axes : { rightHanded, leftHanded() })
   {
@@ -91,7 +91,7 @@ TEST(SurfaceConversion, Elementary)
   }
 }
 
-TEST(SurfaceConversion, Swept)
+TEST(SurfaceConversion, swept)
 {
   TColgp_Array1OfPnt poles(1, 4);
   poles(1) = gp_Pnt(1, 0, 0);
@@ -107,7 +107,7 @@ TEST(SurfaceConversion, Swept)
   expectSame(new Geom_SurfaceOfLinearExtrusion(ellipse, gp_Dir(1, 1, 1)), { 1, 7, -2, 5 });
 }
 
-TEST(SurfaceConversion, ApproximatedWhereThereIsNoExactForm)
+TEST(SurfaceConversion, approximatedWhereThereIsNoExactForm)
 {
   const Handle(Geom_Curve) hyperbola = new Geom_Hyperbola(rightHanded.Ax2(), 2, 1);
   expectSame(new Geom_SurfaceOfLinearExtrusion(hyperbola, gp_Dir(1, 1, 1)), { -1, 1, -2, 5 }, 1e-8);
@@ -120,7 +120,7 @@ TEST(SurfaceConversion, ApproximatedWhereThereIsNoExactForm)
   expectSame(new Geom_OffsetSurface(arch, 0.2), { 0, 1, 0, 3 }, 1e-8);
 }
 
-TEST(SurfaceConversion, LoopsFollowTheMaps)
+TEST(SurfaceConversion, loopsFollowTheMaps)
 {
   const ParameterMap angles = ParameterMap::ofAngles({ 0, 1.2, 2.4, 3.6 });
   const TrimLoop slanted{ { { { 0.1, 0, 1 }, { 3.5, 2, 1 } } } };
@@ -147,7 +147,7 @@ TEST(SurfaceConversion, LoopsFollowTheMaps)
   EXPECT_LT(mapped[0].size(), 20u);
 }
 
-TEST(SurfaceConversion, LoopsAlongParameterLinesStayStraight)
+TEST(SurfaceConversion, loopsAlongParameterLinesStayStraight)
 {
   const ParameterMap angles = ParameterMap::ofAngles({ 0, 1.2, 2.4 });
   const TrimLoop loop{ { { { 0, 0, 1 }, { 2.4, 0, 1 } } }, { { { 2.4, 0, 1 }, { 2.4, 5, 1 } } },

@@ -1,7 +1,7 @@
 #include "TestFiles.h"
 
-#include "CADFile.h"
-#include "Error.h"
+#include <cadrefine/base/Error.h>
+#include <cadrefine/cad/import/CADFile.h>
 
 #include <BRepTools.hxx>
 #include <IGESControl_Controller.hxx>

@@ -1,7 +1,8 @@
 // Broken entities are listed by number, type and reason, and the rest of the file is read.
 
-#include "CADFile.h"
 #include "TestFiles.h"
+
+#include <cadrefine/cad/import/CADFile.h>
 
 #include <BRepBuilderAPI_NurbsConvert.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
@@ -61,14 +62,14 @@ protected:
   std::vector<std::string> lines;
 };
 
-TEST_F(Unread, AnIntactFileHasNone)
+TEST_F(Unread, anIntactFileHasNone)
 {
   const auto model = cadrefine::readCADFile(this->path);
   EXPECT_EQ(model->count(2), 6);
   EXPECT_TRUE(model->unread().empty());
 }
 
-TEST_F(Unread, ABrokenSurfaceIsListed)
+TEST_F(Unread, aBrokenSurfaceIsListed)
 {
   const auto surfaces = entitiesOf(this->lines, "128");
   ASSERT_EQ(surfaces.size(), 6u);
@@ -84,7 +85,7 @@ TEST_F(Unread, ABrokenSurfaceIsListed)
   EXPECT_EQ(model->unread()[0].reason.find('\n'), std::string::npos);
 }
 
-TEST_F(Unread, ABrokenFaceIsListed)
+TEST_F(Unread, aBrokenFaceIsListed)
 {
   const auto faces = entitiesOf(this->lines, "144");
   ASSERT_EQ(faces.size(), 6u);
@@ -97,7 +98,7 @@ TEST_F(Unread, ABrokenFaceIsListed)
   EXPECT_EQ(model->unread()[0].type, "IGES 144 (trimmed surface)");
 }
 
-TEST_F(Unread, AFileWithNothingLeftIsAnErrorThatNamesTheEntities)
+TEST_F(Unread, aFileWithNothingLeftIsAnErrorThatNamesTheEntities)
 {
   const auto surfaces = entitiesOf(this->lines, "128");
   for (const std::size_t i : surfaces)
@@ -111,7 +112,7 @@ TEST_F(Unread, AFileWithNothingLeftIsAnErrorThatNamesTheEntities)
   EXPECT_NE(error.find(entity + " IGES 128"), std::string::npos) << error;
 }
 
-TEST_F(Unread, EveryKindOfBrokenSplineIsFoundBeforeItDoesHarm)
+TEST_F(Unread, everyKindOfBrokenSplineIsFoundBeforeItDoesHarm)
 {
   // Parameters of a bilinear surface: type, K1, K2, M1, M2, five flags, 4 + 4 knots, 4 weights, ...
   const auto withParameter = [this](std::size_t at, const std::string& value)
@@ -218,7 +219,7 @@ std::vector<std::string> widen(const std::vector<std::string>& lines, bool shift
   return result;
 }
 
-TEST_F(Unread, LinesThatRunOneColumnTooFarAreRepaired)
+TEST_F(Unread, linesThatRunOneColumnTooFarAreRepaired)
 {
   for (const bool shifted : { false, true })
   {
@@ -233,7 +234,7 @@ TEST_F(Unread, LinesThatRunOneColumnTooFarAreRepaired)
   }
 }
 
-TEST(UnreadStep, ABrokenFaceIsListedByItsNumber)
+TEST(UnreadStep, aBrokenFaceIsListedByItsNumber)
 {
   const cadtest::TemporaryFolder folder;
   const std::string path = folder.file("box.step");

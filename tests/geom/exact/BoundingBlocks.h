@@ -1,7 +1,7 @@
 // Boxes round edges and round parts of faces, to leave out what cannot be nearest.
 #pragma once
 
-#include "Vector3.h"
+#include <cadrefine/base/Vector3.h>
 
 #include <Bnd_Box.hxx>
 #include <TopoDS_Edge.hxx>

@@ -1,7 +1,8 @@
 #include "ModelList.h"
 
-#include "CADFile.h"
 #include "TestShapes.h"
+
+#include <cadrefine/cad/import/CADFile.h>
 
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>

@@ -1,7 +1,7 @@
 // The CAD models on which the closest point is tested for exactness.
 #pragma once
 
-#include "CADModel.h"
+#include <cadrefine/cad/model/CADModel.h>
 
 #include <TopoDS_Shape.hxx>
 

@@ -1,7 +1,8 @@
 #include "OccOracle.h"
 
 #include "BoundingBlocks.h"
-#include "ShapeIndex.h"
+
+#include <cadrefine/cad/extraction/ShapeIndex.h>
 
 #include <BRepAdaptor_Curve.hxx>
 #include <BRepAdaptor_Surface.hxx>
@@ -216,25 +217,48 @@ Foot FaceOracle::footAt(const Point3& p) const
   return foot;
 }
 
-/// An edge, with Open CASCADE's search over it.
-struct EdgeOracle
+/// An edge's curve in space, or its trim curve on a face, with Open CASCADE's search over it.
+struct CurveOracle
 {
-  EdgeOracle(const TopoDS_Edge& edge, double accuracy) : curve(edge), box(boxOf(edge))
+  CurveOracle(
+    const BRepAdaptor_Curve& given, EntityId named, const Bnd_Box& around, double accuracy)
+    : curve(given), entity(named), box(around)
   {
     search.Initialize(
       curve, curve.FirstParameter(), curve.LastParameter(), curve.Resolution(accuracy));
   }
 
   BRepAdaptor_Curve curve;
+  EntityId entity; ///< What a point of it is named.
   Extrema_ExtPC search;
   Bnd_Box box;
 };
 
-/// An edge or a part of a face that is near enough.
+/// Round a trim curve on its face, from points of it, by the largest step between them.
+Bnd_Box boxOf(const BRepAdaptor_Curve& curve)
+{
+  constexpr int steps = 200;
+  Bnd_Box box;
+  double longest = 0;
+  gp_Pnt before = curve.Value(curve.FirstParameter());
+  for (int i = 0; i <= steps; ++i)
+  {
+    const double part = static_cast<double>(i) / steps;
+    const gp_Pnt p =
+      curve.Value((1 - part) * curve.FirstParameter() + part * curve.LastParameter());
+    box.Add(p);
+    longest = std::max(longest, p.Distance(before));
+    before = p;
+  }
+  box.Enlarge(longest);
+  return box;
+}
+
+/// A curve (of these) or a block of a face that is near enough.
 struct Part
 {
   EntityId entity;
-  std::size_t block = 0;
+  std::size_t number = 0;
   double bound = 0;
 };
 
@@ -247,39 +271,53 @@ struct OccOracle::Implementation
     const double accuracy = 1e-12 * size;
     for (const TopoDS_Edge& edge : index.edges())
     {
-      edges.push_back(std::make_unique<EdgeOracle>(edge, accuracy));
+      const EntityId entity{ 1, static_cast<std::int32_t>(curves.size()) };
+      curves.push_back(
+        std::make_unique<CurveOracle>(BRepAdaptor_Curve(edge), entity, boxOf(edge), accuracy));
     }
     for (const TopoDS_Face& face : index.faces())
     {
+      const EntityId entity{ 2, static_cast<std::int32_t>(faces.size()) };
       faces.push_back(std::make_unique<FaceOracle>(face, accuracy));
+      for (TopExp_Explorer border(face, TopAbs_EDGE); border.More(); border.Next())
+      {
+        const TopoDS_Edge& edge = TopoDS::Edge(border.Current());
+        double first = 0;
+        double last = 0;
+        if (!BRep_Tool::CurveOnSurface(edge, face, first, last).IsNull())
+        {
+          const BRepAdaptor_Curve trim(edge, face);
+          curves.push_back(std::make_unique<CurveOracle>(trim, entity, boxOf(trim), accuracy));
+        }
+      }
     }
   }
 
   std::vector<Part> partsWithin(const Point3& q, double limit) const;
   void nearestVertex(const Point3& q, double limit, Nearest& best) const;
-  void nearestOnEdge(int edge, const Point3& q, double limit, Nearest& best) const;
+  void nearestOnCurve(std::size_t curve, const Point3& q, double limit, Nearest& best) const;
   void nearestOnBlock(const Part& part, const Point3& q, double limit, Nearest& best) const;
 
   TopoDS_Shape shape;
   cadrefine::ShapeIndex index;
-  std::vector<std::unique_ptr<EdgeOracle>> edges;
+  std::vector<std::unique_ptr<CurveOracle>> curves; ///< Of edges, then of faces' borders.
   std::vector<std::unique_ptr<FaceOracle>> faces;
 };
 
 std::vector<Part> OccOracle::Implementation::partsWithin(const Point3& q, double limit) const
 {
   std::vector<Part> parts;
-  const auto add = [&](const Bnd_Box& box, EntityId entity, std::size_t block)
+  const auto add = [&](const Bnd_Box& box, EntityId entity, std::size_t number)
   {
     const double bound = boxDistance(box, q);
     if (bound <= limit)
     {
-      parts.push_back({ entity, block, bound });
+      parts.push_back({ entity, number, bound });
     }
   };
-  for (std::size_t e = 0; e < edges.size(); ++e)
+  for (std::size_t c = 0; c < curves.size(); ++c)
   {
-    add(edges[e]->box, { 1, static_cast<std::int32_t>(e) }, 0);
+    add(curves[c]->box, { 1, 0 }, c);
   }
   for (std::size_t f = 0; f < faces.size(); ++f)
   {
@@ -304,11 +342,11 @@ void OccOracle::Implementation::nearestVertex(const Point3& q, double limit, Nea
   }
 }
 
-void OccOracle::Implementation::nearestOnEdge(
-  int edge, const Point3& q, double limit, Nearest& best) const
+void OccOracle::Implementation::nearestOnCurve(
+  std::size_t number, const Point3& q, double limit, Nearest& best) const
 {
-  Extrema_ExtPC& search = edges[edge]->search;
-  const BRepAdaptor_Curve& curve = edges[edge]->curve;
+  Extrema_ExtPC& search = curves[number]->search;
+  const BRepAdaptor_Curve& curve = curves[number]->curve;
   search.Perform(toOcc(q));
   for (int i = 1; search.IsDone() && i <= search.NbExt(); ++i)
   {
@@ -318,7 +356,7 @@ void OccOracle::Implementation::nearestOnEdge(
     const double away = distance(p, q);
     if (away <= limit && away < best.distance)
     {
-      best = { { 1, edge }, p, away };
+      best = { curves[number]->entity, p, away };
     }
   }
 }
@@ -327,7 +365,7 @@ void OccOracle::Implementation::nearestOnBlock(
   const Part& part, const Point3& q, double limit, Nearest& best) const
 {
   const FaceOracle& face = *faces[part.entity.index];
-  for (const Foot& foot : face.feet(part.block, q, std::min(limit, best.distance)))
+  for (const Foot& foot : face.feet(part.number, q, std::min(limit, best.distance)))
   {
     if (face.isInside(foot))
     {
@@ -359,7 +397,7 @@ OccOracle::Nearest OccOracle::nearest(const Point3& q, double limit) const
     }
     if (part.entity.dimension == 1)
     {
-      implementation_->nearestOnEdge(part.entity.index, q, limit, best);
+      implementation_->nearestOnCurve(part.number, q, limit, best);
     }
     else
     {
@@ -380,7 +418,7 @@ bool OccOracle::liesOn(EntityId entity, const Point3& p, double tolerance) const
   {
     gp_Pnt foot;
     double t = 0;
-    return ShapeAnalysis_Curve().Project(implementation_->edges[entity.index]->curve, toOcc(p),
+    return ShapeAnalysis_Curve().Project(implementation_->curves[entity.index]->curve, toOcc(p),
              tolerance, foot, t) <= tolerance;
   }
   const FaceOracle& face = *implementation_->faces[entity.index];

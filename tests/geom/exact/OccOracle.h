@@ -1,8 +1,8 @@
 // Open CASCADE's closest point of a trimmed model, made fast enough for thousands of points.
 #pragma once
 
-#include "EntityId.h"
-#include "Vector3.h"
+#include <cadrefine/base/EntityId.h>
+#include <cadrefine/base/Vector3.h>
 
 #include <TopoDS_Shape.hxx>
 
@@ -20,9 +20,11 @@ namespace exacttest
 ///    the distances of: the vertices' points; the extrema on the edges' curves in space
 ///    (BRepExtrema_ExtPC, that is Extrema_ExtPC over the edge's range); the extrema on the faces'
 ///    surfaces (BRepExtrema_ExtPF, that is Extrema_ExtPS over the face's range of parameters) that
-///    BRepClass_FaceClassifier, with the face's tolerance, finds inside of the face (TopAbs_IN; not
-///    those on its border, which the edges stand for). This class takes the same minimum with the
-///    same classes.
+///    BRepClass_FaceClassifier, with the face's tolerance, finds inside of the face (TopAbs_IN).
+///    This class takes the same minimum with the same classes, and of the extrema on the faces'
+///    borders, which are those of Extrema_ExtPC on the trim curves on their surfaces
+///    (BRepAdaptor_Curve of an edge and a face): BRepExtrema_DistShapeShape takes it that the edges
+///    stand for these, but trim curves lie off their edges in most files.
 /// 2. An edge or a part of a face is left out only if a box that holds it is farther than the limit
 ///    asked for. With the tested distance plus its tolerance as the limit, nothing that could show
 ///    this distance to be too large is left out.
@@ -33,11 +35,10 @@ namespace exacttest
 ///    of some models, are avoided: it stops at parameters that are off by up to 1e-7 (here: 1e-12
 ///    of the size); it takes points of an edge's curve up to 1e-7 beyond the edge's end (here: the
 ///    end); and on a face that runs round its surface more than once it looks at one turn.
-/// What is compared is the same entity on both sides: the edge's curve in space, and the face's
-/// surface within its trim loops. That these two differ by up to the tolerances of the edge and the
-/// face plays no part: neither side takes the surface's points over the loops for the edge, nor the
-/// reverse. The shape is the prepared one (sewn and healed) that the model's NURBS were extracted
-/// from, so a difference is an error of the extraction or of the search, not of the preparation.
+/// What is compared is the same on both sides: the union of the faces' surfaces within their trim
+/// loops and on them, of the edges' curves in space, and of the vertices. The shape is the prepared
+/// one (sewn and healed) that the model's NURBS were extracted from, so a difference is an error of
+/// the extraction or of the search, not of the preparation.
 class OccOracle
 {
 public:

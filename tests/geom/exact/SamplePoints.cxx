@@ -1,6 +1,6 @@
 #include "SamplePoints.h"
 
-#include "ShapeIndex.h"
+#include <cadrefine/cad/extraction/ShapeIndex.h>
 
 #include <BRepAdaptor_Curve.hxx>
 #include <BRepAdaptor_Surface.hxx>
@@ -134,6 +134,7 @@ public:
   {
     addSurfacePoints(70);
     addLoopPoints(40);
+    addBorderPoints(150);
     addEdgePoints(60);
     addVertexPoints(50);
     addSeamPoints(20);
@@ -151,6 +152,7 @@ private:
   void addAround(const Point3& p, PointKind kind);
   void addSurfacePoints(int count);
   void addLoopPoints(int count);
+  void addBorderPoints(int count);
   void addEdgePoints(int count);
   void addVertexPoints(int count);
   void addSeamPoints(int count);
@@ -260,6 +262,21 @@ void Sampler::addLoopPoints(int count)
       const double height = random_(-0.01, 0.01) * size_;
       add(q + height * face.normal(u, v), bound + std::abs(height), PointKind::loop);
     }
+  }
+}
+
+/// Points beside the curves in space that the loops are on their surfaces, as far as trims are
+/// inexact in real files.
+void Sampler::addBorderPoints(int count)
+{
+  for (int i = 0; i < count && !loops_.empty(); ++i)
+  {
+    const LoopCurve& loop = loops_[random_.below(loops_.size())];
+    const gp_Pnt2d uv = loop.curve->Value(random_(loop.first, loop.last));
+    const Point3 p = faces_[loop.face].at(uv.X(), uv.Y());
+    add(p, 0, PointKind::border);
+    const double away = std::pow(10, random_(-9, -2)) * size_;
+    add(p + away * random_.direction(), away, PointKind::border);
   }
 }
 
@@ -422,8 +439,8 @@ void Sampler::addBoxPoints(std::size_t count)
 
 const char* nameOf(PointKind kind)
 {
-  const char* names[] = { "surface", "loop", "edge", "vertex", "seam", "pole", "axis", "bend",
-    "box" };
+  const char* names[] = { "surface", "loop", "border", "edge", "vertex", "seam", "pole", "axis",
+    "bend", "box" };
   return names[static_cast<int>(kind)];
 }
 

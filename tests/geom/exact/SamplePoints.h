@@ -1,7 +1,7 @@
 // Points to ask for the closest point of a model.
 #pragma once
 
-#include "Vector3.h"
+#include <cadrefine/base/Vector3.h>
 
 #include <TopoDS_Shape.hxx>
 
@@ -16,6 +16,7 @@ enum class PointKind
 {
   surface, ///< On a face, or off it along its normal, by 0, 1e-6, 1e-3, 1e-2, 0.3 or 3 sizes.
   loop,    ///< On a face's surface just inside or outside of a trim loop, or over such a point.
+  border,  ///< On a trim curve on its surface, or off it in any direction.
   edge,    ///< On an edge, or off it in any direction.
   vertex,  ///< At a vertex, or off it in any direction.
   seam,    ///< On a seam, to both of its sides, and over it.

@@ -1,9 +1,16 @@
 // Every model, from thousands of points, against Open CASCADE.
 
-#include "ModelBytes.h"
 #include "ModelList.h"
 #include "OccOracle.h"
 #include "SamplePoints.h"
+
+#include <cadrefine/cad/extraction/ShapeIndex.h>
+#include <cadrefine/cad/model/ModelBytes.h>
+
+#include <BRepBndLib.hxx>
+#include <BRepGProp.hxx>
+#include <Bnd_Box.hxx>
+#include <GProp_GProps.hxx>
 
 #include <gtest/gtest.h>
 
@@ -25,6 +32,8 @@ protected:
   void expectNothingNearer();
   void expectParametersToGiveThePoint();
   void expectTheSameInAnyOrderAndOnThreads();
+  void expectMeasures();
+  void expectBox();
 
   std::shared_ptr<const CADModel> model = readModel(GetParam());
   TopoDS_Shape shape = decodeModel(model->toBytes()).shape;
@@ -102,28 +111,87 @@ void WholeModel::expectTheSameInAnyOrderAndOnThreads()
     [&]
     {
       for (std::size_t i = 0; i < samples.size(); ++i)
+      {
         ask(forwards, i);
+      }
     });
   std::thread second(
     [&]
     {
       for (std::size_t i = samples.size(); i > 0; --i)
+      {
         ask(backwards, i - 1);
+      }
     });
   first.join();
   second.join();
   EXPECT_TRUE(forwards == backwards);
 }
 
+/// Areas and lengths by Open CASCADE.
+void WholeModel::expectMeasures()
+{
+  const ShapeIndex index(shape);
+  std::array<double, 2> expected{};
+  std::array<double, 2> found{};
+  std::vector<std::array<double, 2>> areas;
+  for (std::size_t i = 0; i < index.faces().size(); ++i)
+  {
+    GProp_GProps properties;
+    BRepGProp::SurfaceProperties(index.faces()[i], properties, 1e-4);
+    areas.push_back({ std::abs(properties.Mass()), model->measure({ 2, static_cast<int>(i) }) });
+    expected[1] += areas.back()[0];
+    found[1] += areas.back()[1];
+  }
+  for (std::size_t i = 0; i < index.edges().size(); ++i)
+  {
+    GProp_GProps properties;
+    BRepGProp::LinearProperties(index.edges()[i], properties);
+    expected[0] += properties.Mass();
+    found[0] += model->measure({ 1, static_cast<int>(i) });
+  }
+  EXPECT_NEAR(found[0], expected[0], 1e-2 * expected[0]);
+  EXPECT_NEAR(found[1], expected[1], 2e-2 * expected[1]);
+  for (std::size_t i = 0; i < areas.size(); ++i)
+  {
+    EXPECT_NEAR(areas[i][1], areas[i][0], 0.1 * areas[i][0] + 1e-3 * expected[1]) << "face " << i;
+  }
+}
+
+/// It holds what is on the model, and is in the box round its poles.
+void WholeModel::expectBox()
+{
+  const auto [low, high] = model->box();
+  constexpr bool useTriangulation = false;
+  Bnd_Box box;
+  BRepBndLib::Add(shape, box, useTriangulation);
+  std::array<double, 6> outer{};
+  box.Get(outer[0], outer[1], outer[2], outer[3], outer[4], outer[5]);
+  const double exactness = 1e-6 * size + model->trimDeviation();
+  for (int k = 0; k < 3; ++k)
+  {
+    EXPECT_GE(low[k], outer[k] - exactness);
+    EXPECT_LE(high[k], outer[3 + k] + exactness);
+    for (const SamplePoint& sample : samples)
+    {
+      const Point3 point = model->nearest(sample.point).point;
+      EXPECT_GE(point[k], low[k] - exactness);
+      EXPECT_LE(point[k], high[k] + exactness);
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Exact, WholeModel, testing::ValuesIn(allModels()),
   [](const auto& model) { return model.param.name; });
 
 /// One test, since some models take a minute to read.
-TEST_P(WholeModel, AnswersAreExact)
+TEST_P(WholeModel, answersAreExact)
 {
   expectNothingNearer();
   expectParametersToGiveThePoint();
   expectTheSameInAnyOrderAndOnThreads();
+  expectMeasures();
+  expectBox();
 }
 
 } // namespace

@@ -1,5 +1,6 @@
-#include "EdgeTable.h"
 #include "TestMeshes.h"
+
+#include <cadrefine/mesh/EdgeTable.h>
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,8 @@
-#include "Facets.h"
 #include "MeshChecks.h"
-#include "Quality.h"
 #include "TestMeshes.h"
+
+#include <cadrefine/mesh/Facets.h>
+#include <cadrefine/mesh/Quality.h>
 
 #include <gtest/gtest.h>
 
@@ -78,6 +79,29 @@ TEST(Facets, areTheSameWhateverTheOrderOfTheCells)
   const SimplexMesh mesh = cadtest::cubeMesh(2, 0.2, 3);
   const SimplexMesh shuffled = cadtest::withShuffledCells(mesh, 4);
   EXPECT_EQ(idsOf(mesh, findOuterFacets(mesh)), idsOf(shuffled, findOuterFacets(shuffled)));
+}
+
+TEST(Facets, areFoundAmongVerticesThatMayBeOnTheBoundary)
+{
+  for (const SimplexMesh& mesh : { cadtest::cubeMesh(3, 0.2, 3), cadtest::squareMesh(4, 0.2, 2) })
+  {
+    const auto facets = findOuterFacets(mesh);
+    std::vector<unsigned char> onBoundary(mesh.points.size(), 0);
+    for (const Facet& facet : facets)
+    {
+      for (const Index vertex : facet.vertices)
+      {
+        if (vertex >= 0)
+        {
+          onBoundary[vertex] = 1;
+        }
+      }
+    }
+    ASSERT_LT(std::count(onBoundary.begin(), onBoundary.end(), 1), mesh.points.size());
+    EXPECT_EQ(idsOf(mesh, findOuterFacets(mesh, onBoundary)), idsOf(mesh, facets));
+    onBoundary[facets[0].vertices[0]] = 0; // Its facets are not looked at.
+    EXPECT_LT(findOuterFacets(mesh, onBoundary).size(), facets.size());
+  }
 }
 
 TEST(Facets, doNotTakeTagTrianglesForSides)

@@ -1,8 +1,9 @@
 // Signs of volumes and areas that rounding would get wrong.
 
-#include "Orientation.h"
 #include "FloatingPointPause.h"
-#include "Quality.h"
+
+#include <cadrefine/mesh/Orientation.h>
+#include <cadrefine/mesh/Quality.h>
 
 #include <gtest/gtest.h>
 

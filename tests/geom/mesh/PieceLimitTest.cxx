@@ -1,4 +1,4 @@
-#include "PieceLimit.h"
+#include <cadrefine/base/PieceLimit.h>
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,11 @@
-#include "QualitySummary.h"
 #include "FloatingPointPause.h"
 
-#include "Orientation.h"
-#include "Quality.h"
+#include <cadrefine/mesh/QualitySummary.h>
+
 #include "TestMeshes.h"
+
+#include <cadrefine/mesh/Orientation.h>
+#include <cadrefine/mesh/Quality.h>
 
 #include <gtest/gtest.h>
 

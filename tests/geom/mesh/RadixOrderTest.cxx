@@ -1,4 +1,4 @@
-#include "RadixOrder.h"
+#include <cadrefine/base/RadixOrder.h>
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // An independent, slow closest point to compare with, and the checks that every answer must pass.
 #pragma once
 
-#include "ClosestPointSearch.h"
+#include <cadrefine/nurbs/ClosestPointSearch.h>
 
 #include <gtest/gtest.h>
 

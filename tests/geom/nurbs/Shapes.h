@@ -1,7 +1,7 @@
 // Exact models for the tests, built by hand from rational Bezier patches.
 #pragma once
 
-#include "NurbsModel.h"
+#include <cadrefine/nurbs/NurbsModel.h>
 
 #include <cmath>
 #include <cstdint>

@@ -1,0 +1,27 @@
+# What proxies have in common is written once, in xml/parts: a line <?part NAME key="value"?> of a proxy's file stands
+# for the file NAME.xml there, with @key@ replaced.
+
+# The file, with its parts, in the build folder; its path goes to the list `result`.
+function (cadrefine_put_together file result)
+  get_filename_component(name "${file}" NAME)
+  set(folder "${CMAKE_SOURCE_DIR}/xml/parts")
+  file(READ "${file}" text)
+  while (text MATCHES "( *)<[?]part ([A-Za-z]+)( [^?]*)?[?]>\n")
+    set(line "${CMAKE_MATCH_0}")
+    set(indent "${CMAKE_MATCH_1}")
+    set(arguments "${CMAKE_MATCH_3}")
+    set(path "${folder}/${CMAKE_MATCH_2}.xml")
+    file(READ "${path}" part)
+    while (arguments MATCHES " ([a-z]+)=\"([^\"]*)\"")
+      string(REPLACE "${CMAKE_MATCH_0}" "" arguments "${arguments}")
+      string(REPLACE "@${CMAKE_MATCH_1}@" "${CMAKE_MATCH_2}" part "${part}")
+    endwhile ()
+    string(REGEX REPLACE "([^\n]+\n)" "${indent}\\1" part "${part}")
+    string(REPLACE "${line}" "${part}" text "${text}")
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${path}")
+  endwhile ()
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${file}")
+  set(path "${CMAKE_CURRENT_BINARY_DIR}/xml/${name}")
+  file(CONFIGURE OUTPUT "${path}" CONTENT "${text}" @ONLY)
+  set(${result} ${${result}} "${path}" PARENT_SCOPE)
+endfunction ()

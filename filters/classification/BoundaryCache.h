@@ -1,0 +1,57 @@
+// What was found of the facets of a boundary, for those that a later boundary has, too.
+#pragma once
+
+#include "classification/DistributedBoundary.h"
+
+#include <cadrefine/error/GeometricError.h>
+
+#include <array>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+namespace cadrefine
+{
+
+/// Of a mesh that is adapted step by step, most facets stay. All that is found of a facet is a
+/// function of its corners and their CAD entities, and of the classes of its edges: where these are
+/// the same to the last bit, so is the answer. Memory: some 350 bytes a facet on the CAD.
+class BoundaryCache
+{
+public:
+  BoundaryCache() = default;
+  /// Of the facets on the CAD of a measured boundary, with their errors at this depth, in order.
+  BoundaryCache(const SimplexMesh& mesh, const Classification& classification,
+    const ClassifiedBoundary& classified, const std::vector<FacetError>& errors, int depth);
+
+  /// The facet with these corners, as it lies on the CAD; -1: none.
+  Index find(const SimplexMesh& mesh, const Facet& facet, const ClassifiedFacet& corners) const;
+
+  const FacetRecord& record(Index facet) const { return facets_[facet].record; }
+  /// The place of the midpoint of its edge k if it is of this class, else null.
+  const ClosestPoint* midpoint(Index facet, int k, const EdgeClass& edgeClass) const;
+  /// Its error if its edges are of these classes, and these corners are off the CAD; else null.
+  const FacetError* error(Index facet, const ErrorFacet& now, int depth) const;
+
+private:
+  struct Hash
+  {
+    std::size_t operator()(const std::array<GlobalId, 3>& ids) const;
+  };
+  struct Known
+  {
+    ClassifiedFacet corners;
+    std::array<bool, 3> offCAD;
+    FacetRecord record;
+    std::array<Index, 3> edges;
+    FacetError error;
+  };
+
+  std::unordered_map<std::array<GlobalId, 3>, Index, Hash> byIds_;
+  std::vector<Known> facets_;
+  std::vector<EdgeClass> edgeClasses_;
+  std::vector<ClosestPoint> midpoints_;
+  int depth_ = 0;
+};
+
+} // namespace cadrefine

@@ -1,0 +1,233 @@
+#include "classification/DistributedBoundary.h"
+
+#include "classification/BoundaryCache.h"
+#include "comm/CollectiveErrors.h"
+#include "comm/SharedEdges.h"
+#include "comm/Threads.h"
+#include "mesh/BoundaryFacets.h"
+
+#include <cadrefine/mesh/Quality.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace cadrefine
+{
+namespace
+{
+
+/// Whether all vertices of all ranks have a coordinate in common.
+bool liesInCoordinatePlane(RankExchange& exchange, const SimplexMesh& mesh)
+{
+  const auto [low, high] = findBounds(exchange, mesh);
+  return low[0] == high[0] || low[1] == high[1] || low[2] == high[2];
+}
+
+void listEdges(const SimplexMesh& mesh, DistributedBoundary& boundary)
+{
+  boundary.edges = EdgeList(mesh.ids);
+  for (const Facet& facet : boundary.facets)
+  {
+    std::array<Index, 3> edges{ -1, -1, -1 };
+    const int corners = boundary.facetCorners();
+    for (int k = 0; k < (corners == 3 ? 3 : 1); ++k)
+    {
+      edges[k] = boundary.edges.findOrAdd(facet.vertices[k], facet.vertices[(k + 1) % corners]);
+    }
+    boundary.facetEdges.push_back(edges);
+  }
+}
+
+void measureVertices(
+  RankExchange& exchange, const DistributedMesh& mesh, DistributedBoundary& boundary)
+{
+  const auto& points = mesh.mesh().points;
+  boundary.onBoundary.assign(points.size(), 0);
+  boundary.longestEdge.assign(points.size(), 0.0);
+  boundary.shortestEdge.assign(points.size(), std::numeric_limits<double>::infinity());
+  for (const auto& ends : boundary.edges.edges())
+  {
+    const double length = distance(points[ends[0]], points[ends[1]]);
+    for (const Index vertex : ends)
+    {
+      boundary.onBoundary[vertex] = 1;
+      boundary.longestEdge[vertex] = std::max(boundary.longestEdge[vertex], length);
+      boundary.shortestEdge[vertex] = std::min(boundary.shortestEdge[vertex], length);
+    }
+  }
+  const auto larger = [](auto a, auto b) { return std::max(a, b); };
+  combineShared(exchange, mesh.shared, boundary.onBoundary, larger);
+  combineShared(exchange, mesh.shared, boundary.longestEdge, larger);
+  combineShared(exchange, mesh.shared, boundary.shortestEdge,
+    [](double a, double b) { return std::min(a, b); });
+}
+
+bool isClassified(const ClassifiedFacet& facet, BoundaryKind kind)
+{
+  const auto end = facet.entities.begin() + (kind == BoundaryKind::Triangles ? 3 : 2);
+  return std::all_of(
+    facet.entities.begin(), end, [](EntityId entity) { return static_cast<bool>(entity); });
+}
+
+/// A record on its way to the rank that has the edge too.
+struct SentRecord
+{
+  std::int64_t edge; ///< Place in the neighbour's list.
+  FacetRecord record;
+};
+
+} // namespace
+
+DistributedBoundary findBoundary(RankExchange& exchange, const DistributedMesh& mesh,
+  const CADModel& model, const std::vector<unsigned char>& among)
+{
+  DistributedBoundary boundary;
+  const SimplexMesh& piece = mesh.mesh();
+  const bool planar =
+    piece.dimension == 2 && (model.count(2) == 0 || liesInCoordinatePlane(exchange, piece));
+  boundary.kind = planar ? BoundaryKind::Segments : BoundaryKind::Triangles;
+  if (piece.dimension == 3 || planar)
+  {
+    boundary.facets = findBoundaryFacets(exchange, mesh, among);
+  }
+  else
+  {
+    boundary.facets = facetsOfSurface(piece);
+    boundary.ofSurface = true;
+  }
+  listEdges(piece, boundary);
+  boundary.sharedEdges = findSharedEdges(exchange, mesh.shared, piece.ids, boundary.edges.edges());
+  measureVertices(exchange, mesh, boundary);
+  return boundary;
+}
+
+std::vector<std::vector<FacetRecord>> gatherFacetRecords(RankExchange& exchange,
+  const DistributedBoundary& boundary, const std::vector<FacetRecord>& ofFacets)
+{
+  std::vector<std::vector<FacetRecord>> ofEdges(boundary.edges.edges().size());
+  for (std::size_t f = 0; f < ofFacets.size(); ++f)
+  {
+    for (const Index edge : boundary.facetEdges[f])
+    {
+      if (edge >= 0)
+      {
+        ofEdges[edge].push_back(ofFacets[f]);
+      }
+    }
+  }
+  const auto& shared = boundary.sharedEdges;
+  std::vector<std::vector<SentRecord>> outgoing(shared.neighbours.size());
+  for (std::size_t n = 0; n < shared.neighbours.size(); ++n)
+  {
+    for (std::size_t k = 0; k < shared.items[n].size(); ++k)
+    {
+      for (const FacetRecord& record : ofEdges[shared.items[n][k]])
+      {
+        outgoing[n].push_back({ static_cast<std::int64_t>(k), record });
+      }
+    }
+  }
+  const auto incoming = exchange.exchange(shared.neighbours, outgoing);
+  for (std::size_t n = 0; n < incoming.size(); ++n)
+  {
+    for (const SentRecord& sent : incoming[n])
+    {
+      ofEdges[shared.items[n][sent.edge]].push_back(sent.record);
+    }
+  }
+  return ofEdges;
+}
+
+ClassifiedFacet classifiedFacet(const SimplexMesh& mesh, const std::vector<EntityId>& entities,
+  const Facet& facet, BoundaryKind kind)
+{
+  ClassifiedFacet result;
+  for (int k = 0; k < (kind == BoundaryKind::Triangles ? 3 : 2); ++k)
+  {
+    result.points[k] = mesh.points[facet.vertices[k]];
+    result.entities[k] = entities[facet.vertices[k]];
+  }
+  return result;
+}
+
+FacetRecord makeRecord(const BoundaryProjector& projector, const ClassifiedFacet& facet)
+{
+  const bool triangle = projector.kind() == BoundaryKind::Triangles;
+  const auto& p = facet.points;
+  FacetRecord record;
+  if (triangle)
+  {
+    const Vector3 twofoldArea = twofoldAreaVector(p[0], p[1], p[2]);
+    record.normal = normalized(twofoldArea);
+    record.area = 0.5 * norm(twofoldArea);
+  }
+  record.onCAD = isClassified(facet, projector.kind()) && projector.isOnCAD(facet) ? 1 : 0;
+  return record;
+}
+
+std::array<bool, 3> cornersOff(const Classification& classification, const Facet& facet)
+{
+  std::array<bool, 3> off{};
+  std::transform(facet.vertices.begin(), facet.vertices.end(), off.begin(),
+    [&](Index vertex) { return vertex >= 0 && classification.distances[vertex] > 0; });
+  return off;
+}
+
+BoundaryClasses classifyBoundary(RankExchange& exchange, const SimplexMesh& mesh,
+  const DistributedBoundary& boundary, const std::vector<EntityId>& entities,
+  const BoundaryProjector& projector, const BoundaryCache& cache)
+{
+  BoundaryClasses classes;
+  const ParallelFor parallelFor = forOnThreads(exchange);
+  auto& records = classes.facets;
+  records.resize(boundary.facets.size());
+  classes.known.assign(records.size(), -1);
+  const auto classifyFacet = [&](std::size_t f)
+  {
+    const ClassifiedFacet facet =
+      classifiedFacet(mesh, entities, boundary.facets[f], boundary.kind);
+    FacetRecord& record = records[f];
+    classes.known[f] = cache.find(mesh, boundary.facets[f], facet);
+    if (classes.known[f] >= 0)
+    {
+      record = cache.record(classes.known[f]);
+      return;
+    }
+    record = makeRecord(projector, facet);
+    if (boundary.ofSurface)
+    {
+      record.onCAD = isClassified(facet, boundary.kind);
+    }
+    if (record.onCAD && boundary.kind == BoundaryKind::Triangles)
+    {
+      record.face = projector.faceOf(facet);
+    }
+  };
+  agreeOnFailure(
+    exchange, [&] { forEachIndex(parallelFor, records.size(), coarseGrain, classifyFacet); });
+  const auto ofEdges = gatherFacetRecords(exchange, boundary, records);
+  const auto& edges = boundary.edges.edges();
+  classes.ofEdges.resize(edges.size());
+  const auto classifyEdge = [&](std::size_t e)
+  {
+    const auto [a, b] = edges[e];
+    classes.ofEdges[e] = projector.classify(
+      { mesh.points[a], mesh.points[b] }, { entities[a], entities[b] }, ofEdges[e]);
+  };
+  agreeOnFailure(
+    exchange, [&] { forEachIndex(parallelFor, edges.size(), coarseGrain, classifyEdge); });
+  return classes;
+}
+
+ClassifiedBoundary findClassifiedBoundary(RankExchange& exchange, const DistributedMesh& mesh,
+  const CADModel& model, const Classification& classification, const BoundaryCache& cache,
+  const std::vector<unsigned char>& among)
+{
+  DistributedBoundary boundary = findBoundary(exchange, mesh, model, among);
+  BoundaryProjector projector(model, boundary.kind);
+  BoundaryClasses classes =
+    classifyBoundary(exchange, mesh.mesh(), boundary, classification.entities, projector, cache);
+  return { std::move(projector), std::move(boundary), std::move(classes) };
+}
+
+} // namespace cadrefine

@@ -1,0 +1,98 @@
+// The boundary of a mesh in pieces, and how its facets meet at edges.
+#pragma once
+
+#include "mesh/DistributedMesh.h"
+
+#include <cadrefine/classification/BoundaryProjector.h>
+#include <cadrefine/classification/Classification.h>
+#include <cadrefine/mesh/EdgeTable.h>
+#include <cadrefine/mesh/Facets.h>
+
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace cadrefine
+{
+
+class BoundaryCache;
+
+/// The facets of this rank's piece that lie on the boundary of the whole mesh, their edges, and
+/// which vertices lie on that boundary. Refers to the mesh it was made from.
+struct DistributedBoundary
+{
+  BoundaryKind kind = BoundaryKind::Triangles;
+  /// The facets are the cells of a mesh of triangles in space.
+  bool ofSurface = false;
+  std::vector<Facet> facets;
+  /// Edges of facets; of a triangle edge k joins corners k and k + 1, a segment is its own edge 0.
+  EdgeList edges;
+  std::vector<std::array<Index, 3>> facetEdges;
+  SharedItems sharedEdges;
+  /// 1 for vertices of facets, on whatever rank these are.
+  std::vector<unsigned char> onBoundary;
+  /// Length of the longest boundary edge at each vertex, over all ranks; 0 elsewhere.
+  std::vector<double> longestEdge;
+  /// Length of the shortest boundary edge at each vertex, over all ranks; infinite elsewhere.
+  std::vector<double> shortestEdge;
+
+  int facetCorners() const { return kind == BoundaryKind::Triangles ? 3 : 2; }
+};
+
+/// Boundary of the mesh: of a mesh of tetrahedra, or a planar one of triangles, the sides met once
+/// and listed interior ones (see findBoundaryFacets); of triangles in space, all triangles. A mesh
+/// of triangles is planar if the model has no faces or if all of its vertices have one coordinate
+/// in common. `among`: see findBoundaryFacets. Collective; messages in proportion to the interface
+/// between pieces.
+DistributedBoundary findBoundary(RankExchange& exchange, const DistributedMesh& mesh,
+  const CADModel& model, const std::vector<unsigned char>& among = {});
+
+/// For each boundary edge the records of all facets beside it, of those on other ranks too, given
+/// those of this rank's facets. Collective.
+std::vector<std::vector<FacetRecord>> gatherFacetRecords(RankExchange& exchange,
+  const DistributedBoundary& boundary, const std::vector<FacetRecord>& ofFacets);
+
+/// The facets as the projector sees them.
+ClassifiedFacet classifiedFacet(const SimplexMesh& mesh, const std::vector<EntityId>& entities,
+  const Facet& facet, BoundaryKind kind);
+
+/// The record of a facet. It is on the CAD if all of its corners are classified and it fits the CAD
+/// there (BoundaryProjector::isOnCAD).
+FacetRecord makeRecord(const BoundaryProjector& projector, const ClassifiedFacet& facet);
+
+/// Which corners are classified, but have not reached the CAD.
+std::array<bool, 3> cornersOff(const Classification& classification, const Facet& facet);
+
+/// Classes of all boundary edges of a classified mesh, and records of its facets. Of a mesh of
+/// triangles in space, every facet with classified corners is on the CAD: there is no inside that a
+/// wall could bound.
+struct BoundaryClasses
+{
+  std::vector<EdgeClass> ofEdges;
+  std::vector<FacetRecord> facets;
+  std::vector<Index> known; ///< Of each facet on the CAD its index in the cache; -1: none.
+};
+
+/// Collective. Work: some queries a facet and an edge on the CAD, but for facets that are in the
+/// cache.
+BoundaryClasses classifyBoundary(RankExchange& exchange, const SimplexMesh& mesh,
+  const DistributedBoundary& boundary, const std::vector<EntityId>& entities,
+  const BoundaryProjector& projector, const BoundaryCache& cache);
+
+/// The boundary of a mesh that is classified on a model. Refers to both, and is of use until the
+/// mesh changes.
+struct ClassifiedBoundary
+{
+  BoundaryProjector projector;
+  DistributedBoundary boundary;
+  BoundaryClasses classes;
+  /// Of each boundary edge the place of its midpoint, where they were looked for.
+  std::optional<std::vector<ClosestPoint>> midpoints = std::nullopt;
+};
+
+/// findBoundary and classifyBoundary. Collective.
+ClassifiedBoundary findClassifiedBoundary(RankExchange& exchange, const DistributedMesh& mesh,
+  const CADModel& model, const Classification& classification, const BoundaryCache& cache,
+  const std::vector<unsigned char>& among = {});
+
+} // namespace cadrefine

@@ -1,0 +1,226 @@
+#include "classification/EdgeMidpoints.h"
+
+#include "classification/BoundaryCache.h"
+#include "comm/GlobalNumbering.h"
+#include "comm/VertexNumbering.h"
+
+#include <cadrefine/base/LargeMemory.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace cadrefine
+{
+namespace
+{
+
+/// Class of an edge and whether it lies on the boundary, as one number that ranks can combine by
+/// the maximum: a rank without a facet at the edge has 0.
+std::int64_t encode(const EdgeClass& edgeClass)
+{
+  return 1 + edgeClass.kind + 4 * static_cast<std::int64_t>(edgeClass.edge + 1);
+}
+
+EdgeClass decode(std::int64_t code)
+{
+  return code == 0 ? EdgeClass{}
+                   : EdgeClass{ static_cast<EdgeClass::Kind>((code - 1) % 4),
+                       static_cast<std::int32_t>((code - 1) / 4 - 1) };
+}
+
+BoundaryEdge edgeOf(const EdgeClass& edgeClass, const std::array<Index, 2>& ends,
+  const SimplexMesh& mesh, const Classification& classification)
+{
+  const auto [a, b] = ends;
+  return { edgeClass, { mesh.points[a], mesh.points[b] },
+    { classification.entities[a], classification.entities[b] } };
+}
+
+/// An edge of the piece whose midpoint is known.
+struct KnownMidpoint
+{
+  Index edge;
+  Index boundaryEdge;
+
+  bool operator<(const KnownMidpoint& other) const { return edge < other.edge; }
+};
+
+/// In the order of the edges.
+std::vector<KnownMidpoint> findKnown(const EdgeTable& table, const ClassifiedBoundary& classified)
+{
+  std::vector<KnownMidpoint> known;
+  if (classified.midpoints)
+  {
+    const auto& ends = classified.boundary.edges.edges();
+    for (std::size_t e = 0; e < ends.size(); ++e)
+    {
+      known.push_back({ table.find(ends[e][0], ends[e][1]), static_cast<Index>(e) });
+    }
+  }
+  std::sort(known.begin(), known.end());
+  return known;
+}
+
+/// Fills in those that are in the cache: 1.
+std::vector<unsigned char> rememberMidpoints(
+  const BoundaryCache& cache, ClassifiedBoundary& classified)
+{
+  const auto& [ofEdges, facets, known] = classified.classes;
+  std::vector<unsigned char> isKnown(ofEdges.size(), 0);
+  for (std::size_t f = 0; f < facets.size(); ++f)
+  {
+    for (int k = 0; k < 3 && known[f] >= 0; ++k)
+    {
+      const Index edge = classified.boundary.facetEdges[f][k];
+      const ClosestPoint* midpoint =
+        edge < 0 || isKnown[edge] ? nullptr : cache.midpoint(known[f], k, ofEdges[edge]);
+      if (midpoint)
+      {
+        (*classified.midpoints)[edge] = *midpoint;
+        isKnown[edge] = 1;
+      }
+    }
+  }
+  return isKnown;
+}
+
+} // namespace
+
+MarkedEdges findEdges(RankExchange& exchange, const DistributedMesh& mesh, unsigned char mark)
+{
+  MarkedEdges edges;
+  edges.table = buildEdgeTable(mesh.mesh());
+  edges.sharedEdges = findSharedEdges(exchange, mesh.shared, mesh.mesh().ids, edges.table.edges);
+  edges.marks.assign(edges.table.edges.size(), mark);
+  return edges;
+}
+
+std::vector<GlobalId> numberMidpoints(RankExchange& exchange, DistributedMesh& mesh,
+  const std::vector<std::array<Index, 2>>& parentEdges)
+{
+  const auto& ids = mesh.mesh().ids;
+  std::vector<VertexKey<1>> keys;
+  resizeLong(keys, parentEdges.size());
+  std::transform(parentEdges.begin(), parentEdges.end(), keys.begin(),
+    [&](const std::array<Index, 2>& ends) {
+      return VertexKey<1>{ ends[0], { ids[ends[1]] } };
+    });
+  Numbering numbering = numberAtVertices(exchange, mesh.shared, ids, keys);
+  for (GlobalId& number : numbering.numbers)
+  {
+    number += mesh.vertexIdBound;
+  }
+  mesh.vertexIdBound += numbering.count;
+  return std::move(numbering.numbers);
+}
+
+std::vector<std::int64_t> edgeCodes(
+  RankExchange& exchange, const MarkedEdges& edges, const ClassifiedBoundary& classified)
+{
+  std::vector<std::int64_t> codes(edges.table.edges.size(), 0);
+  const auto& ends = classified.boundary.edges.edges();
+  for (std::size_t e = 0; e < ends.size(); ++e)
+  {
+    codes[edges.table.find(ends[e][0], ends[e][1])] = encode(classified.classes.ofEdges[e]);
+  }
+  combineShared(exchange, edges.sharedEdges, codes,
+    [](std::int64_t a, std::int64_t b) { return std::max(a, b); });
+  return codes;
+}
+
+Answers<ClosestPoint> projectEdges(RankExchange& exchange, const BoundaryProjector& projector,
+  std::vector<BoundaryEdge> edges, const CountedWork& work)
+{
+  return mapBalanced<ClosestPoint>(
+    exchange, std::move(edges),
+    [&](const BoundaryEdge& edge) { return projector.projectMidpoint(edge); }, work);
+}
+
+WorkBalance findMidpoints(RankExchange& exchange, const SimplexMesh& mesh,
+  const Classification& classification, const BoundaryCache& cache, ClassifiedBoundary& classified)
+{
+  const auto& ends = classified.boundary.edges.edges();
+  auto& midpoints = classified.midpoints.emplace(ends.size());
+  const auto isKnown = rememberMidpoints(cache, classified);
+  std::vector<std::size_t> asking;
+  std::vector<BoundaryEdge> queries;
+  for (std::size_t e = 0; e < ends.size(); ++e)
+  {
+    const EdgeClass& edgeClass = classified.classes.ofEdges[e];
+    if (edgeClass.kind != EdgeClass::Straight && !isKnown[e])
+    {
+      asking.push_back(e);
+      queries.push_back(edgeOf(edgeClass, ends[e], mesh, classification));
+    }
+  }
+  const auto answers = projectEdges(
+    exchange, classified.projector, std::move(queries), { "projecting", "boundary edges" });
+  for (std::size_t i = 0; i < asking.size(); ++i)
+  {
+    midpoints[asking[i]] = answers.values[i];
+  }
+  return answers.balance;
+}
+
+std::vector<MidpointOnCAD> projectMidpoints(RankExchange& exchange, const SimplexMesh& mesh,
+  const MarkedEdges& edges, const std::vector<std::int64_t>& codes,
+  const ClassifiedBoundary& classified, const Classification& classification,
+  RunStatistics& statistics)
+{
+  const auto known = findKnown(edges.table, classified);
+  auto next = known.begin();
+  std::vector<MidpointOnCAD> midpoints;
+  std::vector<std::size_t> asking; // among these
+  std::vector<BoundaryEdge> queries;
+  std::size_t place = 0;
+  for (std::size_t e = 0; e < codes.size(); ++e)
+  {
+    const bool isKnown = next != known.end() && next->edge == static_cast<Index>(e);
+    const Index boundaryEdge = isKnown ? (next++)->boundaryEdge : -1;
+    const EdgeClass edgeClass = decode(codes[e]);
+    if (edges.marks[e] && edgeClass.kind != EdgeClass::Straight)
+    {
+      if (!isKnown)
+      {
+        asking.push_back(midpoints.size());
+        queries.push_back(edgeOf(edgeClass, edges.table.edges[e], mesh, classification));
+      }
+      midpoints.push_back(
+        { place, isKnown ? (*classified.midpoints)[boundaryEdge] : ClosestPoint{} });
+    }
+    place += edges.marks[e];
+  }
+  const auto answers = projectEdges(
+    exchange, classified.projector, std::move(queries), { "projecting", "new vertices" });
+  recordBalance(statistics, "new points", answers.balance);
+  for (std::size_t i = 0; i < asking.size(); ++i)
+  {
+    midpoints[asking[i]].where = answers.values[i];
+  }
+  midpoints.erase(std::remove_if(midpoints.begin(), midpoints.end(),
+                    [](const MidpointOnCAD& midpoint) { return !midpoint.where.entity; }),
+    midpoints.end());
+  return midpoints;
+}
+
+void classifyMidpoints(
+  const std::vector<MidpointOnCAD>& hits, std::size_t count, Classification& classification)
+{
+  const std::size_t oldCount = classification.entities.size();
+  classification.resize(count);
+  for (const MidpointOnCAD& hit : hits)
+  {
+    classification.set(static_cast<Index>(oldCount + hit.place), hit.where);
+    classification.distances[oldCount + hit.place] = hit.where.distance;
+  }
+}
+
+std::int64_t countHits(RankExchange& exchange, const SharedVertices& shared, std::size_t vertices,
+  const std::vector<MidpointOnCAD>& hits)
+{
+  return exchange.sum(std::count_if(hits.begin(), hits.end(),
+    [&](const MidpointOnCAD& hit)
+    { return shared.owner(static_cast<Index>(vertices + hit.place)) == exchange.rank(); }));
+}
+
+} // namespace cadrefine

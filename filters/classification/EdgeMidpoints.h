@@ -1,0 +1,77 @@
+// The middles of edges over all ranks: their ids, and where they belong on the CAD.
+#pragma once
+
+#include "classification/DistributedBoundary.h"
+#include "comm/LoadBalancedMap.h"
+#include "comm/RunStatistics.h"
+#include "comm/SharedEdges.h"
+#include "mesh/DistributedMesh.h"
+
+#include <cadrefine/classification/BoundaryProjector.h>
+#include <cadrefine/classification/Classification.h>
+#include <cadrefine/mesh/EdgeTable.h>
+#include <cadrefine/refinement/LongestEdgeMarking.h>
+#include <cadrefine/refinement/Split.h>
+
+#include <array>
+#include <vector>
+
+namespace cadrefine
+{
+
+/// The edges of a piece, and which of them have a point in their middle.
+struct MarkedEdges
+{
+  EdgeTable table;
+  SharedEdges sharedEdges;
+  EdgeMarks marks;
+};
+
+/// With this mark for all edges. Collective; work of buildEdgeTable, messages of findSharedEdges.
+MarkedEdges findEdges(RankExchange& exchange, const DistributedMesh& mesh, unsigned char mark);
+
+/// Ids of the midpoints of edges, given their ends, from the order of the ids of these: larger than
+/// all ids so far. Collective (see numberAtVertices).
+std::vector<GlobalId> numberMidpoints(RankExchange& exchange, DistributedMesh& mesh,
+  const std::vector<std::array<Index, 2>>& parentEdges);
+
+/// The classes of all edges of a piece (see classifyBoundary), also of those whose boundary facets
+/// are on other ranks, as numbers: 0 for an edge inside the mesh. Collective.
+std::vector<std::int64_t> edgeCodes(
+  RankExchange& exchange, const MarkedEdges& edges, const ClassifiedBoundary& classified);
+
+/// Where the midpoints of these edges belong. Collective; shared out evenly over ranks and threads,
+/// and counted as `work` in the progress (see mapBalanced).
+Answers<ClosestPoint> projectEdges(RankExchange& exchange, const BoundaryProjector& projector,
+  std::vector<BoundaryEdge> edges, const CountedWork& work);
+
+/// A midpoint that belongs onto the CAD.
+struct MidpointOnCAD
+{
+  std::size_t place; ///< Among the midpoints of marked edges.
+  ClosestPoint where;
+};
+
+/// Projects the midpoints of all boundary edges (see ClassifiedBoundary::midpoints). Collective;
+/// one projection for each that does not stay straight and is not in the cache, shared out evenly
+/// over ranks and threads.
+WorkBalance findMidpoints(RankExchange& exchange, const SimplexMesh& mesh,
+  const Classification& classification, const BoundaryCache& cache, ClassifiedBoundary& classified);
+
+/// Where the midpoints of marked edges belong, by the class of their edge (S. Strunk, KTH 2013,
+/// Algorithm 4.3). Collective; one projection for each that is not known yet, shared out likewise.
+std::vector<MidpointOnCAD> projectMidpoints(RankExchange& exchange, const SimplexMesh& mesh,
+  const MarkedEdges& edges, const std::vector<std::int64_t>& codes,
+  const ClassifiedBoundary& classified, const Classification& classification,
+  RunStatistics& statistics);
+
+/// Appends the midpoints at their distance from the CAD, so that there are `count` entries.
+void classifyMidpoints(
+  const std::vector<MidpointOnCAD>& hits, std::size_t count, Classification& classification);
+
+/// How many of these midpoints, numbered after `vertices` vertices, there are over all ranks, none
+/// counted twice. Collective.
+std::int64_t countHits(RankExchange& exchange, const SharedVertices& shared, std::size_t vertices,
+  const std::vector<MidpointOnCAD>& hits);
+
+} // namespace cadrefine

@@ -1,0 +1,227 @@
+#include "classification/FacetClassification.h"
+
+#include "comm/CollectiveErrors.h"
+#include "comm/LoadBalancedMap.h"
+#include "comm/Threads.h"
+
+#include <cadrefine/classification/CADAdjacency.h>
+#include <cadrefine/classification/ClassificationTolerances.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace cadrefine
+{
+namespace
+{
+
+/// Whether the facet looks alike on the CAD: no edge shorter than half of it or longer than twice,
+/// and, where the user sets no limit, no corner farther away than half of the longest edge. Facets
+/// of walls and of the far field collapse when their corners are projected.
+bool keepsItsShape(
+  const ProjectionTask& task, const std::vector<ClosestPoint>& hits, const Facet& facet)
+{
+  const auto& points = task.points();
+  const int corners = task.boundary.facetCorners();
+  double longest = 0;
+  double farthest = 0;
+  for (int k = 0; k < corners; ++k)
+  {
+    const Index a = facet.vertices[k];
+    const Index b = facet.vertices[(k + 1) % corners];
+    const double before = distance(points[a], points[b]);
+    const double after = distance(hits[a].point, hits[b].point);
+    if (after < ClassificationTolerances::leastShrinking * before ||
+        before < ClassificationTolerances::leastShrinking * after)
+    {
+      return false;
+    }
+    longest = std::max(longest, before);
+    farthest = std::max(farthest, hits[a].distance);
+  }
+  return task.options.maximumDistance > 0 ||
+         farthest <= ClassificationTolerances::farthestCorner * longest;
+}
+
+std::vector<FacetRecord> makeRecords(
+  const ProjectionTask& task, const std::vector<ClosestPoint>& hits, const ParallelFor& parallelFor)
+{
+  std::vector<EntityId> entities(hits.size());
+  std::transform(
+    hits.begin(), hits.end(), entities.begin(), [](const ClosestPoint& hit) { return hit.entity; });
+  const auto recordOf = [&](const Facet& facet)
+  {
+    FacetRecord record = makeRecord(
+      task.projector, classifiedFacet(task.mesh.mesh(), entities, facet, task.boundary.kind));
+    record.onCAD = record.onCAD && keepsItsShape(task, hits, facet);
+    const auto end = facet.vertices.begin() + task.boundary.facetCorners();
+    record.free = std::any_of(facet.vertices.begin(), end,
+      [&](Index vertex) { return !task.options.inRegion(task.points()[vertex]); });
+    return record;
+  };
+  const auto& facets = task.boundary.facets;
+  std::vector<FacetRecord> records(facets.size());
+  forEachIndex(parallelFor, facets.size(), coarseGrain,
+    [&](std::size_t f) { records[f] = recordOf(facets[f]); });
+  return records;
+}
+
+/// 1 for vertices that are, like all vertices that share a boundary edge with them, nearest to one
+/// face.
+std::vector<unsigned char> findThoseAmongTheirOwn(
+  const ProjectionTask& task, const std::vector<ClosestPoint>& hits)
+{
+  std::vector<unsigned char> result(hits.size());
+  std::transform(hits.begin(), hits.end(), result.begin(),
+    [](const ClosestPoint& hit) { return hit.entity.dimension == 2; });
+  for (const auto& [a, b] : task.boundary.edges.edges())
+  {
+    if (hits[a].entity != hits[b].entity)
+    {
+      result[a] = 0;
+      result[b] = 0;
+    }
+  }
+  combineShared(task.exchange, task.mesh.shared, result,
+    [](unsigned char a, unsigned char b) { return std::min(a, b); });
+  return result;
+}
+
+FaceSides findSides(const ProjectionTask& task, const std::vector<ClosestPoint>& hits,
+  const std::vector<FacetRecord>& records)
+{
+  const std::size_t faces = task.model().nurbs().faces.size();
+  std::vector<std::int64_t> votes(2 * faces, 0);
+  for (std::size_t f = 0; f < records.size(); ++f)
+  {
+    for (int k = 0; k < 3 && records[f].onCAD; ++k)
+    {
+      const ClosestPoint& hit = hits[task.boundary.facets[f].vertices[k]];
+      if (hit.entity.dimension != 2)
+      {
+        continue;
+      }
+      const Vector3 normal = task.model().normal(hit.entity.index, hit.parameters);
+      if (fitsEitherWay(normal, records[f].normal))
+      {
+        ++votes[2 * hit.entity.index + (dot(normal, records[f].normal) < 0)];
+      }
+    }
+  }
+  votes = task.exchange.sum(votes);
+  std::vector<std::int64_t> alike(faces);
+  std::vector<std::int64_t> opposite(faces);
+  for (std::size_t face = 0; face < faces; ++face)
+  {
+    alike[face] = votes[2 * face];
+    opposite[face] = votes[2 * face + 1];
+  }
+  return decideSides(alike, opposite);
+}
+
+std::vector<FaceMatch> findFaces(
+  const ProjectionTask& task, const std::vector<ClosestPoint>& hits, const FacetClasses& classes)
+{
+  const auto& records = classes.records;
+  const auto amongTheirOwn = findThoseAmongTheirOwn(task, hits);
+  const FaceFinder finder(task.model(), classes.sides);
+  std::vector<CornerHits> queries;
+  std::vector<std::size_t> facets;
+  for (std::size_t f = 0; f < records.size(); ++f)
+  {
+    if (!records[f].onCAD)
+    {
+      continue;
+    }
+    CornerHits query;
+    query.exact = 1;
+    for (int k = 0; k < 3; ++k)
+    {
+      const Index vertex = task.boundary.facets[f].vertices[k];
+      query.points[k] = task.points()[vertex];
+      query.hits[k] = hits[vertex];
+      query.amongItsOwn[k] = amongTheirOwn[vertex];
+      query.exact = query.exact && hits[vertex].distance <= task.exact(vertex);
+    }
+    queries.push_back(query);
+    facets.push_back(f);
+  }
+  const auto answers = mapBalanced<FaceMatch>(task.exchange, std::move(queries),
+    [&](const CornerHits& query) { return finder.find(query); },
+    { "finding the faces of", "facets" });
+  std::vector<FaceMatch> matches(records.size());
+  for (std::size_t i = 0; i < facets.size(); ++i)
+  {
+    matches[facets[i]] = answers.values[i];
+  }
+  return matches;
+}
+
+/// The face that most of these neighbours of `facet` have; of several its own or the first.
+std::int32_t majority(const FacetRecord& facet, const std::vector<FacetRecord>& neighbours)
+{
+  const double smooth = ClassificationTolerances::smoothFacetsCosine();
+  std::map<std::int32_t, int> votes;
+  for (const FacetRecord& neighbour : neighbours)
+  {
+    if (neighbour.face >= 0 && dot(neighbour.normal, facet.normal) >= smooth)
+    {
+      ++votes[neighbour.face];
+    }
+  }
+  std::int32_t best = facet.face;
+  for (const auto& [face, count] : votes)
+  {
+    best = count > votes[best] ? face : best;
+  }
+  return best;
+}
+
+/// Only the sure ones are asked, so that the order of the facets does not matter.
+void askNeighbours(const ProjectionTask& task, const std::vector<FaceMatch>& matches,
+  std::vector<FacetRecord>& records)
+{
+  std::vector<FacetRecord> sure = records;
+  for (std::size_t f = 0; f < sure.size(); ++f)
+  {
+    sure[f].face = matches[f].certain ? records[f].face : -1;
+  }
+  const auto ofEdges = gatherFacetRecords(task.exchange, task.boundary, sure);
+  for (std::size_t f = 0; f < records.size(); ++f)
+  {
+    if (records[f].onCAD && !matches[f].certain)
+    {
+      std::vector<FacetRecord> neighbours;
+      for (const Index edge : task.boundary.facetEdges[f])
+      {
+        neighbours.insert(neighbours.end(), ofEdges[edge].begin(), ofEdges[edge].end());
+      }
+      records[f].face = majority(records[f], neighbours);
+    }
+  }
+}
+
+} // namespace
+
+FacetClasses classifyFacets(const ProjectionTask& task, const std::vector<ClosestPoint>& hits)
+{
+  FacetClasses classes;
+  auto& records = classes.records;
+  const ParallelFor parallelFor = forOnThreads(task.exchange);
+  agreeOnFailure(task.exchange, [&] { records = makeRecords(task, hits, parallelFor); });
+  if (!task.triangles())
+  {
+    return classes;
+  }
+  classes.sides = findSides(task, hits, records);
+  const auto matches = findFaces(task, hits, classes);
+  for (std::size_t f = 0; f < records.size(); ++f)
+  {
+    records[f].face = matches[f].face;
+  }
+  askNeighbours(task, matches, records);
+  return classes;
+}
+
+} // namespace cadrefine

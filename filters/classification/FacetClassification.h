@@ -1,0 +1,28 @@
+// Which facets of a mesh's boundary are on the CAD, and on which face.
+#pragma once
+
+#include "classification/ProjectionTask.h"
+
+#include <vector>
+
+namespace cadrefine
+{
+
+struct FacetClasses
+{
+  std::vector<FacetRecord> records; ///< Of this rank's facets.
+  FaceSides sides;                  ///< Of the CAD's faces.
+};
+
+/// Classes of the facets, given the nearest point of each vertex:
+///   1. a facet is on the CAD if all of its corners found a point, its normal fits there, and it
+///      looks alike there; it is free if a corner is outside the user's region;
+///   2. the facets that lie clearly on one face tell which way the CAD's normals point, seen from
+///      the mesh (see decideSides);
+///   3. each triangle on the CAD finds its face (see FaceFinder);
+///   4. those that are not sure of it take the face that most of their neighbours over smooth mesh
+///      edges have.
+/// Collective: a sum of two numbers for each CAD face, and an exchange of the interface.
+FacetClasses classifyFacets(const ProjectionTask& task, const std::vector<ClosestPoint>& hits);
+
+} // namespace cadrefine

@@ -1,0 +1,80 @@
+// What the steps of the initial projection work on.
+#pragma once
+
+#include "classification/DistributedBoundary.h"
+#include "mesh/DistributedMesh.h"
+
+#include <cadrefine/classification/BoundaryProjector.h>
+#include <cadrefine/classification/CADAdjacency.h>
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+namespace cadrefine
+{
+
+struct ProjectionOptions
+{
+  /// Only vertices inside xmin xmax ymin ymax zmin zmax.
+  std::optional<std::array<double, 6>> region;
+  /// Vertices farther from the CAD stay; 0: a vertex's longest boundary edge (points alone: no
+  /// limit).
+  double maximumDistance = 0;
+  /// Cells that are inverted or flat are to be mended (see MoveSettings).
+  bool mendCells = false;
+
+  bool inRegion(const Point3& p) const
+  {
+    const auto inside = [&](int k)
+    { return p[k] >= (*region)[2 * k] && p[k] <= (*region)[2 * k + 1]; };
+    return !region || (inside(0) && inside(1) && inside(2));
+  }
+};
+
+struct ProjectionTask
+{
+  RankExchange& exchange;
+  const DistributedMesh& mesh;
+  const BoundaryProjector& projector;
+  const DistributedBoundary& boundary;
+  const ProjectionOptions& options;
+
+  const std::vector<Point3>& points() const { return mesh.mesh().points; }
+  const CADModel& model() const { return projector.model(); }
+  bool triangles() const { return boundary.kind == BoundaryKind::Triangles; }
+  /// How far a vertex may be from the CAD.
+  double limit(std::size_t vertex) const
+  {
+    return options.maximumDistance > 0 ? options.maximumDistance : boundary.longestEdge[vertex];
+  }
+  /// Up to which distance a vertex lies on the CAD already.
+  double exact(std::size_t vertex) const
+  {
+    return exactDistance(model(), boundary.shortestEdge[vertex]);
+  }
+};
+
+/// A few CAD entities of one dimension: the smallest indices, ascending. The union of two
+/// does not depend on their order.
+class SmallEntitySet
+{
+public:
+  SmallEntitySet() { indices_.fill(none); }
+  void add(std::int32_t index);
+  void add(const SmallEntitySet& other);
+  bool has(std::int32_t index) const;
+
+  const std::int32_t* begin() const { return indices_.data(); }
+  const std::int32_t* end() const;
+  std::size_t size() const { return static_cast<std::size_t>(end() - begin()); }
+  bool empty() const { return size() == 0; }
+
+private:
+  static constexpr std::int32_t none = std::numeric_limits<std::int32_t>::max();
+  std::array<std::int32_t, 8> indices_;
+};
+
+} // namespace cadrefine

@@ -1,0 +1,123 @@
+#include "error/BoundaryAngles.h"
+
+#include <cadrefine/mesh/Quality.h>
+
+#include <vtkMath.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace cadrefine
+{
+namespace
+{
+
+/// The facets on the CAD that meet at an edge or (segments) at a vertex.
+struct Meeting
+{
+  Vector3 sum{}; ///< Of the unit vectors from there into each facet.
+  int facets = 0;
+};
+
+Meeting joined(const Meeting& a, const Meeting& b)
+{
+  return { a.sum + b.sum, a.facets + b.facets };
+}
+
+/// The degrees by which the mesh turns there. Two facets in a row add up to zero, whichever way
+/// each of them is turned; unit vectors u, v have |u + v| = 2 sin(angle(u, -v) / 2).
+double angleAt(const Meeting& meeting)
+{
+  return meeting.facets == 2
+           ? vtkMath::DegreesFromRadians(2 * std::asin(std::min(1.0, norm(meeting.sum) / 2)))
+           : 0;
+}
+
+/// A flat triangle has no direction, and does not count.
+Meeting meetingWith(const Vector3& intoFacet)
+{
+  const Vector3 direction = normalized(intoFacet);
+  return { direction, norm(direction) > 0 ? 1 : 0 };
+}
+
+/// Calls `visit` with the place (an edge, of segments a vertex) and the vector into the facet, for
+/// each side of each facet on the CAD.
+template<class Visit>
+void visitSides(
+  const std::vector<Point3>& points, const ClassifiedBoundary& classified, const Visit& visit)
+{
+  const DistributedBoundary& boundary = classified.boundary;
+  for (std::size_t f = 0; f < boundary.facets.size(); ++f)
+  {
+    const auto& v = boundary.facets[f].vertices;
+    if (!classified.classes.facets[f].onCAD)
+    {
+      continue;
+    }
+    if (boundary.kind == BoundaryKind::Segments)
+    {
+      visit(v[0], points[v[1]] - points[v[0]]);
+      visit(v[1], points[v[0]] - points[v[1]]);
+      continue;
+    }
+    const Vector3 normal = twofoldAreaVector(points[v[0]], points[v[1]], points[v[2]]);
+    for (int k = 0; k < 3; ++k)
+    {
+      visit(boundary.facetEdges[f][k], cross(normal, points[v[(k + 1) % 3]] - points[v[k]]));
+    }
+  }
+}
+
+std::vector<Meeting> findMeetings(
+  RankExchange& exchange, const DistributedMesh& mesh, const ClassifiedBoundary& classified)
+{
+  const DistributedBoundary& boundary = classified.boundary;
+  const bool triangles = boundary.kind == BoundaryKind::Triangles;
+  std::vector<Meeting> meetings(
+    triangles ? boundary.edges.edges().size() : mesh.mesh().points.size());
+  visitSides(mesh.mesh().points, classified,
+    [&](Index place, const Vector3& into)
+    { meetings[place] = joined(meetings[place], meetingWith(into)); });
+  combineShared(exchange, triangles ? boundary.sharedEdges : mesh.shared, meetings, joined);
+  return meetings;
+}
+
+} // namespace
+
+bool isSmooth(const EdgeClass& edgeClass, const CADModel& model)
+{
+  return edgeClass.kind == EdgeClass::Smooth ||
+         (edgeClass.kind == EdgeClass::OnEdge && edgeClass.edge >= 0 &&
+           !model.nurbs().edges[edgeClass.edge].sharp);
+}
+
+std::vector<double> neighbourAngles(RankExchange& exchange, const DistributedMesh& mesh,
+  const ClassifiedBoundary& classified, const Classification& classification)
+{
+  const DistributedBoundary& boundary = classified.boundary;
+  const bool triangles = boundary.kind == BoundaryKind::Triangles;
+  const auto meetings = findMeetings(exchange, mesh, classified);
+  const auto isSmoothAt = [&](Index place)
+  {
+    return triangles ? isSmooth(classified.classes.ofEdges[place], classified.projector.model())
+                     : classification.entities[place].dimension != 0;
+  };
+  std::vector<double> result(boundary.facets.size(), 0.0);
+  for (std::size_t f = 0; f < result.size(); ++f)
+  {
+    if (classified.classes.facets[f].onCAD)
+    {
+      const auto& sides = triangles ? boundary.facetEdges[f] : boundary.facets[f].vertices;
+      for (int k = 0; k < boundary.facetCorners(); ++k)
+      {
+        if (isSmoothAt(sides[k]))
+        {
+          result[f] = std::max(result[f], angleAt(meetings[sides[k]]));
+        }
+      }
+    }
+  }
+  return result;
+}
+
+} // namespace cadrefine

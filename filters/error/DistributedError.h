@@ -1,0 +1,54 @@
+// Geometric error of a mesh in pieces.
+#pragma once
+
+#include "classification/BoundaryCache.h"
+#include "classification/DistributedBoundary.h"
+#include "comm/LoadBalancedMap.h"
+#include "mesh/DistributedMesh.h"
+
+#include <cadrefine/classification/Classification.h>
+
+#include <vector>
+
+namespace cadrefine
+{
+
+/// How far facets are from the CAD: the largest of each.
+struct Deviation
+{
+  double distance = 0; ///< Found from the facets to the CAD.
+  double chord = 0;    ///< From the middle of an edge of the facets to the CAD.
+  double angle = 0;    ///< Between neighbouring facets, in degrees (see neighbourAngles).
+
+  void add(const Deviation& other);
+};
+
+struct CellError
+{
+  double measure = 0; ///< Area or volume between the cell's CAD facets and the CAD.
+  Deviation largest;
+};
+
+struct MeshError
+{
+  std::vector<CellError> ofCells; ///< Of the mesh's own dimension.
+  int dimension = 0;              ///< Of what the error measures: 2 area, 3 volume.
+  double global = 0;              ///< Measure of all facets of all ranks.
+  Deviation largest;              ///< Of all ranks.
+  WorkBalance balance; ///< Of the boundary edges over the ranks; of second order of the facets.
+};
+
+/// Error of every facet on the CAD, added up for its cell (see geometricErrors; of a mesh of second
+/// order curvedError, and the classification has entries for mid nodes after those of vertices).
+/// `depth` 0: automatic, the extrapolation (see extrapolatedMeasure) of a small depth. The global
+/// sum is bit for bit the same for every partition. Fills classified.midpoints. `cache` is that of
+/// the boundary before; with `remember` it becomes that of this one (not of second order).
+///
+/// Collective. Work: the projections of geometricErrors, or of curvedError, shared out evenly over
+/// ranks and threads. Messages: those of mapBalanced for each level of depth, and a few reductions
+/// of up to four numbers.
+MeshError measureError(RankExchange& exchange, const DistributedMesh& mesh,
+  ClassifiedBoundary& classified, const Classification& classification, int depth,
+  BoundaryCache& cache, bool remember);
+
+} // namespace cadrefine

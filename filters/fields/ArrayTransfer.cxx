@@ -1,0 +1,310 @@
+#include "fields/ArrayTransfer.h"
+
+#include <cadrefine/base/LargeMemory.h>
+
+#include <vtkAbstractArray.h>
+#include <vtkArrayDispatch.h>
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkDataArrayRange.h>
+#include <vtkFieldData.h>
+#include <vtkIdList.h>
+#include <vtkIdTypeArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPointSet.h>
+
+#include <algorithm>
+#include <type_traits>
+#include <utility>
+
+namespace cadrefine
+{
+namespace
+{
+
+std::string nameOfIds(vtkDataSetAttributes* attributes, const char* otherwise)
+{
+  vtkDataArray* ids = attributes->GetGlobalIds();
+  return ids && ids->GetName() ? ids->GetName() : otherwise;
+}
+
+template<class... Lists>
+vtkNew<vtkIdTypeArray> makeIds(
+  const std::string& name, const ParallelFor& parallelFor, const Lists&... lists)
+{
+  vtkNew<vtkIdTypeArray> array;
+  array->SetName(name.c_str());
+  const std::size_t count = (lists.size() + ...);
+  array->SetNumberOfValues(static_cast<vtkIdType>(count));
+  preferHugePages(array->GetPointer(0), array->GetNumberOfValues() * sizeof(vtkIdType));
+  vtkIdType* next = array->GetPointer(0);
+  const auto append = [&](const std::vector<GlobalId>& list)
+  {
+    forEachIndex(parallelFor, list.size(), fineGrain, [&](std::size_t i) { next[i] = list[i]; });
+    next += list.size();
+  };
+  (append(lists), ...);
+  return array;
+}
+
+/// Arrays that are carried over; ids and ghosts are made anew or not at all.
+bool isCarried(vtkDataSetAttributes* attributes, vtkAbstractArray* array)
+{
+  return array != attributes->GetGlobalIds() &&
+         (!array->GetName() ||
+           std::string(array->GetName()) != vtkDataSetAttributes::GhostArrayName());
+}
+
+/// Adds make(array) for each array that is carried over, as scalars, vectors, ... if it was these.
+template<class Make>
+void carryOver(vtkDataSetAttributes* source, vtkDataSetAttributes* target, const Make& make)
+{
+  for (int a = 0; a < source->GetNumberOfArrays(); ++a)
+  {
+    vtkAbstractArray* array = source->GetAbstractArray(a);
+    if (isCarried(source, array))
+    {
+      addAs(source->IsArrayAnAttribute(a), make(array), target);
+    }
+  }
+}
+
+/// Calls work(from, to) with the arrays in their own type, if it is one of VTK's usual ones. `to`
+/// was made like `from`.
+template<class Work>
+bool inOwnType(vtkAbstractArray* from, vtkAbstractArray* to, const Work& work)
+{
+  vtkDataArray* source = vtkDataArray::SafeDownCast(from);
+  vtkDataArray* target = vtkDataArray::SafeDownCast(to);
+  return source && target &&
+         vtkArrayDispatch::Dispatch2SameValueType::Execute(source, target, work);
+}
+
+/// The tuples of `array` at these places.
+template<class Place>
+vtkSmartPointer<vtkAbstractArray> gather(vtkAbstractArray* array, const std::vector<Place>& places)
+{
+  const std::size_t count = places.size();
+  auto result = emptyLike(array, static_cast<vtkIdType>(count));
+  const auto copy = [&](auto* from, auto* to)
+  {
+    const auto source = vtk::DataArrayValueRange(from);
+    auto target = vtk::DataArrayValueRange(to);
+    const vtkIdType components = from->GetNumberOfComponents();
+    auto next = target.begin();
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      next = std::copy_n(source.begin() + places[i] * components, components, next);
+    }
+  };
+  if (!inOwnType(array, result, copy))
+  {
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      result->SetTuple(static_cast<vtkIdType>(i), places[i], array);
+    }
+  }
+  return result;
+}
+
+/// The places in these lists, one after the other; nothing where they are those of all `count`
+/// tuples in their order.
+template<class... Lists>
+Places placesIn(vtkIdType count, const Lists&... lists)
+{
+  vtkIdType next = 0;
+  const auto follow = [&](const std::vector<vtkIdType>& list) {
+    return std::all_of(list.begin(), list.end(), [&](vtkIdType place) { return place == next++; });
+  };
+  if ((follow(lists) && ...) && next == count)
+  {
+    return {};
+  }
+  std::vector<vtkIdType> places;
+  places.reserve((lists.size() + ...));
+  (places.insert(places.end(), lists.begin(), lists.end()), ...);
+  return places;
+}
+
+void selectFrom(vtkDataSetAttributes* source, const Places& places, vtkDataSetAttributes* target)
+{
+  carryOver(source, target,
+    [&](vtkAbstractArray* array)
+    { return places ? gather(array, *places) : vtkSmartPointer<vtkAbstractArray>(array); });
+}
+
+template<class Value>
+Value middle(Value a, Value b)
+{
+  if constexpr (std::is_floating_point_v<Value>)
+  {
+    return static_cast<Value>(0.5 * a + 0.5 * b);
+  }
+  else
+  {
+    return a;
+  }
+}
+
+/// The tuples of the vertices that were there, then those of the middles of edges.
+vtkSmartPointer<vtkAbstractArray> interpolate(
+  vtkAbstractArray* array, const std::vector<std::array<Index, 2>>& parentEdges)
+{
+  const vtkIdType oldCount = array->GetNumberOfTuples();
+  const auto newCount = static_cast<vtkIdType>(parentEdges.size());
+  auto result = emptyLike(array, oldCount + newCount);
+  result->InsertTuples(0, oldCount, 0, array);
+  const auto fill = [&](auto* from, auto* to)
+  {
+    const auto source = vtk::DataArrayValueRange(from);
+    auto target = vtk::DataArrayValueRange(to);
+    const vtkIdType components = from->GetNumberOfComponents();
+    auto next = target.begin() + oldCount * components;
+    for (const auto& ends : parentEdges)
+    {
+      const auto a = source.begin() + ends[0] * components;
+      const auto b = source.begin() + ends[1] * components;
+      using Value = vtk::GetAPIType<std::remove_pointer_t<decltype(from)>>;
+      next = std::transform(a, a + components, b, next, middle<Value>);
+    }
+  };
+  if (!inOwnType(array, result, fill))
+  {
+    for (vtkIdType n = 0; n < newCount; ++n)
+    {
+      result->SetTuple(oldCount + n, parentEdges[n][0], array);
+    }
+  }
+  return result;
+}
+
+/// The cell that each child is a part of, cells of dimension 0 first.
+std::vector<Index> parentCells(const ChildRanges& firstChildren)
+{
+  std::size_t children = 0;
+  for (const auto& firsts : firstChildren)
+  {
+    children += firsts.back();
+  }
+  std::vector<Index> parents;
+  resizeLong(parents, children);
+  auto next = parents.begin();
+  Index cell = 0;
+  for (const auto& firsts : firstChildren)
+  {
+    for (std::size_t c = 0; c + 1 < firsts.size(); ++c)
+    {
+      next = std::fill_n(next, firsts[c + 1] - firsts[c], cell);
+      ++cell;
+    }
+  }
+  return parents;
+}
+
+MeshArrays emptyArrays(const std::string& vertexIdName, const std::string& cellIdName)
+{
+  return { vtkSmartPointer<vtkPointData>::New(), vtkSmartPointer<vtkCellData>::New(),
+    vtkSmartPointer<vtkFieldData>::New(), vertexIdName, cellIdName };
+}
+
+} // namespace
+
+vtkSmartPointer<vtkAbstractArray> emptyLike(vtkAbstractArray* array, vtkIdType count)
+{
+  auto result = vtkSmartPointer<vtkAbstractArray>::Take(array->NewInstance());
+  result->SetName(array->GetName());
+  result->SetNumberOfComponents(array->GetNumberOfComponents());
+  result->CopyComponentNames(array);
+  result->SetNumberOfTuples(count);
+  if (vtkDataArray::SafeDownCast(result))
+  {
+    preferHugePages(result->GetVoidPointer(0),
+      static_cast<std::size_t>(result->GetNumberOfValues()) * result->GetDataTypeSize());
+  }
+  return result;
+}
+
+void addAs(int attribute, vtkAbstractArray* array, vtkDataSetAttributes* target)
+{
+  const int added = target->AddArray(array);
+  if (attribute >= 0)
+  {
+    target->SetActiveAttribute(added, attribute);
+  }
+}
+
+MeshArrays arraysOf(vtkPointSet* input)
+{
+  MeshArrays arrays = emptyArrays(nameOfIds(input->GetPointData(), "GlobalPointIds"),
+    nameOfIds(input->GetCellData(), "GlobalCellIds"));
+  selectFrom(input->GetPointData(), {}, arrays.ofVertices);
+  if (input->GetNumberOfCells() > 0)
+  {
+    selectFrom(input->GetCellData(), {}, arrays.ofCells);
+  }
+  arrays.ofMesh->PassData(input->GetFieldData());
+  return arrays;
+}
+
+ArraySelection selectionOf(vtkPointSet* input, const ConvertedMesh& mesh)
+{
+  ArraySelection selection;
+  selection.points = placesIn(input->GetNumberOfPoints(), mesh.pointOf);
+  if (input->GetNumberOfCells() > 0)
+  {
+    const auto& cells = mesh.cellOf;
+    selection.cells = placesIn(input->GetNumberOfCells(), cells[0], cells[1], cells[2], cells[3]);
+  }
+  return selection;
+}
+
+MeshArrays select(const MeshArrays& arrays, const ArraySelection& selection)
+{
+  MeshArrays result = emptyArrays(arrays.vertexIdName, arrays.cellIdName);
+  selectFrom(arrays.ofVertices, selection.points, result.ofVertices);
+  selectFrom(arrays.ofCells, selection.cells, result.ofCells);
+  result.ofMesh = arrays.ofMesh;
+  return result;
+}
+
+MeshArrays refineArrays(const MeshArrays& coarse,
+  const std::vector<std::array<Index, 2>>& parentEdges, const ChildRanges& firstChildren)
+{
+  MeshArrays fine = withMidNodes(coarse, parentEdges);
+  fine.ofCells = vtkSmartPointer<vtkCellData>::New();
+  const auto parents =
+    coarse.ofCells->GetNumberOfArrays() > 0 ? parentCells(firstChildren) : std::vector<Index>{};
+  carryOver(
+    coarse.ofCells, fine.ofCells, [&](vtkAbstractArray* array) { return gather(array, parents); });
+  return fine;
+}
+
+MeshArrays withMidNodes(
+  const MeshArrays& arrays, const std::vector<std::array<Index, 2>>& parentEdges)
+{
+  MeshArrays result = emptyArrays(arrays.vertexIdName, arrays.cellIdName);
+  carryOver(arrays.ofVertices, result.ofVertices,
+    [&](vtkAbstractArray* array) { return interpolate(array, parentEdges); });
+  result.ofCells = arrays.ofCells;
+  result.ofMesh = arrays.ofMesh;
+  return result;
+}
+
+void setArrays(const MeshArrays& arrays, const ConvertedMesh& mesh, vtkPointSet* output,
+  const ParallelFor& parallelFor)
+{
+  const auto pass = [](vtkAbstractArray* array) { return array; };
+  carryOver(arrays.ofVertices, output->GetPointData(), pass);
+  carryOver(arrays.ofCells, output->GetCellData(), pass);
+  output->GetFieldData()->PassData(arrays.ofMesh);
+  const std::vector<GlobalId> ofNodes =
+    mesh.midNodes ? mesh.midNodes->ids : std::vector<GlobalId>();
+  output->GetPointData()->SetGlobalIds(
+    makeIds(arrays.vertexIdName, parallelFor, mesh.mesh.ids, ofNodes));
+  const auto& cells = mesh.cellIds;
+  output->GetCellData()->SetGlobalIds(
+    makeIds(arrays.cellIdName, parallelFor, cells[0], cells[1], cells[2], cells[3]));
+}
+
+} // namespace cadrefine

@@ -1,0 +1,75 @@
+// Carrying a mesh's own arrays over to the mesh made from it.
+#pragma once
+
+#include "mesh/PointSetConversion.h"
+
+#include <cadrefine/base/ParallelFor.h>
+#include <cadrefine/refinement/Split.h>
+
+#include <vtkCellData.h>
+#include <vtkFieldData.h>
+#include <vtkPointData.h>
+#include <vtkSmartPointer.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+class vtkAbstractArray;
+class vtkDataSetAttributes;
+class vtkPointSet;
+
+namespace cadrefine
+{
+
+/// The arrays of a mesh: a tuple for each vertex, or for each cell in the order of makePointSet.
+/// Ghost arrays and ids are left out; the names of the ids are kept.
+struct MeshArrays
+{
+  vtkSmartPointer<vtkPointData> ofVertices;
+  vtkSmartPointer<vtkCellData> ofCells;
+  vtkSmartPointer<vtkFieldData> ofMesh;
+  std::string vertexIdName;
+  std::string cellIdName;
+};
+
+/// An array of the same type, name and components, with so many tuples of any value.
+vtkSmartPointer<vtkAbstractArray> emptyLike(vtkAbstractArray* array, vtkIdType count);
+
+/// Adds the array as this attribute (VTK's scalars, vectors, ...; -1: as none).
+void addAs(int attribute, vtkAbstractArray* array, vtkDataSetAttributes* target);
+
+/// The arrays of a data set, shared with it; cell arrays where it has cells.
+MeshArrays arraysOf(vtkPointSet* input);
+
+/// Tuples to take, in this order; none: all of them as they are.
+using Places = std::optional<std::vector<vtkIdType>>;
+
+struct ArraySelection
+{
+  Places points;
+  Places cells;
+};
+
+/// Where the vertices and cells of `mesh`, which was converted from `input`, have their tuples.
+ArraySelection selectionOf(vtkPointSet* input, const ConvertedMesh& mesh);
+
+/// Arrays of which all is taken are shared.
+MeshArrays select(const MeshArrays& arrays, const ArraySelection& selection);
+
+/// The arrays of the mesh that `coarse` was split into: cell arrays are inherited, point arrays
+/// interpolated to the middle of the edge. Arrays of whole numbers or other types keep a value that
+/// both ends have, and otherwise take that of the end with the smaller global id (tags must not be
+/// averaged). Work: linear in the values made, in their own type.
+MeshArrays refineArrays(const MeshArrays& coarse,
+  const std::vector<std::array<Index, 2>>& parentEdges, const ChildRanges& firstChildren);
+
+/// The same with point arrays for mid nodes after the vertices, interpolated likewise.
+MeshArrays withMidNodes(
+  const MeshArrays& arrays, const std::vector<std::array<Index, 2>>& parentEdges);
+
+/// Adds the arrays, and the global ids of `mesh`, to `output`, which was made from it.
+void setArrays(const MeshArrays& arrays, const ConvertedMesh& mesh, vtkPointSet* output,
+  const ParallelFor& parallelFor = serialFor);
+
+} // namespace cadrefine

@@ -1,0 +1,159 @@
+#include "fields/CADArrays.h"
+
+#include <cadrefine/base/Error.h>
+
+#include <vtkDoubleArray.h>
+#include <vtkIntArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPointSet.h>
+#include <vtkSignedCharArray.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <string>
+
+namespace cadrefine
+{
+namespace
+{
+
+vtkDataArray* requireArray(vtkPointSet* input, const char* name, int components)
+{
+  vtkDataArray* array = input->GetPointData()->GetArray(name);
+  if (!array && input->GetPointData()->HasArray(name))
+  {
+    throw Error(std::string("the point array ") + name + " is not one of numbers");
+  }
+  if (!array && input->GetNumberOfPoints() > 0)
+  {
+    throw Error(std::string("the mesh has no point array ") + name +
+                "; apply the filter Project Onto CAD first");
+  }
+  if (array && array->GetNumberOfComponents() != components)
+  {
+    throw Error(std::string("the point array ") + name + " has " +
+                std::to_string(array->GetNumberOfComponents()) + " components instead of " +
+                std::to_string(components));
+  }
+  return array;
+}
+
+std::string atPoint(vtkIdType point)
+{
+  return " (point " + std::to_string(point) + ")";
+}
+
+/// The arrays may be of any type: what is no whole number is refused like what is out of range.
+EntityId readEntity(double dimension, double index, const CADModel& model, vtkIdType point)
+{
+  if (dimension == -1)
+  {
+    return {};
+  }
+  const bool known = (dimension == 0 || dimension == 1 || dimension == 2) &&
+                     std::isgreaterequal(index, 0.0) &&
+                     index < model.count(static_cast<int>(dimension)) && std::floor(index) == index;
+  if (!known)
+  {
+    std::ostringstream entity;
+    entity << "(" << dimension << ", " << index << ")";
+    throw Error("the point arrays CADDimension and CADEntity name an entity " + entity.str() +
+                " that the CAD model does not have; were they made with another CAD file?" +
+                atPoint(point));
+  }
+  return { static_cast<std::int8_t>(dimension), static_cast<std::int32_t>(index) };
+}
+
+void checkPlace(
+  EntityId entity, const std::array<double, 2>& parameters, double distance, vtkIdType point)
+{
+  if (!std::isgreaterequal(distance, 0.0))
+  {
+    throw Error(
+      "the point array CADDistance has a value that is negative or no number" + atPoint(point));
+  }
+  const bool finite = std::isfinite(parameters[0]) && std::isfinite(parameters[1]);
+  if (entity.dimension > 0 && !finite)
+  {
+    throw Error("the point array CADParameters has a value that is not finite for a point on the "
+                "CAD" +
+                atPoint(point));
+  }
+}
+
+template<class Array>
+vtkNew<Array> makeArray(const char* name, int components, std::size_t count)
+{
+  vtkNew<Array> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  array->SetNumberOfTuples(static_cast<vtkIdType>(count));
+  return array;
+}
+
+} // namespace
+
+bool hasClassification(vtkPointSet* input)
+{
+  return input->GetPointData()->HasArray(arrays::dimension) != 0;
+}
+
+Classification readClassification(
+  vtkPointSet* input, const std::vector<vtkIdType>& pointOf, const CADModel& model)
+{
+  vtkDataArray* dimensions = requireArray(input, arrays::dimension, 1);
+  vtkDataArray* entities = requireArray(input, arrays::entity, 1);
+  vtkDataArray* parameters = requireArray(input, arrays::parameters, 2);
+  vtkDataArray* distances = requireArray(input, arrays::distance, 1);
+  Classification result(pointOf.size());
+  for (std::size_t v = 0; v < pointOf.size(); ++v)
+  {
+    const vtkIdType point = pointOf[v];
+    result.entities[v] =
+      readEntity(dimensions->GetTuple1(point), entities->GetTuple1(point), model, point);
+    parameters->GetTuple(point, result.parameters[v].data());
+    if (result.entities[v])
+    {
+      result.distances[v] = distances->GetTuple1(point);
+      checkPlace(result.entities[v], result.parameters[v], result.distances[v], point);
+    }
+  }
+  return result;
+}
+
+void writeClassification(vtkPointSet* output, const Classification& classification)
+{
+  const std::size_t count = classification.entities.size();
+  auto dimensions = makeArray<vtkSignedCharArray>(arrays::dimension, 1, count);
+  auto entities = makeArray<vtkIntArray>(arrays::entity, 1, count);
+  auto parameters = makeArray<vtkDoubleArray>(arrays::parameters, 2, count);
+  auto distances = makeArray<vtkDoubleArray>(arrays::distance, 1, count);
+  for (std::size_t v = 0; v < count; ++v)
+  {
+    const auto point = static_cast<vtkIdType>(v);
+    dimensions->SetValue(point, classification.entities[v].dimension);
+    entities->SetValue(point, classification.entities[v].index);
+    parameters->SetTypedTuple(point, classification.parameters[v].data());
+    distances->SetValue(point, classification.distances[v]);
+  }
+  vtkPointData* pointData = output->GetPointData();
+  pointData->AddArray(dimensions);
+  pointData->AddArray(entities);
+  pointData->AddArray(parameters);
+  pointData->AddArray(distances);
+}
+
+void writeConflicts(vtkPointData* output, const std::vector<unsigned char>& conflicts)
+{
+  auto array = makeArray<vtkUnsignedCharArray>(arrays::conflict, 1, conflicts.size());
+  for (std::size_t v = 0; v < conflicts.size(); ++v)
+  {
+    array->SetValue(static_cast<vtkIdType>(v), conflicts[v]);
+  }
+  output->AddArray(array);
+}
+
+} // namespace cadrefine

@@ -1,0 +1,49 @@
+// The arrays by which a mesh remembers where it lies on the CAD.
+#pragma once
+
+#include <cadrefine/cad/model/CADModel.h>
+#include <cadrefine/classification/Classification.h>
+
+#include <vector>
+
+#include <vtkType.h>
+
+class vtkPointData;
+class vtkPointSet;
+
+namespace cadrefine
+{
+
+namespace arrays
+{
+constexpr const char* dimension = "CADDimension";
+constexpr const char* entity = "CADEntity";
+constexpr const char* parameters = "CADParameters";
+constexpr const char* distance = "CADDistance";
+constexpr const char* conflict = "CADConflict";
+constexpr const char* error = "GeometricError";
+constexpr const char* errorDistance = "GeometricDistance";
+constexpr const char* chordError = "ChordError";
+constexpr const char* normalAngle = "NormalAngle";
+constexpr const char* validity = "CellValidity";
+constexpr const char* quality = "CellQuality";
+} // namespace arrays
+
+/// Reads the arrays of a projected mesh for the vertices that come from its points `pointOf`.
+/// The distance of a vertex without an entity is 0. Throws Error where an array is missing, is not
+/// one of numbers, has the wrong number of components, or names an entity that `model` does not
+/// have, and for a vertex with one (point named) where a parameter is not finite or the distance is
+/// negative or no number.
+Classification readClassification(
+  vtkPointSet* input, const std::vector<vtkIdType>& pointOf, const CADModel& model);
+
+/// Whether the data set has the arrays.
+bool hasClassification(vtkPointSet* input);
+
+/// Adds or replaces the point arrays; one entry for each point of `output`.
+void writeClassification(vtkPointSet* output, const Classification& classification);
+
+/// Adds or replaces the point array CADConflict; one entry for each point.
+void writeConflicts(vtkPointData* output, const std::vector<unsigned char>& conflicts);
+
+} // namespace cadrefine

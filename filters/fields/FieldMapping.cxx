@@ -1,0 +1,76 @@
+#include "fields/FieldMapping.h"
+
+#include <vtkCellData.h>
+#include <vtkFieldData.h>
+#include <vtkPointData.h>
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace cadrefine
+{
+namespace
+{
+
+/// A stage of the way.
+struct Walk
+{
+  RankExchange& exchange;
+  const MeshArrays& arrays;
+
+  MeshArrays operator()(const ArraySelection& selection) const { return select(arrays, selection); }
+  MeshArrays operator()(const Delivery& delivery) const
+  {
+    return deliver(exchange, arrays, delivery);
+  }
+  MeshArrays operator()(const RefinementTrace& trace) const
+  {
+    return refineArrays(arrays, trace.parentEdges, trace.firstChildren);
+  }
+  MeshArrays operator()(const std::vector<std::array<Index, 2>>& edges) const
+  {
+    return withMidNodes(arrays, edges);
+  }
+};
+
+} // namespace
+
+void FieldMapping::convert(ArraySelection selection)
+{
+  if (selection.points || selection.cells)
+  {
+    stages_.emplace_back(std::move(selection));
+  }
+}
+
+void FieldMapping::redistribute(Delivery delivery)
+{
+  stages_.emplace_back(std::move(delivery));
+}
+
+void FieldMapping::refine(RefinementTrace trace)
+{
+  stages_.emplace_back(std::move(trace));
+}
+
+void FieldMapping::addMidNodes(std::vector<std::array<Index, 2>> edges)
+{
+  stages_.emplace_back(std::move(edges));
+}
+
+void FieldMapping::append(FieldMapping next)
+{
+  std::move(next.stages_.begin(), next.stages_.end(), std::back_inserter(stages_));
+}
+
+MeshArrays FieldMapping::follow(RankExchange& exchange, MeshArrays arrays, std::size_t done) const
+{
+  for (; done < stages_.size(); ++done)
+  {
+    arrays = std::visit(Walk{ exchange, arrays }, stages_[done]);
+  }
+  return arrays;
+}
+
+} // namespace cadrefine

@@ -1,0 +1,28 @@
+// The facets by which a mesh in pieces meets its boundary.
+#pragma once
+
+#include "mesh/DistributedMesh.h"
+
+#include <cadrefine/mesh/Facets.h>
+
+#include <vector>
+
+namespace cadrefine
+{
+
+/// The facets of this rank's cells that lie on the boundary of the whole mesh (of tetrahedra, or a
+/// planar one of triangles):
+///   - outer ones, sides that one cell alone meets, over all ranks;
+///   - interior ones, between two cells, where a cell of one dimension less is listed in the mesh:
+///     two materials, a baffle. They are with the cell of the smaller global id, and have the order
+///     of the listed cell (of several, the one whose ids come first), whichever rank that is on.
+///
+/// With `among`, a flag for each vertex that may be on the boundary, others are not looked at (see
+/// findOuterFacets). Collective. Work: that of findOuterFacets; where there are listed cells, a
+/// look at each side. One reduction and one message to and from each neighbour with the sides that
+/// it may have too; where there are listed cells, two more, of N ids for each listed cell all of
+/// whose N vertices the neighbour holds, and of one number for each side in common.
+std::vector<Facet> findBoundaryFacets(
+  RankExchange& exchange, const DistributedMesh& mesh, const std::vector<unsigned char>& among);
+
+} // namespace cadrefine

@@ -1,0 +1,309 @@
+#include "mesh/CellReading.h"
+
+#include <cadrefine/base/Error.h>
+#include <cadrefine/base/LargeMemory.h>
+
+#include <vtkCellArray.h>
+#include <vtkCellType.h>
+#include <vtkDataSetAttributes.h>
+#include <vtkGenericCell.h>
+#include <vtkIdList.h>
+#include <vtkNew.h>
+#include <vtkPointSet.h>
+#include <vtkSmartPointer.h>
+#include <vtkTypeInt64Array.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace cadrefine
+{
+namespace
+{
+
+/// A cell type that CADRefine takes, or with a dimension of -1 one that it does not.
+struct CellKind
+{
+  int dimension = -1;
+  bool secondOrder = false;
+};
+
+CellKind kindOf(int cellType)
+{
+  switch (cellType)
+  {
+    case VTK_VERTEX:
+      return { 0, false };
+    case VTK_LINE:
+      return { 1, false };
+    case VTK_TRIANGLE:
+      return { 2, false };
+    case VTK_TETRA:
+      return { 3, false };
+    case VTK_QUADRATIC_EDGE:
+      return { 1, true };
+    case VTK_QUADRATIC_TRIANGLE:
+      return { 2, true };
+    case VTK_QUADRATIC_TETRA:
+      return { 3, true };
+    default:
+      return {};
+  }
+}
+
+/// A readable name such as "hexahedron" for a cell type.
+std::string nameOf(int cellType)
+{
+  const auto cell = vtkSmartPointer<vtkCell>::Take(vtkGenericCell::InstantiateCell(cellType));
+  if (!cell)
+  {
+    return "cell of type " + std::to_string(cellType);
+  }
+  std::string name = cell->GetClassName();
+  name = name.rfind("vtk", 0) == 0 ? name.substr(3) : name;
+  std::transform(name.begin(), name.end(), name.begin(), ::tolower);
+  return name;
+}
+
+/// Whether a cell is marked to be left out: as another rank's, blanked, or replaced by finer ones.
+bool isGhost(vtkUnsignedCharArray* ghosts, vtkIdType cell)
+{
+  constexpr unsigned char marks = vtkDataSetAttributes::DUPLICATECELL |
+                                  vtkDataSetAttributes::HIDDENCELL |
+                                  vtkDataSetAttributes::REFINEDCELL;
+  return ghosts && (ghosts->GetValue(cell) & marks);
+}
+
+/// Corners and mid nodes.
+vtkIdType pointsOf(const CellKind& kind)
+{
+  constexpr vtkIdType firstOrder[4] = { 1, 2, 3, 4 };
+  constexpr vtkIdType secondOrder[4] = { 0, 3, 6, 10 };
+  return kind.secondOrder ? secondOrder[kind.dimension] : firstOrder[kind.dimension];
+}
+
+/// Whether the cell names as many points as it must, and such as there are.
+template<class Point>
+void checkPoints(
+  const Point* points, vtkIdType count, vtkIdType expected, vtkIdType cell, vtkIdType pointCount)
+{
+  if (count != expected)
+  {
+    throw Error("cell " + std::to_string(cell) + " of the mesh names " + std::to_string(count) +
+                " points instead of " + std::to_string(expected));
+  }
+  for (vtkIdType k = 0; k < count; ++k)
+  {
+    if (points[k] < 0 || points[k] >= pointCount)
+    {
+      throw Error("cell " + std::to_string(cell) + " of the mesh names the point " +
+                  std::to_string(points[k]) + ", but there are " + std::to_string(pointCount) +
+                  " points");
+    }
+  }
+}
+
+void checkCell(int type, const CellKind& kind, CellOrder order, vtkIdType cell)
+{
+  const auto holds = [&]
+  { return "the mesh holds a " + nameOf(type) + " (cell " + std::to_string(cell) + "); "; };
+  if (kind.dimension < 0)
+  {
+    throw Error(holds() +
+                "CADRefine takes triangles and tetrahedra (the filters Tetrahedralize and "
+                "Triangulate make them)");
+  }
+  if (kind.secondOrder && order == CellOrder::First)
+  {
+    throw Error(holds() + "this filter takes cells of first order: refine the mesh of first order, "
+                          "and choose Quadratic Cells in the last step");
+  }
+}
+
+/// The cells of a data set whose cells can be read without a copy, and on threads; else nullptr.
+vtkCellArray* longCells(vtkPointSet* input)
+{
+  auto* grid = vtkUnstructuredGrid::SafeDownCast(input);
+  const bool isLong = grid && grid->GetNumberOfCells() > 0 && grid->GetCells()->IsStorage64Bit();
+  return isLong ? grid->GetCells() : nullptr;
+}
+
+/// Calls use(cell, type, points) for the cells in [begin, end), `points` being a pointer and a
+/// count.
+template<class Use>
+void forEachCell(vtkPointSet* input, vtkIdType begin, vtkIdType end, const Use& use)
+{
+  if (vtkCellArray* cells = longCells(input))
+  {
+    const auto* offsets = cells->GetOffsetsArray64()->GetPointer(0);
+    const auto* corners = cells->GetConnectivityArray64()->GetPointer(0);
+    const unsigned char* types =
+      vtkUnstructuredGrid::SafeDownCast(input)->GetCellTypesArray()->GetPointer(0);
+    for (vtkIdType c = begin; c < end; ++c)
+    {
+      use(c, types[c], corners + offsets[c], offsets[c + 1] - offsets[c]);
+    }
+    return;
+  }
+  vtkNew<vtkIdList> buffer;
+  const vtkIdType* points = nullptr;
+  vtkIdType pointCount = 0;
+  for (vtkIdType c = begin; c < end; ++c)
+  {
+    input->GetCellPoints(c, pointCount, points, buffer);
+    use(c, input->GetCellType(c), points, pointCount);
+  }
+}
+
+/// Numbers by dimension: of cells, and of those of second order among them.
+struct CellCounts
+{
+  std::array<std::size_t, 4> all{};
+  std::array<std::size_t, 4> secondOrder{};
+};
+
+/// Reads in parts, twice: what there is, then all of it to its place.
+class CellReader
+{
+public:
+  CellReader(vtkPointSet* input, CellOrder order, ConvertedMesh& result, const ParallelFor& threads)
+    : input_(input), order_(order), mesh_(result.mesh), cellOf_(result.cellOf),
+      parallelFor_(longCells(input) ? threads : serialFor)
+  {
+  }
+
+  NodesOfCells read()
+  {
+    constexpr std::size_t mostParts = 16;
+    const auto total = static_cast<std::size_t>(input_->GetNumberOfCells());
+    const std::size_t parts = std::clamp(total / fineGrain, std::size_t{ 1 }, mostParts);
+    std::array<CellCounts, mostParts> counts;
+    const auto forPart = [&](std::size_t part, const auto& use)
+    { forEachTaken(part * total / parts, (part + 1) * total / parts, use); };
+    forEachIndex(parallelFor_, parts, 1,
+      [&](std::size_t part)
+      {
+        CellCounts& mine = counts[part];
+        forPart(part,
+          [&](vtkIdType, const CellKind& kind, const auto*)
+          {
+            ++mine.all[kind.dimension];
+            mine.secondOrder[kind.dimension] += kind.secondOrder;
+          });
+      });
+    makeRoom(startsOf(counts.begin(), counts.end()));
+    forEachIndex(parallelFor_, parts, 1,
+      [&](std::size_t part)
+      {
+        CellCounts& next = counts[part];
+        forPart(part, [&](vtkIdType cell, const CellKind& kind, const auto* points)
+          { write(cell, kind, points, next); });
+      });
+    return std::move(nodes_);
+  }
+
+private:
+  /// Calls use(cell, kind, points) for the cells that are taken, each point of a poly vertex.
+  template<class Use>
+  void forEachTaken(std::size_t begin, std::size_t end, const Use& use) const
+  {
+    vtkUnsignedCharArray* ghosts = input_->GetCellGhostArray();
+    const vtkIdType pointCount = input_->GetNumberOfPoints();
+    forEachCell(input_, static_cast<vtkIdType>(begin), static_cast<vtkIdType>(end),
+      [&](vtkIdType cell, int type, const auto* points, vtkIdType count)
+      {
+        if (isGhost(ghosts, cell) || type == VTK_EMPTY_CELL)
+        {
+          return;
+        }
+        const bool isPolyVertex = type == VTK_POLY_VERTEX;
+        const bool isSegment = type == VTK_POLY_LINE && count == 2;
+        const CellKind kind = kindOf(isPolyVertex ? VTK_VERTEX : isSegment ? VTK_LINE : type);
+        checkCell(type, kind, order_, cell);
+        checkPoints(points, count, isPolyVertex ? count : pointsOf(kind), cell, pointCount);
+        for (vtkIdType part = 0; part < (isPolyVertex ? count : 1); ++part)
+        {
+          use(cell, kind, points + part);
+        }
+      });
+  }
+
+  /// Makes of the numbers of each part those of all parts before it. Returns those of all parts.
+  template<class Iterator>
+  static CellCounts startsOf(Iterator part, Iterator end)
+  {
+    CellCounts sum;
+    for (; part != end; ++part)
+    {
+      for (int d = 0; d < 4; ++d)
+      {
+        sum.all[d] += std::exchange(part->all[d], sum.all[d]);
+        sum.secondOrder[d] += std::exchange(part->secondOrder[d], sum.secondOrder[d]);
+      }
+    }
+    return sum;
+  }
+
+  void makeRoom(const CellCounts& counts)
+  {
+    for (int d = 0; d < 4; ++d)
+    {
+      resizeLong(cellOf_[d], counts.all[d], parallelFor_);
+      resizeLong(nodes_[d], nodesOf(d) * counts.secondOrder[d], parallelFor_);
+    }
+    resizeLong(mesh_.vertices, counts.all[0], parallelFor_);
+    resizeLong(mesh_.segments, counts.all[1], parallelFor_);
+    resizeLong(mesh_.triangles, counts.all[2], parallelFor_);
+    resizeLong(mesh_.tetrahedra, counts.all[3], parallelFor_);
+  }
+
+  template<class Point, std::size_t Corners>
+  static void writeCorners(const Point* points, std::array<Index, Corners>& cell)
+  {
+    std::transform(points, points + Corners, cell.begin(),
+      [](Point point) { return static_cast<Index>(point); });
+  }
+
+  template<class Point>
+  void write(vtkIdType number, const CellKind& kind, const Point* points, CellCounts& next)
+  {
+    const int d = kind.dimension;
+    if (kind.secondOrder)
+    {
+      writeNodes(d, points, nodes_[d].data() + nodesOf(d) * next.secondOrder[d]++);
+    }
+    const std::size_t place = next.all[d]++;
+    cellOf_[d][place] = number;
+    switch (d)
+    {
+      case 0:
+        return writeCorners(points, mesh_.vertices[place]);
+      case 1:
+        return writeCorners(points, mesh_.segments[place]);
+      case 2:
+        return writeCorners(points, mesh_.triangles[place]);
+      default:
+        return writeCorners(points, mesh_.tetrahedra[place]);
+    }
+  }
+
+  vtkPointSet* input_;
+  CellOrder order_;
+  SimplexMesh& mesh_;
+  std::array<std::vector<vtkIdType>, 4>& cellOf_;
+  NodesOfCells nodes_;
+  ParallelFor parallelFor_;
+};
+
+} // namespace
+
+NodesOfCells readCells(
+  vtkPointSet* input, CellOrder order, ConvertedMesh& result, const ParallelFor& parallelFor)
+{
+  return CellReader(input, order, result, parallelFor).read();
+}
+
+} // namespace cadrefine

@@ -1,0 +1,228 @@
+#include "mesh/DistributedMesh.h"
+
+#include "comm/Threads.h"
+#include "comm/VertexNumbering.h"
+#include "mesh/PieceCheck.h"
+
+#include <cadrefine/base/LargeMemory.h>
+#include <cadrefine/mesh/Facets.h>
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+namespace cadrefine
+{
+namespace
+{
+
+MeshBounds boundsOf(const std::vector<Point3>& points)
+{
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  MeshBounds bounds{ { infinity, infinity, infinity }, { -infinity, -infinity, -infinity } };
+  for (const Point3& point : points)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      bounds.low[k] = std::min(bounds.low[k], point[k]);
+      bounds.high[k] = std::max(bounds.high[k], point[k]);
+    }
+  }
+  return bounds;
+}
+
+/// The boxes round other ranks' pieces that meet the one round this rank's.
+std::vector<MeshBounds> boxesNearby(RankExchange& exchange, const SimplexMesh& mesh)
+{
+  const auto [low, high] = boundsOf(mesh.points);
+  const auto gathered = exchange.gather({ low[0], low[1], low[2], high[0], high[1], high[2] });
+  std::vector<MeshBounds> boxes;
+  for (int rank = 0; rank < exchange.size(); ++rank)
+  {
+    const double* box = gathered.data() + 6 * static_cast<std::ptrdiff_t>(rank);
+    bool meets = rank != exchange.rank();
+    for (int k = 0; k < 3; ++k)
+    {
+      meets = meets && box[k] <= high[k] && low[k] <= box[3 + k];
+    }
+    if (meets)
+    {
+      boxes.push_back({ { box[0], box[1], box[2] }, { box[3], box[4], box[5] } });
+    }
+  }
+  return boxes;
+}
+
+bool isIn(const MeshBounds& box, const Point3& p)
+{
+  return box.low[0] <= p[0] && p[0] <= box.high[0] && box.low[1] <= p[1] && p[1] <= box.high[1] &&
+         box.low[2] <= p[2] && p[2] <= box.high[2];
+}
+
+/// 1 for the vertices of sides of cells that are met once in this piece.
+std::vector<unsigned char> onSurface(const SimplexMesh& mesh, const ParallelFor& parallelFor)
+{
+  std::vector<unsigned char> flags(mesh.points.size(), 0);
+  for (const Facet& facet : findOuterFacets(mesh, {}, parallelFor))
+  {
+    for (const Index vertex : facet.vertices)
+    {
+      if (vertex >= 0)
+      {
+        flags[vertex] = 1;
+      }
+    }
+  }
+  return flags;
+}
+
+/// Vertices that other ranks may hold: those in the boxes round their pieces. Where these are many
+/// and all cells of the mesh are tetrahedra, of those only the ones on the surface of this piece.
+///
+/// A vertex off that surface is held by no other rank, if cells do not overlap. The sides opposite
+/// to it, seen from it, are triangles on a sphere; each edge of one is a side at the vertex, met
+/// twice, with another triangle beyond it. So they have no rim and cover the sphere, however the
+/// mesh is knotted elsewhere, and no room is left for another rank's cell. A vertex at which blocks
+/// meet in an edge or a point alone has a rim in each of them. Inverted cells do not matter, as
+/// long as the mesh has the connectivity of one without.
+///
+/// Triangles in space leave room: where three sheets meet at an edge and this rank has two, each
+/// side there is met twice, but the vertices are the third sheet's too. Listed cells of lower
+/// dimension may be anywhere.
+std::vector<Index> candidates(RankExchange& exchange, const SimplexMesh& mesh)
+{
+  constexpr std::size_t many = 4; // of this number of vertices, one
+  const auto boxes = boxesNearby(exchange, mesh);
+  std::vector<Index> result;
+  for (std::size_t v = 0; v < mesh.points.size(); ++v)
+  {
+    if (std::any_of(boxes.begin(), boxes.end(),
+          [&](const MeshBounds& box) { return isIn(box, mesh.points[v]); }))
+    {
+      result.push_back(static_cast<Index>(v));
+    }
+  }
+  const ParallelFor parallelFor = forOnThreads(exchange);
+  const bool others = mesh.dimension < 3 || mesh.cellCount() > mesh.tetrahedra.size();
+  if (!exchange.any(others) && many * result.size() > mesh.points.size())
+  {
+    const auto flags = onSurface(mesh, parallelFor);
+    result.erase(std::remove_if(
+                   result.begin(), result.end(), [&](Index vertex) { return flags[vertex] == 0; }),
+      result.end());
+  }
+  return result;
+}
+
+/// Appends the keys of cells: the vertex with the smallest id, and the ids of the others.
+template<std::size_t Corners>
+void appendKeys(
+  const SimplexMesh& mesh, const Simplices<Corners>& cells, std::vector<VertexKey<3>>& keys)
+{
+  for (auto cell : cells)
+  {
+    std::sort(
+      cell.begin(), cell.end(), [&](Index a, Index b) { return mesh.ids[a] < mesh.ids[b]; });
+    VertexKey<3> key{ cell[0], { -1, -1, -1 } };
+    std::transform(cell.begin() + 1, cell.end(), key.rest.begin(),
+      [&](Index vertex) { return mesh.ids[vertex]; });
+    keys.push_back(key);
+  }
+}
+
+/// Cell ids from the ids of their vertices: cells with the same vertices have the same one.
+void numberCells(RankExchange& exchange, const SharedVertices& shared, ConvertedMesh& converted)
+{
+  const SimplexMesh& mesh = converted.mesh;
+  std::vector<VertexKey<3>> keys;
+  reserveLong(keys, mesh.cellCount());
+  appendKeys(mesh, mesh.vertices, keys);
+  appendKeys(mesh, mesh.segments, keys);
+  appendKeys(mesh, mesh.triangles, keys);
+  appendKeys(mesh, mesh.tetrahedra, keys);
+  const auto numbers = numberAtVertices(exchange, shared, mesh.ids, keys).numbers;
+  auto next = numbers.begin();
+  for (int d = 0; d < 4; ++d)
+  {
+    const auto end = next + static_cast<std::ptrdiff_t>(converted.cellOf[d].size());
+    converted.cellIds[d].assign(next, end);
+    next = end;
+  }
+}
+
+bool haveIds(const ConvertedMesh& converted)
+{
+  return converted.cellIds[converted.mesh.dimension].size() ==
+         converted.cellOf[converted.mesh.dimension].size();
+}
+
+} // namespace
+
+SharedVertices findShared(RankExchange& exchange, const SimplexMesh& mesh)
+{
+  if (exchange.size() == 1)
+  {
+    return {};
+  }
+  return findSharedVertices(exchange, mesh.ids, candidates(exchange, mesh));
+}
+
+std::size_t DistributedMesh::pointCount() const
+{
+  return mesh().points.size() + (converted.midNodes ? converted.midNodes->points.size() : 0);
+}
+
+std::vector<char> DistributedMesh::ownedPoints() const
+{
+  return (converted.midNodes ? sharedPoints : shared).ownedHere(static_cast<Index>(pointCount()));
+}
+
+SharedVertices findSharedPoints(const DistributedMesh& mesh, const SharedEdges& edges)
+{
+  std::vector<Index> numbers(mesh.pointCount() - mesh.mesh().points.size());
+  std::iota(numbers.begin(), numbers.end(), static_cast<Index>(mesh.mesh().points.size()));
+  return sharedWithMidpoints(mesh.shared, edges, numbers);
+}
+
+DistributedMesh makeDistributedMesh(RankExchange& exchange, vtkPointSet* input, CellOrder order)
+{
+  DistributedMesh result;
+  result.converted = convert(exchange, input, order);
+  result.shared = findShared(exchange, result.mesh());
+  checkPieces(exchange, result);
+  if (exchange.any(!haveIds(result.converted)))
+  {
+    numberCells(exchange, result.shared, result.converted);
+  }
+  const auto& ids = result.mesh().ids;
+  GlobalId largest = ids.empty() ? -1 : *std::max_element(ids.begin(), ids.end());
+  if (const auto& midNodes = result.converted.midNodes)
+  {
+    result.sharedPoints = findSharedPoints(
+      result, findSharedEdges(exchange, result.shared, ids, midNodes->table.edges));
+    largest = std::accumulate(midNodes->ids.begin(), midNodes->ids.end(), largest,
+      [](GlobalId a, GlobalId b) { return std::max(a, b); });
+  }
+  result.vertexIdBound = exchange.max(largest) + 1;
+  return result;
+}
+
+MeshBounds findBounds(RankExchange& exchange, const SimplexMesh& mesh)
+{
+  const auto [low, high] = boundsOf(mesh.points);
+  const auto least = exchange.min(std::vector<double>(low.begin(), low.end()));
+  const auto largest = exchange.max(std::vector<double>(high.begin(), high.end()));
+  return { { least[0], least[1], least[2] }, { largest[0], largest[1], largest[2] } };
+}
+
+MeshCounts countMesh(RankExchange& exchange, const DistributedMesh& mesh)
+{
+  const auto owned = mesh.ownedPoints();
+  const auto vertices = std::count(owned.begin(), owned.end(), 1);
+  const auto& cellIds = mesh.converted.cellIds[mesh.mesh().dimension];
+  const auto sums = exchange.sum(std::vector<std::int64_t>{
+    static_cast<std::int64_t>(vertices), static_cast<std::int64_t>(cellIds.size()) });
+  return { sums[0], sums[1] };
+}
+
+} // namespace cadrefine

@@ -1,0 +1,66 @@
+// A mesh in pieces on ranks.
+#pragma once
+
+#include "comm/RankExchange.h"
+#include "comm/SharedEdges.h"
+#include "comm/SharedVertices.h"
+#include "mesh/PointSetConversion.h"
+
+#include <cadrefine/mesh/SimplexMesh.h>
+
+namespace cadrefine
+{
+
+/// A rank's piece, with what it shares with other ranks.
+struct DistributedMesh
+{
+  ConvertedMesh converted;
+  SharedVertices shared;
+  SharedVertices sharedPoints; ///< Of a mesh of second order: vertices and mid nodes.
+  GlobalId vertexIdBound = 0;  ///< All ids of vertices and mid nodes are smaller.
+
+  SimplexMesh& mesh() { return converted.mesh; }
+  const SimplexMesh& mesh() const { return converted.mesh; }
+  /// Vertices, and mid nodes after them.
+  std::size_t pointCount() const;
+  /// For each of them 1 if this rank owns it, else 0.
+  std::vector<char> ownedPoints() const;
+};
+
+/// Reads a data set (see convert) and finds the shared vertices. Collective. Throws Error, on all
+/// ranks, where the pieces do not make one mesh (see checkPieces).
+DistributedMesh makeDistributedMesh(
+  RankExchange& exchange, vtkPointSet* input, CellOrder order = CellOrder::First);
+
+/// The shared points of a mesh whose edges are shared like this: those of its vertices, and of the
+/// mid nodes that have numbers after them. No communication.
+SharedVertices findSharedPoints(const DistributedMesh& mesh, const SharedEdges& edges);
+
+/// The shared vertices of a mesh. Collective. Ids are sent of the vertices in the boxes round other
+/// ranks' pieces; where these are many and all cells are tetrahedra (which must not overlap), of
+/// those on the surface of the piece alone. Six numbers are gathered from every rank. Work: a look
+/// at each vertex for each box that meets this rank's, that of findOuterFacets where only the
+/// surface is taken, and that of findSharedVertices.
+SharedVertices findShared(RankExchange& exchange, const SimplexMesh& mesh);
+
+/// Box round the whole mesh: low above high where it has no points.
+struct MeshBounds
+{
+  Point3 low;
+  Point3 high;
+};
+
+/// Collective; two reductions of three numbers.
+MeshBounds findBounds(RankExchange& exchange, const SimplexMesh& mesh);
+
+/// Counts of the whole mesh, no vertex or cell twice.
+struct MeshCounts
+{
+  std::int64_t vertices = 0; ///< And mid nodes.
+  std::int64_t cells = 0;    ///< Of the mesh's own dimension.
+};
+
+/// Collective; one reduction of two numbers, work linear in the vertices of the piece.
+MeshCounts countMesh(RankExchange& exchange, const DistributedMesh& mesh);
+
+} // namespace cadrefine

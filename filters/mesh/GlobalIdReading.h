@@ -1,0 +1,26 @@
+// Global ids, as data sets bring them.
+#pragma once
+
+#include <cadrefine/base/MeshTypes.h>
+#include <cadrefine/base/ParallelFor.h>
+
+#include <vtkType.h>
+
+#include <string>
+#include <vector>
+
+class vtkDataArray;
+
+namespace cadrefine
+{
+
+/// The values of `array`, of any type of number; -1 for those that are no ids. None without an
+/// array. Ids are whole numbers from 0 to 2^62 - 1, so that there is room above them for the ids of
+/// new points. Work: linear.
+std::vector<GlobalId> readGlobalIds(vtkDataArray* array, const ParallelFor& parallelFor);
+
+/// Throws Error where `id`, which readGlobalIds made of the value at `place`, is none; `item` is
+/// what has it ("point", "cell").
+void checkGlobalId(GlobalId id, vtkDataArray* array, vtkIdType place, const std::string& item);
+
+} // namespace cadrefine

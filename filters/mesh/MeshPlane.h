@@ -1,0 +1,16 @@
+// The plane of a planar mesh.
+#pragma once
+
+#include "comm/RankExchange.h"
+
+#include <cadrefine/mesh/SimplexMesh.h>
+
+namespace cadrefine
+{
+
+/// Unit normal of the coordinate plane in which all triangles lie, turned the way most of them
+/// turn; zero where there is no such plane. Collective; two reductions of three numbers, work
+/// linear in the number of triangles.
+Vector3 planeNormal(RankExchange& exchange, const SimplexMesh& mesh);
+
+} // namespace cadrefine

@@ -1,0 +1,341 @@
+#include "mesh/PointSetConversion.h"
+
+#include "comm/CollectiveErrors.h"
+#include "comm/GlobalNumbering.h"
+#include "comm/Threads.h"
+#include "mesh/ArrayAccess.h"
+#include "mesh/CellReading.h"
+#include "mesh/GlobalIdReading.h"
+#include "mesh/MidNodeReading.h"
+
+#include <cadrefine/base/Error.h>
+#include <cadrefine/base/LargeMemory.h>
+#include <cadrefine/base/RadixOrder.h>
+
+#include <vtkCellData.h>
+#include <vtkPointData.h>
+#include <vtkPointSet.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace cadrefine
+{
+namespace
+{
+
+/// Points alone: a cell of dimension 0 each, without a cell in the data set.
+void addLonePoints(vtkPointSet* input, ConvertedMesh& result)
+{
+  for (vtkIdType p = 0; p < input->GetNumberOfPoints(); ++p)
+  {
+    result.mesh.vertices.push_back({ static_cast<Index>(p) });
+    result.cellOf[0].push_back(-1);
+  }
+}
+
+int highestDimension(RankExchange& exchange, const ConvertedMesh& converted)
+{
+  int dimension = -1;
+  for (int d = 0; d < 4; ++d)
+  {
+    dimension = converted.cellOf[d].empty() ? dimension : d;
+  }
+  return static_cast<int>(exchange.max(dimension));
+}
+
+std::vector<Point3> readPoints(vtkPointSet* input)
+{
+  std::vector<Point3> points(input->GetNumberOfPoints());
+  if (!points.empty())
+  {
+    copyValues(input->GetPoints()->GetData(), points.front().data());
+  }
+  return points;
+}
+
+/// The ids of points, and the array that they are from, if any.
+struct PointIds
+{
+  std::vector<GlobalId> ids;
+  vtkDataArray* given = nullptr;
+};
+
+/// The data set's point ids where every rank with points has them, otherwise from coordinates.
+PointIds pointIds(RankExchange& exchange, vtkPointSet* input, const std::vector<Point3>& points,
+  const ParallelFor& parallelFor)
+{
+  vtkDataArray* given = input->GetPointData()->GetGlobalIds();
+  if (!exchange.any(!given && !points.empty()))
+  {
+    return { readGlobalIds(given, parallelFor), given };
+  }
+  std::vector<Key<3>> keys(points.size());
+  std::transform(points.begin(), points.end(), keys.begin(),
+    [](const Point3& point) { return coordinateKey(point); });
+  return { numberDistinct(exchange, keys).numbers };
+}
+
+template<class Use, std::size_t Corners>
+void forEachCorner(Simplices<Corners>& cells, const ParallelFor& parallelFor, const Use& use)
+{
+  forEachIndex(parallelFor, cells.size(), fineGrain,
+    [&](std::size_t c) { std::for_each(cells[c].begin(), cells[c].end(), use); });
+}
+
+template<class Use>
+void forEachCorner(SimplexMesh& mesh, const ParallelFor& parallelFor, const Use& use)
+{
+  forEachCorner(mesh.vertices, parallelFor, use);
+  forEachCorner(mesh.segments, parallelFor, use);
+  forEachCorner(mesh.triangles, parallelFor, use);
+  forEachCorner(mesh.tetrahedra, parallelFor, use);
+}
+
+/// Flags that threads may set at once.
+using Flags = std::vector<std::atomic<unsigned char>>;
+
+/// The points that cells use.
+Flags findUsed(SimplexMesh& mesh, std::size_t points, const ParallelFor& parallelFor)
+{
+  Flags used(points);
+  forEachCorner(
+    mesh, parallelFor, [&](Index point) { used[point].store(1, std::memory_order_relaxed); });
+  return used;
+}
+
+/// numberVertices for ids that ascend from point to point; none: they do not.
+std::optional<std::vector<Index>> numberAscending(
+  const std::vector<GlobalId>& ids, const Flags& used)
+{
+  std::vector<Index> vertexOf(ids.size(), -1);
+  Index next = 0;
+  GlobalId last = -1;
+  for (std::size_t p = 0; p < ids.size(); ++p)
+  {
+    if (used[p])
+    {
+      if (ids[p] <= last)
+      {
+        return {};
+      }
+      last = ids[p];
+      vertexOf[p] = next++;
+    }
+  }
+  return vertexOf;
+}
+
+/// The vertex that each point becomes, numbered in the order of the points: one for each id; -1 for
+/// points that are not used.
+std::vector<Index> numberVertices(const std::vector<GlobalId>& ids, const Flags& used)
+{
+  if (auto vertexOf = numberAscending(ids, used))
+  {
+    return *std::move(vertexOf);
+  }
+  std::vector<PlacedKey> keys;
+  keys.reserve(ids.size());
+  for (std::size_t p = 0; p < ids.size(); ++p)
+  {
+    if (used[p])
+    {
+      keys.push_back({ orderedBits(ids[p]), static_cast<std::uint32_t>(p) });
+    }
+  }
+  radixSort(keys);
+  std::vector<Index> firstWithId(ids.size(), -1);
+  for (std::size_t k = 0; k < keys.size(); ++k)
+  {
+    const bool again = k > 0 && keys[k - 1].key == keys[k].key;
+    firstWithId[keys[k].place] =
+      again ? firstWithId[keys[k - 1].place] : static_cast<Index>(keys[k].place);
+  }
+  std::vector<Index> vertexOf = std::move(firstWithId);
+  Index next = 0;
+  for (std::size_t p = 0; p < vertexOf.size(); ++p)
+  {
+    if (vertexOf[p] >= 0)
+    {
+      vertexOf[p] = vertexOf[p] == static_cast<Index>(p) ? next++ : vertexOf[vertexOf[p]];
+    }
+  }
+  return vertexOf;
+}
+
+template<std::size_t Corners>
+void checkCells(const Simplices<Corners>& cells, const std::vector<vtkIdType>& cellOf,
+  const ParallelFor& parallelFor)
+{
+  const auto check = [&](std::size_t c)
+  {
+    bool distinct = true;
+    for (std::size_t k = 1; k < Corners; ++k)
+    {
+      for (std::size_t i = 0; i < k; ++i)
+      {
+        distinct = distinct && cells[c][i] != cells[c][k];
+      }
+    }
+    if (!distinct)
+    {
+      throw Error("cell " + std::to_string(cellOf[c]) +
+                  " of the mesh names a point twice, or two points at the same place");
+    }
+  };
+  forEachIndex(parallelFor, cells.size(), fineGrain, check);
+}
+
+/// The sixth power of a longer length overflows: cells are judged by squares of volumes.
+constexpr double largestCoordinate = 0x1p170;
+
+void checkCoordinates(const Point3& point, vtkIdType number)
+{
+  for (const double x : point)
+  {
+    if (!std::islessequal(std::abs(x), largestCoordinate))
+    {
+      throw Error(std::string("the mesh has a coordinate that is ") +
+                  (std::isfinite(x) ? "beyond 1.5e51" : "not finite") + " (point " +
+                  std::to_string(number) + "); correct it, or remove the cells that use the point");
+    }
+  }
+}
+
+void checkPoint(const Point3& point, const PointIds& ids, vtkIdType number)
+{
+  checkCoordinates(point, number);
+  if (ids.given)
+  {
+    checkGlobalId(ids.ids[number], ids.given, number, "point");
+  }
+}
+
+/// The vertices of the points that cells use.
+void takeVertices(const std::vector<Point3>& points, const PointIds& ids,
+  const std::vector<Index>& vertexOf, ConvertedMesh& result)
+{
+  reserveLong(result.pointOf, points.size());
+  reserveLong(result.mesh.points, points.size());
+  reserveLong(result.mesh.ids, points.size());
+  for (std::size_t p = 0; p < points.size(); ++p)
+  {
+    const auto point = static_cast<vtkIdType>(p);
+    if (vertexOf[p] < 0)
+    {
+      continue;
+    }
+    checkPoint(points[p], ids, point);
+    if (vertexOf[p] == static_cast<Index>(result.pointOf.size()))
+    {
+      result.pointOf.push_back(point);
+      result.mesh.points.push_back(points[p]);
+      result.mesh.ids.push_back(ids.ids[p]);
+    }
+    else if (points[p] != result.mesh.points[vertexOf[p]])
+    {
+      throw Error("the points " + std::to_string(result.pointOf[vertexOf[p]]) + " and " +
+                  std::to_string(p) + " of the mesh have the same global id, " +
+                  std::to_string(ids.ids[p]) + ", and lie at different places");
+    }
+  }
+}
+
+/// Makes vertices of the points that cells use, and makes the cells name them.
+void makeVertices(const std::vector<Point3>& points, const PointIds& ids, ConvertedMesh& result,
+  const ParallelFor& parallelFor)
+{
+  const std::vector<Index> vertexOf =
+    numberVertices(ids.ids, findUsed(result.mesh, points.size(), parallelFor));
+  takeVertices(points, ids, vertexOf, result);
+  forEachCorner(result.mesh, parallelFor, [&](Index& corner) { corner = vertexOf[corner]; });
+  checkCells(result.mesh.segments, result.cellOf[1], parallelFor);
+  checkCells(result.mesh.triangles, result.cellOf[2], parallelFor);
+  checkCells(result.mesh.tetrahedra, result.cellOf[3], parallelFor);
+}
+
+/// The ids of these cells of the data set.
+std::vector<GlobalId> cellIds(vtkDataArray* given, const std::vector<GlobalId>& idOf,
+  const std::vector<vtkIdType>& cells, const ParallelFor& parallelFor)
+{
+  std::vector<GlobalId> ids;
+  resizeLong(ids, cells.size(), parallelFor);
+  const auto take = [&](std::size_t c)
+  {
+    checkGlobalId(idOf[cells[c]], given, cells[c], "cell");
+    ids[c] = idOf[cells[c]];
+  };
+  forEachIndex(parallelFor, cells.size(), fineGrain, take);
+  return ids;
+}
+
+/// The data set's cell ids where every rank with cells has them, otherwise none.
+void readCellIds(
+  RankExchange& exchange, vtkPointSet* input, ConvertedMesh& result, const ParallelFor& parallelFor)
+{
+  vtkDataArray* given = input->GetCellData()->GetGlobalIds();
+  if (exchange.any(!given && result.mesh.cellCount() > 0))
+  {
+    return;
+  }
+  const std::vector<GlobalId> idOf = readGlobalIds(given, parallelFor);
+  agreeOnFailure(exchange,
+    [&]
+    {
+      for (int d = 0; d < 4; ++d)
+      {
+        result.cellIds[d] = cellIds(given, idOf, result.cellOf[d], parallelFor);
+      }
+    });
+}
+
+} // namespace
+
+ConvertedMesh convert(RankExchange& exchange, vtkPointSet* input, CellOrder order)
+{
+  const ParallelFor parallelFor = forOnThreads(exchange);
+  ConvertedMesh result;
+  NodesOfCells nodes;
+  agreeOnFailure(exchange, [&] { nodes = readCells(input, order, result, parallelFor); });
+  if (exchange.sum(input->GetNumberOfPoints()) == 0)
+  {
+    throw Error("the mesh has no points");
+  }
+  if (exchange.sum(input->GetNumberOfCells()) == 0)
+  {
+    addLonePoints(input, result);
+  }
+  result.mesh.dimension = highestDimension(exchange, result);
+  if (result.mesh.dimension < 0)
+  {
+    throw Error("the mesh has no cells but empty ones and such as are marked as ghosts or hidden");
+  }
+  if (result.mesh.dimension == 1)
+  {
+    throw Error("the mesh is one of lines; CADRefine takes triangles and tetrahedra");
+  }
+  const std::vector<Point3> points = readPoints(input);
+  const auto ids = pointIds(exchange, input, points, parallelFor);
+  agreeOnFailure(exchange, [&] { makeVertices(points, ids, result, parallelFor); });
+  if (order == CellOrder::FirstOrSecond && isOfSecondOrder(exchange, result, nodes))
+  {
+    agreeOnFailure(exchange,
+      [&]
+      {
+        readMidNodes(points, ids.ids, nodes, result);
+        for (std::size_t v = result.mesh.points.size(); v < result.pointOf.size(); ++v)
+        {
+          checkPoint(points[result.pointOf[v]], ids, result.pointOf[v]);
+        }
+      });
+  }
+  readCellIds(exchange, input, result, parallelFor);
+  return result;
+}
+
+} // namespace cadrefine

@@ -1,0 +1,52 @@
+// Moving vertices onto the CAD over all ranks without inverting a cell.
+#pragma once
+
+#include "mesh/DistributedMesh.h"
+
+#include <cadrefine/classification/BoundaryProjector.h>
+#include <cadrefine/classification/Classification.h>
+#include <cadrefine/motion/MoveGuard.h>
+
+#include <vector>
+
+namespace cadrefine
+{
+
+/// What moveOntoCAD needs to know beside the mesh.
+struct MoveSettings
+{
+  const BoundaryProjector& projector;
+  /// 1 for vertices that do not make way: those of the boundary, over all ranks, unless they slide.
+  const std::vector<unsigned char>& fixed;
+  /// Cells that are inverted or flat at the start are to be mended too.
+  bool mendCells = false;
+  /// Cells that lost much of their shape are smoothed even if all vertices are at their targets.
+  bool smoothCells = false;
+};
+
+/// Moves the vertices of `moves` as far to their targets as all cells stay valid, on all ranks;
+/// writes the new positions into the mesh, and the distances that are left into the classification.
+///
+///   1. The moves are made straight, and halved where cells do not accept them (see MoveGuard).
+///   2. Where vertices stopped on the way: they are put to their targets in mind, and the interior
+///      vertices of the cells round them are moved to where all cells are valid and well shaped
+///      (see PatchOptimiser). From where they are, all go there, guarded as before.
+///   3. Again, with more rings of cells round what is left, and from the third round on with the
+///      vertices of the CAD sliding on their own faces and edges: until all are there, or nothing
+///      has come of a few rounds.
+///   4. Interior vertices round cells that have lost more than a tenth of their mean ratio move to
+///      where these are better, if vertices are left on the way, or `smoothCells` asks for it. What
+///      is left stays where it stopped.
+///
+/// The result does not depend on the partition: decisions are minima over the cells at a vertex,
+/// and vertices are moved in an order that their ids give. It ends: a vertex's way is halved a few
+/// times at most, and rounds and sweeps are limited.
+///
+/// Collective. Where nothing stops: one look at each cell, one reduction, and one exchange of 8
+/// bytes a shared vertex. A halving costs as much, but for cells whose vertices move only. A round:
+/// a look at all cells for each ring and one more, and a few sweeps over those of the region (see
+/// UntanglingPatch).
+void moveOntoCAD(RankExchange& exchange, DistributedMesh& mesh, Moves moves,
+  Classification& classification, const MoveSettings& settings);
+
+} // namespace cadrefine

@@ -1,0 +1,62 @@
+#include "pipeline/ErrorMeasurement.h"
+
+#include "error/DistributedError.h"
+#include "pipeline/MeshSummary.h"
+
+#include <cadrefine/base/Error.h>
+
+#include <vtkCellData.h>
+#include <vtkDoubleArray.h>
+#include <vtkNew.h>
+
+#include <algorithm>
+
+namespace cadrefine
+{
+namespace
+{
+
+void addErrors(MeshState& state, const MeshError& error)
+{
+  const auto add = [&](const char* name, const auto& valueOf)
+  {
+    // Cells of the mesh's own dimension are the last ones.
+    const auto count = static_cast<vtkIdType>(state.mesh.mesh().cellCount());
+    vtkNew<vtkDoubleArray> array;
+    array->SetName(name);
+    array->SetNumberOfValues(count);
+    array->FillValue(0);
+    const auto first = count - static_cast<vtkIdType>(error.ofCells.size());
+    std::transform(error.ofCells.begin(), error.ofCells.end(), array->GetPointer(first), valueOf);
+    state.arrays.ofCells->AddArray(array);
+  };
+  add(arrays::error, [](const CellError& cell) { return cell.measure; });
+  add(arrays::errorDistance, [](const CellError& cell) { return cell.largest.distance; });
+  add(arrays::chordError, [](const CellError& cell) { return cell.largest.chord; });
+  add(arrays::normalAngle, [](const CellError& cell) { return cell.largest.angle; });
+  state.arrays.ofCells->SetActiveScalars(arrays::error);
+  vtkFieldData* ofMesh = state.arrays.ofMesh;
+  setFieldValue(ofMesh, "GlobalGeometricError", error.global);
+  setFieldValue(ofMesh, "GeometricErrorDimension", std::int64_t(error.dimension));
+  setFieldValue(ofMesh, "MaximumGeometricDistance", error.largest.distance);
+  setFieldValue(ofMesh, "MaximumChordError", error.largest.chord);
+  setFieldValue(ofMesh, "MaximumNormalAngle", error.largest.angle);
+}
+
+} // namespace
+
+void measureMesh(const PipelineContext& context, MeshState& state, int recursionDepth)
+{
+  if (state.mesh.mesh().dimension == 0)
+  {
+    throw Error("the mesh has no triangles or tetrahedra; points alone have no geometric error");
+  }
+  ClassifiedBoundary& boundary = boundaryOf(context, state);
+  const Progress::Part part(context.exchange.progress(), 0.2, 1);
+  const MeshError error = measureError(context.exchange, state.mesh, boundary,
+    *state.classification, recursionDepth, state.cache, state.remembers);
+  recordBalance(context.statistics, "error", error.balance);
+  addErrors(state, error);
+}
+
+} // namespace cadrefine

@@ -1,0 +1,222 @@
+// What is told of a fit: text and field arrays.
+
+#include "pipeline/MeshSummary.h"
+#include "projection/Fit.h"
+
+#include <cadrefine/cad/model/LengthUnit.h>
+
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkNew.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <sstream>
+
+namespace cadrefine
+{
+namespace
+{
+
+constexpr std::size_t mostLines = 10; ///< Of points.
+
+struct UnitPair
+{
+  LengthUnit mesh;
+  LengthUnit cad;
+};
+
+/// Size of the mesh's box as a part of that of the CAD's.
+double ratioOf(const Fit& fit)
+{
+  return distance(fit.meshBox[0], fit.meshBox[1]) / distance(fit.cadBox[0], fit.cadBox[1]);
+}
+
+/// Units of mesh and CAD that the ratio suggests: the CAD's own, if it can be that one.
+std::optional<UnitPair> likelyUnits(double ratio, const std::string& cadUnit)
+{
+  constexpr double near = 0.05; // coarse meshes of curved shapes are smaller than these
+  const auto fits = [&](double mesh, double cad)
+  { return mesh != cad && std::abs(ratio * mesh / cad - 1) < near; };
+  std::optional<UnitPair> found;
+  for (const LengthUnit& cad : usualUnits)
+  {
+    for (const LengthUnit& mesh : usualUnits)
+    {
+      const bool better = !found || (cad.name == cadUnit && found->cad.name != cadUnit);
+      if (better && fits(unitLength(mesh.name), unitLength(cad.name)))
+      {
+        found = UnitPair{ mesh, cad };
+      }
+    }
+  }
+  return found;
+}
+
+/// Empty where the boxes suggest nothing.
+std::string describeUnits(double ratio, const std::string& cadUnit)
+{
+  const auto likely = likelyUnits(ratio, cadUnit);
+  if (!likely)
+  {
+    return {};
+  }
+  std::ostringstream text;
+  text << "the mesh's box is " << ratio << " times as large as the CAD's, as if the mesh were in "
+       << likely->mesh.plural << " and the CAD in " << likely->cad.plural << ": ";
+  if (cadUnit.empty() || likely->cad.name == cadUnit)
+  {
+    text << "set Unit of the CAD Reader to " << likely->mesh.name << " (driver: --cad-unit "
+         << likely->mesh.name << "), or scale the mesh";
+  }
+  else
+  {
+    text << "scale the mesh, or correct the unit in the CAD file (" << cadUnit << ")";
+  }
+  return text.str();
+}
+
+std::string percent(double share)
+{
+  std::ostringstream text;
+  text.precision(3);
+  text << 100 * share << "%";
+  return text.str();
+}
+
+std::ostream& operator<<(std::ostream& out, const Point3& p)
+{
+  return out << "(" << p[0] << ", " << p[1] << ", " << p[2] << ")";
+}
+
+std::string describeBoxes(const Fit& fit, const std::string& cadUnit)
+{
+  std::ostringstream text;
+  text << "box of the mesh " << fit.meshBox[0] << " to " << fit.meshBox[1] << ", of the CAD "
+       << fit.cadBox[0] << " to " << fit.cadBox[1] << (cadUnit.empty() ? "" : " ") << cadUnit;
+  return text.str();
+}
+
+std::string describeShares(const Fit& fit)
+{
+  return percent(fit.boundaryOnCAD) + " of the mesh's boundary in the CAD's box (" +
+         percent(fit.boundaryInBox) + " of all) is on the CAD" +
+         (fit.cadCovered ? ", " + percent(*fit.cadCovered) + " of the CAD is covered" : "");
+}
+
+/// The mesh has the CAD's box, but in another place; empty where it has not.
+std::string describeShift(const Fit& fit)
+{
+  constexpr double least = 1e-5; // of the size
+  constexpr double alike = 1e-2;
+  const Vector3 low = fit.meshBox[0] - fit.cadBox[0];
+  const Vector3 high = fit.meshBox[1] - fit.cadBox[1];
+  if (norm(low) <= least * distance(fit.cadBox[0], fit.cadBox[1]) ||
+      distance(low, high) > alike * norm(low))
+  {
+    return {};
+  }
+  std::ostringstream text;
+  text << "the mesh's box is as large as the CAD's, but shifted by " << low
+       << ": move the mesh or the CAD";
+  return text.str();
+}
+
+/// A row for each item; none where there are no items.
+void addRows(vtkFieldData* data, const char* name, int components, const std::vector<double>& rows)
+{
+  if (rows.empty())
+  {
+    return;
+  }
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  for (const double value : rows)
+  {
+    array->InsertNextValue(value);
+  }
+  data->AddArray(array);
+}
+
+/// As VTK orders bounds.
+std::vector<double> boundsOf(const std::array<Point3, 2>& box)
+{
+  return { box[0][0], box[1][0], box[0][1], box[1][1], box[0][2], box[1][2] };
+}
+
+} // namespace
+
+std::string describeFit(const Fit& fit, const std::string& cadUnit)
+{
+  std::ostringstream text;
+  text << describeBoxes(fit, cadUnit) << "\n" << describeShares(fit);
+  text << "\nvertices off the CAD: " << fit.verticesOffCAD;
+  for (const OffPoint& vertex : fit.farthest)
+  {
+    text << "\n  " << vertex.point << ", off by " << vertex.distance;
+  }
+  text << "\nvertices in conflict (CADConflict is 1): " << fit.conflictCount;
+  for (std::size_t i = 0; i < std::min(fit.conflicts.size(), mostLines); ++i)
+  {
+    text << "\n  " << fit.conflicts[i];
+  }
+  return text.str();
+}
+
+std::string warningOfMisfit(const Fit& fit, const std::string& cadUnit, bool isWhole)
+{
+  constexpr double half = 0.5;
+  constexpr double most = 0.7; // facets are chords
+  constexpr double little = 0.2;
+  const std::string shift = describeShift(fit);
+  const bool fits = fit.boundaryOnCAD >= half && fit.cadCovered.value_or(0) >= most;
+  std::string cause = fits || !shift.empty() ? shift : describeUnits(ratioOf(fit), cadUnit);
+  const bool isElsewhere =
+    fit.boundaryOnCAD * fit.boundaryInBox < half && fit.cadCovered.value_or(1) < little;
+  if (!isWhole || (fit.boundaryOnCAD >= half && !isElsewhere))
+  {
+    return cause;
+  }
+  return describeShares(fit) + "; " +
+         (cause.empty() ? "check that mesh and CAD have the same position and unit of length (" +
+                            describeBoxes(fit, cadUnit) + ")"
+                        : cause);
+}
+
+void removeFit(vtkFieldData* from)
+{
+  for (const char* name : { "CADCovered", "FarthestVertices", "ConflictPoints" })
+  {
+    from->RemoveArray(name);
+  }
+}
+
+void writeFit(vtkFieldData* data, const Fit& fit)
+{
+  addRows(data, "MeshBox", 1, boundsOf(fit.meshBox));
+  addRows(data, "CADBox", 1, boundsOf(fit.cadBox));
+  setFieldValue(data, "BoundaryOnCAD", fit.boundaryOnCAD);
+  setFieldValue(data, "BoundaryInBox", fit.boundaryInBox);
+  if (fit.cadCovered)
+  {
+    setFieldValue(data, "CADCovered", *fit.cadCovered);
+  }
+  std::vector<double> rows;
+  for (const auto& [point, distance] : fit.farthest)
+  {
+    rows.insert(rows.end(), { point[0], point[1], point[2], distance });
+  }
+  addRows(data, "FarthestVertices", 4, rows);
+  rows.clear();
+  for (const Point3& point : fit.conflicts)
+  {
+    rows.insert(rows.end(), point.begin(), point.end());
+  }
+  addRows(data, "ConflictPoints", 3, rows);
+  setFieldValue(data, "VerticesOffCAD", fit.verticesOffCAD);
+  setFieldValue(data, "ClassificationConflicts", fit.conflictCount);
+}
+
+} // namespace cadrefine

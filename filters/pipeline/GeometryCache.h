@@ -1,0 +1,43 @@
+// The last result of a filter, for input with the same geometry.
+#pragma once
+
+#include "pipeline/ContentHash.h"
+#include "pipeline/PipelineResult.h"
+
+#include <cadrefine/cad/model/CADModel.h>
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+
+namespace cadrefine
+{
+
+/// Of a time series on a mesh that stays, only the fields change: what was made of the geometry is
+/// kept, so that it is not made again. One result is kept. Memory: the mapping of the arrays (see
+/// FieldMapping); the mesh is shared with the filter's output as long as that is there.
+class GeometryCache
+{
+public:
+  using Make = std::function<PipelineResult(vtkPointSet*)>;
+
+  /// What `make` gives for this geometry: the kept result if on all ranks the geometry has the same
+  /// content as last time, and the model and the properties are the same. `properties` is a number
+  /// that changes with the filter's properties. Collective; one reduction, and the work of
+  /// hashContent.
+  const PipelineResult& get(RankExchange& exchange, vtkPointSet* geometry,
+    std::shared_ptr<const CADModel> model, std::uint64_t properties, const Make& make);
+
+private:
+  struct Entry
+  {
+    ContentHash hash;
+    std::shared_ptr<const CADModel> model; ///< Held, so that no other one gets its address.
+    std::uint64_t properties;
+    PipelineResult result;
+  };
+  std::optional<Entry> last_;
+};
+
+} // namespace cadrefine

@@ -1,0 +1,134 @@
+#include "pipeline/MeshState.h"
+
+#include "balancing/Balancing.h"
+#include "comm/CollectiveErrors.h"
+#include "comm/Threads.h"
+#include "fields/CADArrays.h"
+#include "pipeline/MeshSummary.h"
+
+#include <vtkCellData.h>
+#include <vtkFieldData.h>
+#include <vtkPointData.h>
+
+#include <numeric>
+#include <utility>
+
+namespace cadrefine
+{
+
+MeshState readMesh(RankExchange& exchange, vtkPointSet* input, CellOrder order)
+{
+  exchange.progress().say(0, "reading the mesh");
+  MeshState state;
+  state.parallelFor = forOnThreads(exchange);
+  state.mesh = makeDistributedMesh(exchange, input, order);
+  ArraySelection selection = selectionOf(input, state.mesh.converted);
+  state.arrays = select(arraysOf(input), selection);
+  state.mapping.convert(std::move(selection));
+  state.prototype.TakeReference(input->NewInstance());
+  return state;
+}
+
+void readClassification(const PipelineContext& context, vtkPointSet* input, MeshState& state)
+{
+  agreeOnFailure(context.exchange,
+    [&]
+    {
+      setClassification(
+        state, readClassification(input, state.mesh.converted.pointOf, context.model));
+    });
+}
+
+void setClassification(MeshState& state, Classification classification)
+{
+  for (const char* name :
+    { arrays::dimension, arrays::entity, arrays::parameters, arrays::distance })
+  {
+    state.arrays.ofVertices->RemoveArray(name);
+  }
+  state.classification = std::move(classification);
+}
+
+ClassifiedBoundary& boundaryOf(const PipelineContext& context, MeshState& state)
+{
+  if (!state.boundary)
+  {
+    state.boundary = std::make_unique<ClassifiedBoundary>(findClassifiedBoundary(context.exchange,
+      state.mesh, context.model, *state.classification, state.cache, state.onBoundary));
+  }
+  return *state.boundary;
+}
+
+const QualitySummary& qualityOf(RankExchange& exchange, MeshState& state)
+{
+  if (!state.quality)
+  {
+    state.quality = summariseQuality(exchange, state.mesh);
+  }
+  return *state.quality;
+}
+
+bool warnOfInvalidCells(const PipelineContext& context, MeshState& state)
+{
+  const std::string warning = warningOfInvalidCells(
+    qualityOf(context.exchange, state), countMesh(context.exchange, state.mesh));
+  if (!warning.empty() && context.exchange.rank() == 0)
+  {
+    context.warn(warning);
+  }
+  return !warning.empty();
+}
+
+void meshHasChanged(MeshState& state)
+{
+  state.boundary.reset();
+  state.quality.reset();
+}
+
+vtkSmartPointer<vtkPointSet> makeDataSet(const MeshState& state)
+{
+  const ConvertedMesh& converted = state.mesh.converted;
+  auto output =
+    makePointSet(state.prototype, converted.mesh, converted.midNodes, state.parallelFor);
+  setArrays(state.arrays, converted, output, state.parallelFor);
+  if (state.classification)
+  {
+    writeClassification(output, *state.classification);
+  }
+  return output;
+}
+
+void redistribute(
+  const PipelineContext& context, MeshState& state, const std::vector<std::int64_t>& weights)
+{
+  ConvertedMesh& converted = state.mesh.converted;
+  converted.pointOf.resize(converted.mesh.points.size());
+  std::iota(converted.pointOf.begin(), converted.pointOf.end(), 0);
+  for (int d = 0; d < 4; ++d)
+  {
+    converted.cellOf[d].resize(converted.cellIds[d].size());
+    std::iota(converted.cellOf[d].begin(), converted.cellOf[d].end(),
+      firstCellOfDimension(converted.mesh, d));
+  }
+  Redistribution balanced = redistribute(context.exchange, state.mesh, makeDataSet(state), weights);
+  MeshState next = readMesh(context.exchange, balanced.mesh);
+  if (state.classification)
+  {
+    readClassification(context, balanced.mesh, next);
+  }
+  next.arrays.ofMesh = state.arrays.ofMesh;
+  next.prototype = state.prototype;
+  next.remembers = state.remembers;
+  next.cache = std::move(state.cache);
+  state.mapping.redistribute(std::move(balanced.delivery));
+  state.mapping.append(std::move(next.mapping));
+  next.mapping = std::move(state.mapping);
+  state = std::move(next);
+}
+
+PipelineResult resultOf(MeshState state)
+{
+  return { makeDataSet(state), std::move(state.mapping) };
+}
+
+} // namespace cadrefine

@@ -1,0 +1,75 @@
+// A mesh on its way through the steps of a filter.
+#pragma once
+
+#include "classification/BoundaryCache.h"
+#include "classification/DistributedBoundary.h"
+#include "fields/ArrayTransfer.h"
+#include "fields/FieldMapping.h"
+#include "mesh/DistributedMesh.h"
+#include "pipeline/PipelineContext.h"
+#include "pipeline/PipelineResult.h"
+
+#include <cadrefine/mesh/QualitySummary.h>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace cadrefine
+{
+
+/// What the steps change: data sets are made of it only where it leaves the filter. It stays where
+/// it is while it has a boundary, which refers to the mesh.
+struct MeshState
+{
+  DistributedMesh mesh;
+  MeshArrays arrays; ///< With what is found of the mesh; without ids and those of `classification`.
+  std::optional<Classification> classification; ///< With entries for mid nodes after the vertices.
+  FieldMapping mapping;                         ///< From the input.
+  vtkSmartPointer<vtkPointSet> prototype;       ///< Empty, of the class of the data set.
+  ParallelFor parallelFor = serialFor;          ///< On this rank's threads.
+  /// Of the mesh as it is, where they have been looked at.
+  std::unique_ptr<ClassifiedBoundary> boundary = nullptr;
+  std::optional<QualitySummary> quality = std::nullopt;
+  /// 1 for vertices that may be on the boundary; none: not known.
+  std::vector<unsigned char> onBoundary = {};
+  bool remembers = false; ///< Keep what is measured for the boundary after the next step.
+  BoundaryCache cache = {};
+};
+
+/// Reads the mesh and its arrays, not the classification. Collective; see makeDistributedMesh.
+MeshState readMesh(RankExchange& exchange, vtkPointSet* input, CellOrder order = CellOrder::First);
+
+/// Reads the classification of the input that the mesh was read from. Throws Error on all ranks;
+/// collective.
+void readClassification(const PipelineContext& context, vtkPointSet* input, MeshState& state);
+
+/// Gives the vertices their places on the CAD, instead of those of the input.
+void setClassification(MeshState& state, Classification classification);
+
+/// The boundary of the classified mesh. Collective.
+ClassifiedBoundary& boundaryOf(const PipelineContext& context, MeshState& state);
+
+/// Over all ranks. Collective.
+const QualitySummary& qualityOf(RankExchange& exchange, MeshState& state);
+
+/// What to tell the user of invalid cells, which vertices that move are to mend; told on rank 0.
+/// Returns whether there are any. Throws Error where more than half of the cells are invalid.
+/// Collective.
+bool warnOfInvalidCells(const PipelineContext& context, MeshState& state);
+
+/// Forgets what was found of the mesh as it was.
+void meshHasChanged(MeshState& state);
+
+/// Shares the cells out over the ranks by their weights (see Balancing.h). Collective.
+void redistribute(
+  const PipelineContext& context, MeshState& state, const std::vector<std::int64_t>& weights);
+
+/// The mesh as a data set with all arrays.
+vtkSmartPointer<vtkPointSet> makeDataSet(const MeshState& state);
+
+/// The state at the end of a filter.
+PipelineResult resultOf(MeshState state);
+
+} // namespace cadrefine

@@ -1,0 +1,128 @@
+#include "pipeline/Projection.h"
+
+#include "comm/WorkSteps.h"
+#include "pipeline/MeshSummary.h"
+#include "pipeline/PropertyCheck.h"
+#include "projection/Fit.h"
+#include "projection/InitialProjection.h"
+
+#include <cadrefine/base/Error.h>
+
+#include <vtkPointData.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace cadrefine
+{
+namespace
+{
+
+struct Projection
+{
+  ProjectionResult result;
+  Fit fit;
+};
+
+Projection projectCells(const PipelineContext& context, MeshState& state, ProjectionOptions options)
+{
+  context.exchange.progress().say(0.05, "finding the boundary");
+  WorkSteps steps(context.exchange.progress());
+  steps.begin(0.1, 0.9);
+  const DistributedBoundary boundary = findBoundary(context.exchange, state.mesh, context.model);
+  const BoundaryProjector projector(context.model, boundary.kind);
+  state.onBoundary = boundary.onBoundary;
+  options.mendCells = warnOfInvalidCells(context, state);
+  Projection projection;
+  projection.result = projectBoundary(context.exchange, state.mesh, projector, boundary, options);
+  steps.begin(0.9, 1);
+  projection.fit =
+    findFit({ context.exchange, state.mesh, projector, boundary, options }, projection.result);
+  return projection;
+}
+
+Projection projectAlone(
+  const PipelineContext& context, DistributedMesh& points, const ProjectionOptions& options)
+{
+  Projection projection;
+  projection.result = projectPoints(context.exchange, points, context.model, options);
+  projection.fit = findFitOfPoints(context.exchange, points, context.model, projection.result);
+  return projection;
+}
+
+/// Why no vertex lies on the CAD.
+std::string reasonOfNone(
+  const Projection& projection, const ProjectionOptions& options, const std::string& cadUnit)
+{
+  const std::string none = "no vertex was put onto the CAD: ";
+  if (projection.result.projectedPoints == 0)
+  {
+    return none + "there is no boundary in the region (Region)";
+  }
+  const std::string farther = options.maximumDistance > 0
+                                ? "MaximumDistance"
+                                : "its longest edges (MaximumDistance lets vertices go farther)";
+  const std::string misfit = warningOfMisfit(projection.fit, cadUnit, true);
+  return none + "all of the boundary is farther from it than " + farther +
+         " or does not run along it; " + misfit;
+}
+
+/// Tells what does not fit; throws Error where nothing lies on the CAD.
+void judge(const PipelineContext& context, const Projection& projection,
+  const ProjectionOptions& options, std::int64_t verticesOnCAD)
+{
+  const std::string& unit = context.model.unit();
+  if (verticesOnCAD == 0)
+  {
+    throw Error(reasonOfNone(projection, options, unit));
+  }
+  const std::string warning = warningOfMisfit(projection.fit, unit, !options.region);
+  if (!warning.empty() && context.exchange.rank() == 0)
+  {
+    context.warn(warning);
+  }
+}
+
+} // namespace
+
+ProjectionOptions makeProjectionOptions(const double* region, double maximumDistance)
+{
+  checkProperty("MaximumDistance", maximumDistance, 0);
+  ProjectionOptions options;
+  constexpr double anyDistance = 0x1p172; // between coordinates that meshes may have
+  options.maximumDistance = std::min(maximumDistance, anyDistance);
+  if (region)
+  {
+    checkBox("Region", region);
+    std::copy_n(region, 6, options.region.emplace().begin());
+  }
+  return options;
+}
+
+std::string projectMesh(
+  const PipelineContext& context, MeshState& state, const ProjectionOptions& options)
+{
+  RankExchange& exchange = context.exchange;
+  const auto [low, high] = findBounds(exchange, state.mesh.mesh());
+  Projection projection = state.mesh.mesh().dimension == 0
+                            ? projectAlone(context, state.mesh, options)
+                            : projectCells(context, state, options);
+  meshHasChanged(state);
+  projection.fit.meshBox = { low, high };
+  ProjectionResult& result = projection.result;
+  recordBalance(context.statistics, "points", result.balance);
+  context.statistics.set("points that gave up", static_cast<double>(result.slowPoints));
+
+  setClassification(state, std::move(result.classification));
+  writeConflicts(state.arrays.ofVertices, result.conflicts);
+  vtkFieldData* ofMesh = state.arrays.ofMesh;
+  summariseMesh(exchange, state.mesh, qualityOf(exchange, state), ofMesh);
+  const std::int64_t onCAD = summariseProjection(
+    exchange, state.mesh, *state.classification, result.projectedPoints, ofMesh);
+  judge(context, projection, options, onCAD);
+  writeFit(ofMesh, projection.fit);
+  return describeFit(projection.fit, context.model.unit());
+}
+
+} // namespace cadrefine

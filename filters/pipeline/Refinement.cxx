@@ -1,0 +1,262 @@
+#include "pipeline/Refinement.h"
+
+#include "balancing/Balancing.h"
+#include "comm/LoadBalancedMap.h"
+#include "pipeline/MeshSummary.h"
+#include "quadratic/MidNodePlacing.h"
+#include "refinement/DistributedRefinement.h"
+
+#include <cadrefine/base/Error.h>
+
+#include <vtkPolyData.h>
+
+#include <algorithm>
+#include <iterator>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace cadrefine
+{
+namespace
+{
+
+/// Which edges a level cuts, and why.
+struct Level
+{
+  RefinementPlan plan;
+  std::int64_t markedCells = 0; ///< Over all ranks.
+};
+
+/// The refinement of one mesh, level by level.
+class Refiner
+{
+public:
+  Refiner(const PipelineContext& context, const RefinementOptions& options, MeshState& state)
+    : context_(context), exchange_(context.exchange), options_(options), state_(state)
+  {
+  }
+
+  RefinementOutcome run()
+  {
+    check();
+    newVertices_ = whatBecomesOfNewVertices();
+    RefinementOutcome outcome;
+    for (int l = 0; l < options_.levels && outcome.refined; ++l)
+    {
+      const Progress::Part part = beginLevel(l);
+      Level level = planLevel();
+      outcome.markedCells = level.markedCells;
+      if (l == 0)
+      {
+        outcome.limited = isTooLarge(level.plan);
+        outcome.refined = !outcome.limited && !(options_.onlyIfMarked && level.markedCells == 0);
+      }
+      if (l == 0 && outcome.refined && options_.balance && exchange_.size() > 1)
+      {
+        balanceCells(level);
+      }
+      if (outcome.refined)
+      {
+        refineOnce(level.plan);
+      }
+      if (l == 0 && outcome.refined)
+      {
+        context_.statistics.set("new cells imbalance after",
+          findImbalance(exchange_, static_cast<std::int64_t>(state_.mesh.mesh().cellCount())));
+      }
+    }
+    if (outcome.markedCells == 0 && !outcome.refined)
+    {
+      outcome.whyNone = describeLargest(exchange_, state_.mesh, state_.arrays, options_.criteria);
+    }
+    if (outcome.refined)
+    {
+      finish();
+    }
+    return outcome;
+  }
+
+private:
+  Progress& progress() const { return exchange_.progress(); }
+
+  Progress::Part beginLevel(int level) const
+  {
+    const double length = 1.0 / options_.levels;
+    const std::string name = options_.levels > 1 ? "level " + std::to_string(level + 1) + " of " +
+                                                     std::to_string(options_.levels) + ": "
+                                                 : "";
+    return { progress(), level * length, (level + 1) * length, name };
+  }
+
+  RunStatistics::Stopwatch watch(const char* name) const
+  {
+    return RunStatistics::Stopwatch(context_.statistics, name);
+  }
+
+  void check() const
+  {
+    if (state_.mesh.mesh().dimension == 0)
+    {
+      throw Error("the mesh has no triangles or tetrahedra to refine");
+    }
+    if (options_.quadraticCells)
+    {
+      checkForQuadraticCells(state_.prototype);
+    }
+  }
+
+  NewVertices whatBecomesOfNewVertices()
+  {
+    if (!options_.projectNewVertices)
+    {
+      return NewVertices::StayStraight;
+    }
+    return warnOfInvalidCells(context_, state_) ? NewVertices::MoveAndMend
+                                                : NewVertices::MoveOntoCAD;
+  }
+
+  ClassifiedBoundary& boundary()
+  {
+    const auto stopwatch = watch("seconds projection");
+    return boundaryOf(context_, state_);
+  }
+
+  Level planLevel()
+  {
+    const bool cutFacets = options_.cutFacets && state_.classification && !options_.uniform;
+    std::optional<FacetsToCut> toCut;
+    if (cutFacets)
+    {
+      toCut.emplace(FacetsToCut{ boundary(), *state_.classification });
+    }
+    progress().say(0, "marking cells");
+    const auto stopwatch = watch("seconds marking");
+    if (options_.uniform)
+    {
+      return { planUniform(exchange_, state_.mesh), countMesh(exchange_, state_.mesh).cells };
+    }
+    const auto marks = markCells(exchange_, state_.mesh, state_.arrays, options_.criteria);
+    const std::int64_t marked = exchange_.sum(std::count(marks.begin(), marks.end(), 1));
+    context_.statistics.set("marked cells", static_cast<double>(marked));
+    return { planLongestEdge(exchange_, state_.mesh, marks, toCut ? &*toCut : nullptr), marked };
+  }
+
+  /// Whether the plan makes more cells of the mesh's own dimension than allowed.
+  bool isTooLarge(const RefinementPlan& plan) const
+  {
+    if (options_.maximumCells == 0)
+    {
+      return false;
+    }
+    const SimplexMesh& mesh = state_.mesh.mesh();
+    const auto firsts = countChildren(mesh, plan)[mesh.dimension];
+    return exchange_.sum(firsts.empty() ? 0 : firsts.back()) > options_.maximumCells;
+  }
+
+  /// Cells that the plan makes of each cell, in the order of makePointSet.
+  std::vector<std::int64_t> childCounts(const RefinementPlan& plan) const
+  {
+    std::vector<std::int64_t> counts;
+    counts.reserve(state_.mesh.mesh().cellCount());
+    for (const auto& firsts : countChildren(state_.mesh.mesh(), plan))
+    {
+      std::transform(firsts.begin() + 1, firsts.end(), firsts.begin(), std::back_inserter(counts),
+        [](Index end, Index first) { return end - first; });
+    }
+    return counts;
+  }
+
+  /// Puts the cells where the plan makes equal work, if they are not, and plans anew.
+  void balanceCells(Level& level)
+  {
+    progress().say(0.1, "sharing out the cells over the ranks");
+    {
+      const auto stopwatch = watch("seconds balancing");
+      const auto weights = childCounts(level.plan);
+      context_.statistics.set("new cells imbalance before",
+        findImbalance(
+          exchange_, std::accumulate(weights.begin(), weights.end(), std::int64_t{ 0 })));
+      if (isBalanced(exchange_, state_.mesh, weights))
+      {
+        return;
+      }
+      redistribute(context_, state_, weights);
+    }
+    level = planLevel();
+  }
+
+  void refineOnce(const RefinementPlan& plan)
+  {
+    RefinementTrace trace = state_.classification
+                              ? refineOntoCAD(exchange_, state_.mesh, plan, boundary(),
+                                  *state_.classification, newVertices_, context_.statistics)
+                              : refine(exchange_, state_.mesh, plan, context_.statistics);
+    meshHasChanged(state_);
+    projectedPoints_ += trace.projectedPoints;
+    state_.onBoundary = std::move(trace.onBoundary);
+    const auto stopwatch = watch("seconds copying fields");
+    state_.arrays = refineArrays(state_.arrays, trace.parentEdges, trace.firstChildren);
+    state_.mapping.refine(std::move(trace));
+  }
+
+  void makeQuadratic()
+  {
+    if (state_.classification)
+    {
+      projectedPoints_ += placeMidNodes(exchange_, state_.mesh, boundary(), *state_.classification,
+        options_.projectNewVertices, context_.statistics);
+    }
+    else
+    {
+      addMidNodes(exchange_, state_.mesh);
+    }
+    meshHasChanged(state_);
+    const auto stopwatch = watch("seconds copying fields");
+    const auto& edges = state_.mesh.converted.midNodes->table.edges;
+    state_.arrays = withMidNodes(state_.arrays, edges);
+    state_.mapping.addMidNodes(edges);
+  }
+
+  void finish()
+  {
+    if (options_.quadraticCells)
+    {
+      makeQuadratic();
+    }
+    const auto stopwatch = watch("seconds summary");
+    vtkFieldData* ofMesh = state_.arrays.ofMesh;
+    if (state_.classification)
+    {
+      summariseProjection(exchange_, state_.mesh, *state_.classification, projectedPoints_, ofMesh);
+    }
+    summariseMesh(exchange_, state_.mesh, qualityOf(exchange_, state_), ofMesh);
+  }
+
+  const PipelineContext& context_;
+  RankExchange& exchange_;
+  const RefinementOptions& options_;
+  MeshState& state_;
+  NewVertices newVertices_ = NewVertices::StayStraight;
+  std::int64_t projectedPoints_ = 0;
+};
+
+} // namespace
+
+void checkForQuadraticCells(vtkPointSet* data)
+{
+  if (vtkPolyData::SafeDownCast(data))
+  {
+    throw Error("poly data cannot hold quadratic cells; make the mesh an unstructured grid first "
+                "(the filter Append Datasets does), or switch Quadratic Cells off");
+  }
+}
+
+RefinementOutcome refineMesh(
+  const PipelineContext& context, MeshState& state, const RefinementOptions& options)
+{
+  return Refiner(context, options, state).run();
+}
+
+} // namespace cadrefine

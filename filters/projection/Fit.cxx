@@ -1,0 +1,286 @@
+#include "projection/Fit.h"
+
+#include "comm/LoadBalancedMap.h"
+
+#include <cadrefine/mesh/Quality.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace cadrefine
+{
+namespace
+{
+
+constexpr double boxMargin = 1e-6; ///< Of the CAD's size: its box is no more exact.
+constexpr double onCAD = 1e-7;     ///< Of the size: nearer vertices lie on it.
+constexpr std::size_t mostFarthest = 10;
+constexpr std::size_t mostConflicts = 100;
+
+/// A vertex in a list that all ranks make together.
+struct Entry
+{
+  double distance = 0;
+  double id = 0;
+  Point3 point{};
+
+  bool operator<(const Entry& other) const
+  {
+    return distance != other.distance ? distance > other.distance : id < other.id;
+  }
+};
+
+/// The first `most` entries of all ranks. Collective; 5 x `most` numbers are gathered from each
+/// rank.
+std::vector<Entry> firstOf(RankExchange& exchange, std::vector<Entry> mine, std::size_t most)
+{
+  constexpr double none = -1;
+  std::sort(mine.begin(), mine.end());
+  mine.resize(most, { none, 0, {} });
+  std::vector<double> numbers;
+  for (const Entry& entry : mine)
+  {
+    const auto& [x, y, z] = entry.point;
+    numbers.insert(numbers.end(), { entry.distance, entry.id, x, y, z });
+  }
+  numbers = exchange.gather(numbers);
+  std::vector<Entry> all;
+  for (std::size_t i = 0; i < numbers.size(); i += 5)
+  {
+    if (numbers[i] != none)
+    {
+      all.push_back(
+        { numbers[i], numbers[i + 1], { numbers[i + 2], numbers[i + 3], numbers[i + 4] } });
+    }
+  }
+  std::sort(all.begin(), all.end());
+  all.resize(std::min(all.size(), most));
+  return all;
+}
+
+double measureOf(const SimplexMesh& mesh, const Facet& facet)
+{
+  const auto& p = mesh.points;
+  const auto [a, b, c] = facet.vertices;
+  return c < 0 ? distance(p[a], p[b]) : 0.5 * norm(twofoldAreaVector(p[a], p[b], p[c]));
+}
+
+Point3 centroidOf(const SimplexMesh& mesh, const Facet& facet)
+{
+  const auto& p = mesh.points;
+  const auto [a, b, c] = facet.vertices;
+  return c < 0 ? 0.5 * (p[a] + p[b]) : (1.0 / 3) * (p[a] + p[b] + p[c]);
+}
+
+class FitSearch
+{
+public:
+  FitSearch(const ProjectionTask& task, const ProjectionResult& result, Fit& fit)
+    : task_(task), result_(result), fit_(fit),
+      dimension_(static_cast<std::int8_t>(task.triangles() ? 2 : 1)),
+      entities_(task.model().count(dimension_))
+  {
+  }
+
+  void measureBoundary()
+  {
+    std::vector<double> all;
+    std::vector<double> inBox;
+    std::vector<double> onCADToo;
+    // Parts of the entities' own measures in units of 2^-40, which sum up the same on any ranks.
+    std::vector<std::int64_t> parts(entities_, 0);
+    const auto& facets = task_.boundary.facets;
+    for (std::size_t f = 0; f < facets.size(); ++f)
+    {
+      const FacetRecord& record = result_.facets[f];
+      const double measure = measureOf(task_.mesh.mesh(), facets[f]);
+      if (record.onCAD)
+      {
+        onCADToo.push_back(measure);
+        addPart(parts, facets[f], record, measure);
+      }
+      if (record.onCAD || (!record.free && isInBox(centroidOf(task_.mesh.mesh(), facets[f]))))
+      {
+        inBox.push_back(measure);
+      }
+      if (record.onCAD || !record.free)
+      {
+        all.push_back(measure);
+      }
+    }
+    const double total = task_.exchange.sumReproducibly(all);
+    const double counted = task_.exchange.sumReproducibly(inBox);
+    const double covering = task_.exchange.sumReproducibly(onCADToo);
+    fit_.boundaryOnCAD = counted > 0 ? covering / counted : 0;
+    fit_.boundaryInBox = total > 0 ? counted / total : 0;
+    fit_.cadCovered = coveredShare(task_.exchange.sum(parts));
+  }
+
+  void findVerticesOff()
+  {
+    const auto& points = task_.points();
+    const auto& classes = result_.classification;
+    const auto owned = task_.mesh.shared.ownedHere(static_cast<Index>(points.size()));
+    std::vector<Entry> off;
+    std::vector<Point3> queries;
+    std::vector<std::size_t> asking;
+    for (std::size_t v = 0; v < points.size(); ++v)
+    {
+      if (!owned[v] || !task_.boundary.onBoundary[v] || !task_.options.inRegion(points[v]))
+      {
+        continue;
+      }
+      if (classes.entities[v])
+      {
+        addIfOff(off, v, classes.distances[v]);
+      }
+      else if (isInBox(points[v]))
+      {
+        queries.push_back(points[v]);
+        asking.push_back(v);
+      }
+    }
+    const auto answers = mapBalanced<double>(task_.exchange, std::move(queries),
+      [&](const Point3& point)
+      { return task_.projector.nearest(point, std::numeric_limits<double>::infinity()).distance; },
+      { "looking for the farthest of", "vertices" });
+    for (std::size_t i = 0; i < asking.size(); ++i)
+    {
+      addIfOff(off, asking[i], answers.values[i]);
+    }
+    fit_.verticesOffCAD = task_.exchange.sum(off.size());
+    for (const Entry& entry : firstOf(task_.exchange, std::move(off), mostFarthest))
+    {
+      fit_.farthest.push_back({ entry.point, entry.distance });
+    }
+  }
+
+private:
+  bool isInBox(const Point3& p) const
+  {
+    const double margin = boxMargin * task_.model().size();
+    const auto& [low, high] = fit_.cadBox;
+    bool inside = true;
+    for (int k = 0; k < 3; ++k)
+    {
+      inside = inside && p[k] >= low[k] - margin && p[k] <= high[k] + margin;
+    }
+    return inside;
+  }
+
+  void addIfOff(std::vector<Entry>& off, std::size_t vertex, double distance) const
+  {
+    if (distance > onCAD * task_.model().size())
+    {
+      const auto& mesh = task_.mesh.mesh();
+      off.push_back({ distance, static_cast<double>(mesh.ids[vertex]), mesh.points[vertex] });
+    }
+  }
+
+  /// The CAD edge of a segment on the CAD.
+  std::int32_t edgeOf(const Facet& segment) const
+  {
+    for (int end = 0; end < 2; ++end)
+    {
+      const EntityId entity = result_.classification.entities[segment.vertices[end]];
+      if (entity.dimension == 1)
+      {
+        return entity.index;
+      }
+    }
+    const ClosestPoint middle = task_.projector.nearest(
+      centroidOf(task_.mesh.mesh(), segment), std::numeric_limits<double>::infinity());
+    return middle.entity.dimension == 1 ? middle.entity.index : -1;
+  }
+
+  void addPart(std::vector<std::int64_t>& parts, const Facet& facet, const FacetRecord& record,
+    double measure) const
+  {
+    const std::int32_t index = task_.triangles() ? record.face : edgeOf(facet);
+    const double whole = index < 0 ? 0 : task_.model().measure({ dimension_, index });
+    if (whole > 0)
+    {
+      constexpr double most = 1024; // more would be no better, and could overflow in a sum
+      parts[index] += std::llround(std::ldexp(std::min(measure / whole, most), 40));
+    }
+  }
+
+  double coveredShare(const std::vector<std::int64_t>& parts) const
+  {
+    double covered = 0;
+    double all = 0;
+    for (std::size_t i = 0; i < parts.size(); ++i)
+    {
+      const double whole = task_.model().measure({ dimension_, static_cast<std::int32_t>(i) });
+      covered += whole * std::min(1.0, std::ldexp(static_cast<double>(parts[i]), -40));
+      all += whole;
+    }
+    return all > 0 ? covered / all : 0;
+  }
+
+  const ProjectionTask& task_;
+  const ProjectionResult& result_;
+  Fit& fit_;
+  std::int8_t dimension_;
+  std::size_t entities_;
+};
+
+/// Collective.
+void findConflicts(
+  RankExchange& exchange, const DistributedMesh& mesh, const ProjectionResult& result, Fit& fit)
+{
+  const auto owned = mesh.shared.ownedHere(static_cast<Index>(result.conflicts.size()));
+  std::vector<Entry> mine;
+  for (std::size_t v = 0; v < result.conflicts.size(); ++v)
+  {
+    if (owned[v] && result.conflicts[v])
+    {
+      mine.push_back({ 0, static_cast<double>(mesh.mesh().ids[v]), mesh.mesh().points[v] });
+    }
+  }
+  fit.conflictCount = exchange.sum(mine.size());
+  if (fit.conflictCount > 0)
+  {
+    for (const Entry& entry : firstOf(exchange, std::move(mine), mostConflicts))
+    {
+      fit.conflicts.push_back(entry.point);
+    }
+  }
+}
+
+} // namespace
+
+Fit findFit(const ProjectionTask& task, const ProjectionResult& result)
+{
+  Fit fit;
+  fit.cadBox = task.model().box();
+  FitSearch search(task, result, fit);
+  search.measureBoundary();
+  search.findVerticesOff();
+  findConflicts(task.exchange, task.mesh, result, fit);
+  return fit;
+}
+
+Fit findFitOfPoints(RankExchange& exchange, const DistributedMesh& mesh, const CADModel& model,
+  const ProjectionResult& result)
+{
+  Fit fit;
+  fit.cadBox = model.box();
+  const auto& entities = result.classification.entities;
+  const auto owned = mesh.shared.ownedHere(static_cast<Index>(entities.size()));
+  std::int64_t reached = 0;
+  for (std::size_t v = 0; v < entities.size(); ++v)
+  {
+    reached += owned[v] && entities[v];
+  }
+  reached = exchange.sum(reached);
+  fit.verticesOffCAD = result.projectedPoints - reached;
+  fit.boundaryInBox = 1;
+  fit.boundaryOnCAD = result.projectedPoints > 0
+                        ? static_cast<double>(reached) / static_cast<double>(result.projectedPoints)
+                        : 0;
+  return fit;
+}
+
+} // namespace cadrefine

@@ -1,0 +1,182 @@
+#include "projection/InitialProjection.h"
+
+#include "classification/Conflicts.h"
+#include "classification/CornerAssignment.h"
+#include "classification/FacetClassification.h"
+#include "classification/VertexClassification.h"
+#include "comm/LoadBalancedMap.h"
+#include "comm/WorkSteps.h"
+#include "motion/BoundaryMotion.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace cadrefine
+{
+namespace
+{
+
+/// A point that looks for its nearest one on the CAD, up to a limit.
+struct PointQuestion
+{
+  Point3 point;
+  double limit;
+  double exact;
+};
+
+struct NearestPoints
+{
+  std::vector<ClosestPoint> hits; ///< Of each vertex; none of those that did not ask.
+  std::int64_t asked = 0;         ///< Over all ranks.
+  std::int64_t slow = 0;          ///< Of those.
+  WorkBalance balance;
+};
+
+NearestPoints findNearest(const ProjectionTask& task)
+{
+  const auto& points = task.points();
+  const auto owned = task.mesh.shared.ownedHere(static_cast<Index>(points.size()));
+  NearestPoints result;
+  std::vector<Index> vertices;
+  std::vector<PointQuestion> queries;
+  for (std::size_t v = 0; v < points.size(); ++v)
+  {
+    if (task.boundary.onBoundary[v] && task.options.inRegion(points[v]))
+    {
+      vertices.push_back(static_cast<Index>(v));
+      queries.push_back({ points[v], task.limit(v), task.exact(v) });
+      result.asked += owned[v];
+    }
+  }
+  const auto answers = mapBalanced<ClosestPoint>(task.exchange, std::move(queries),
+    [&](const PointQuestion& query)
+    {
+      const ClosestPoint nearest = task.projector.nearest(query.point, query.limit);
+      return task.projector.onSmallest(query.point, query.exact, nearest);
+    },
+    { "projecting", "vertices" });
+  result.hits.resize(points.size());
+  for (std::size_t i = 0; i < vertices.size(); ++i)
+  {
+    result.hits[vertices[i]] = answers.values[i];
+    result.slow += owned[vertices[i]] && !answers.values[i].converged;
+  }
+  result.asked = task.exchange.sum(result.asked);
+  result.slow = task.exchange.sum(result.slow);
+  result.balance = answers.balance;
+  return result;
+}
+
+/// 1 for vertices of facets on the CAD, on whatever rank these are.
+std::vector<unsigned char> findVerticesOnCAD(
+  const ProjectionTask& task, const std::vector<FacetRecord>& records)
+{
+  std::vector<unsigned char> onCAD(task.points().size(), 0);
+  for (std::size_t f = 0; f < records.size(); ++f)
+  {
+    for (int k = 0; records[f].onCAD && k < task.boundary.facetCorners(); ++k)
+    {
+      onCAD[task.boundary.facets[f].vertices[k]] = 1;
+    }
+  }
+  combineShared(task.exchange, task.mesh.shared, onCAD,
+    [](unsigned char a, unsigned char b) { return std::max(a, b); });
+  return onCAD;
+}
+
+/// 1 for vertices that do not make way for others: those of the boundary, and outside the region.
+std::vector<unsigned char> findFixed(const ProjectionTask& task)
+{
+  std::vector<unsigned char> fixed = task.boundary.onBoundary;
+  for (std::size_t v = 0; v < fixed.size(); ++v)
+  {
+    fixed[v] = fixed[v] || !task.options.inRegion(task.points()[v]);
+  }
+  return fixed;
+}
+
+} // namespace
+
+ProjectionResult projectBoundary(RankExchange& exchange, DistributedMesh& mesh,
+  const BoundaryProjector& projector, const DistributedBoundary& boundary,
+  const ProjectionOptions& options)
+{
+  const ProjectionTask task{ exchange, mesh, projector, boundary, options };
+  WorkSteps steps(exchange.progress());
+  steps.begin(0, 0.6);
+  NearestPoints nearest = findNearest(task);
+  auto& hits = nearest.hits;
+  steps.begin(0.6, 0.75);
+  const FacetClasses facets = classifyFacets(task, hits);
+  const auto onCAD = findVerticesOnCAD(task, facets.records);
+  steps.begin(0.75, 0.85);
+  const VertexClassification meeting = classifyVertices(task, hits, facets);
+  placeVertices(task, meeting, hits);
+  steps.begin(0.85, 1);
+
+  ProjectionResult result;
+  const auto taken = giveCorners(task, meeting, onCAD, hits);
+  result.conflicts = findConflicts(task, facets, meeting, onCAD, taken, hits);
+  result.classification.resize(hits.size());
+  Moves moves(mesh.mesh());
+  for (std::size_t v = 0; v < hits.size(); ++v)
+  {
+    if (onCAD[v] && hits[v].entity)
+    {
+      result.classification.set(static_cast<Index>(v), hits[v]);
+      moves.add(static_cast<Index>(v), hits[v].point);
+    }
+  }
+  moveOntoCAD(exchange, mesh, std::move(moves), result.classification,
+    { projector, findFixed(task), options.mendCells });
+  result.projectedPoints = nearest.asked;
+  result.slowPoints = nearest.slow;
+  result.balance = nearest.balance;
+  result.facets = facets.records;
+  return result;
+}
+
+ProjectionResult projectPoints(RankExchange& exchange, DistributedMesh& mesh, const CADModel& model,
+  const ProjectionOptions& options)
+{
+  auto& points = mesh.mesh().points;
+  ProjectionResult result;
+  result.classification.resize(points.size());
+  result.conflicts.assign(points.size(), 0);
+  const auto owned = mesh.shared.ownedHere(static_cast<Index>(points.size()));
+  SearchScope scope;
+  if (options.maximumDistance > 0)
+  {
+    scope.maximumDistance = options.maximumDistance;
+  }
+  std::vector<Index> vertices;
+  std::vector<Point3> queries;
+  for (std::size_t v = 0; v < points.size(); ++v)
+  {
+    if (options.inRegion(points[v]))
+    {
+      vertices.push_back(static_cast<Index>(v));
+      queries.push_back(points[v]);
+      result.projectedPoints += owned[v];
+    }
+  }
+  const auto answers = mapBalanced<ClosestPoint>(exchange, std::move(queries),
+    [&](const Point3& point) { return model.nearest(point, scope); }, { "projecting", "points" });
+  for (std::size_t i = 0; i < vertices.size(); ++i)
+  {
+    const ClosestPoint& hit = answers.values[i];
+    result.slowPoints += owned[vertices[i]] && !hit.converged;
+    if (hit.entity)
+    {
+      result.classification.set(vertices[i], hit);
+      points[vertices[i]] = hit.point;
+    }
+  }
+  result.projectedPoints = exchange.sum(result.projectedPoints);
+  result.slowPoints = exchange.sum(result.slowPoints);
+  result.balance = answers.balance;
+  return result;
+}
+
+} // namespace cadrefine

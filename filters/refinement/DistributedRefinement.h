@@ -1,0 +1,66 @@
+// One level of refinement over all ranks.
+#pragma once
+
+#include "classification/DistributedBoundary.h"
+#include "classification/EdgeMidpoints.h"
+#include "comm/RunStatistics.h"
+#include "fields/CADArrays.h"
+#include "mesh/DistributedMesh.h"
+
+#include <cadrefine/refinement/RefinementTrace.h>
+
+#include <vector>
+
+namespace cadrefine
+{
+
+/// Which edges of a piece are cut.
+struct RefinementPlan : MarkedEdges
+{
+  bool uniform = false;
+};
+
+/// Marks all edges. Collective.
+RefinementPlan planUniform(RankExchange& exchange, const DistributedMesh& mesh);
+
+/// The boundary of a mesh whose marked cells' facets are to be cut.
+struct FacetsToCut
+{
+  const ClassifiedBoundary& boundary;
+  const Classification& classification;
+};
+
+/// Marks the longest edges of the marked cells (one entry for each cell of the mesh's own
+/// dimension), with `toCut` also those of markFacets, and others until no vertex hangs on any rank.
+/// A cell is bisected at the longest of its marked edges first. Collective; one message to each
+/// neighbour, of a byte a shared edge, for every time that marks cross between ranks.
+RefinementPlan planLongestEdge(RankExchange& exchange, const DistributedMesh& mesh,
+  const std::vector<unsigned char>& cellMarks, const FacetsToCut* toCut);
+
+/// How many cells `refine` makes of each cell.
+ChildRanges countChildren(const SimplexMesh& mesh, const RefinementPlan& plan);
+
+/// Cuts the mesh as planned (new vertices at midpoints; new ids by a parallel sort of the ids of
+/// the edges' ends, so that they do not depend on the partition). What is shared with other ranks
+/// follows from what was. Adds to the figures "seconds cutting" and "seconds numbering".
+/// Collective.
+RefinementTrace refine(RankExchange& exchange, DistributedMesh& mesh, const RefinementPlan& plan,
+  RunStatistics& statistics);
+
+/// What is done with the new vertices of classified edges.
+enum class NewVertices
+{
+  MoveOntoCAD,
+  MoveAndMend, ///< The same, and cells that are inverted or flat are mended (see MoveSettings).
+  StayStraight ///< They are classified, and keep their distance from the CAD.
+};
+
+/// The same, and classifies the new vertices of classified edges: each belongs onto the entity of
+/// its edge in `classified`, the boundary of the mesh (S. Strunk, KTH 2013, Algorithm 4.3).
+/// MoveOntoCAD moves them there as far as all cells stay valid; vertices that stopped on the way
+/// earlier try again. Adds to "seconds projection" and "seconds moves" too. Collective.
+RefinementTrace refineOntoCAD(RankExchange& exchange, DistributedMesh& mesh,
+  const RefinementPlan& plan, const ClassifiedBoundary& classified, Classification& classification,
+  NewVertices newVertices, RunStatistics& statistics);
+
+} // namespace cadrefine

@@ -1,0 +1,29 @@
+// Reading CAD files.
+#pragma once
+
+#include <cadrefine/cad/model/CADModel.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace cadrefine
+{
+
+/// Reads an IGES (.igs, .iges), STEP (.stp, .step) or BREP (.brep) file: sews, heals and converts
+/// to NURBS. A face or edge that cannot be read, healed or converted is lost alone, and listed in
+/// CADModel::unread(). Coordinates are the file's own numbers; with a `unit` (m, cm, mm, in or ft,
+/// or another name of these) they are converted from the file's unit to that one, parameters are as
+/// they were. Files that hold only curves give a model of edges. The file is read in a
+/// child process (fork). Where that dies of what the model can do without (names, sewing, healing,
+/// one face), the file is read again without it, which CADReport::repairs tells. Faces and edges
+/// are converted on so many threads; the model does not depend on them. Throws Error, which names
+/// the file and the reason, where nothing can be read.
+std::shared_ptr<const CADModel> readCADFile(
+  const std::string& path, const std::string& unit = "", int threads = 1);
+
+/// The same as bytes for CADModel::fromBytes, without building the model.
+std::vector<char> readCADBytes(
+  const std::string& path, const std::string& unit = "", int threads = 1);
+
+} // namespace cadrefine

@@ -1,0 +1,14 @@
+// Threads that belong to no pool. Private to geom/cad.
+#pragma once
+
+#include <cadrefine/base/ParallelFor.h>
+
+namespace cadrefine
+{
+
+/// Loops on so many threads, which are started for each loop: a pool that a forked process has from
+/// its parent has lost its threads. All calls are made; where some throw, the exception of the
+/// lowest range is thrown when all have ended.
+ParallelFor forOnOwnThreads(int threads);
+
+} // namespace cadrefine

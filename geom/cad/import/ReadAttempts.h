@@ -1,0 +1,20 @@
+// Reading, again and again without what Open CASCADE crashes on. Private to geom/cad.
+#pragma once
+
+#include <cadrefine/cad/import/IsolatedRun.h>
+#include <cadrefine/cad/import/ReadSteps.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace cadrefine
+{
+
+/// What `work` returns, done by runIsolated, on `threads` threads. Where it dies in an optional
+/// step, or over one face or edge, it is done again without; where it dies on several threads,
+/// again on one, which tells over what. Throws RunFailure where it dies of anything else.
+std::vector<char> runAttempts(const std::string& context, const RunLimits& limits, int threads,
+  const std::function<std::vector<char>(const ReadOptions&)>& work);
+
+} // namespace cadrefine

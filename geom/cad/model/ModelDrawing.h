@@ -1,0 +1,38 @@
+// The drawing of a model, or of a share of it.
+#pragma once
+
+#include <cadrefine/cad/model/CADModel.h>
+
+#include <string>
+#include <vector>
+
+namespace cadrefine
+{
+
+/// The entities with the indices rank, rank + size, ...
+struct DrawingShare
+{
+  int rank = 0;
+  int size = 1;
+
+  bool has(int entity) const { return entity % size == rank; }
+};
+
+struct ModelDrawing
+{
+  /// One for each edge; empty where it cannot be drawn, or is neither in the share nor the first
+  /// one of a vertex of the share, which has its normal.
+  std::vector<Tessellation> edges;
+  std::vector<Tessellation> faces; ///< The same, those of the share.
+  /// A line for each of the share that cannot be drawn, and one where a failure on several threads
+  /// did not come again on one.
+  std::vector<std::string> undrawn;
+};
+
+/// Draws edges and faces, to `deflection` (a length), in a child process (fork) with so many
+/// threads: what makes Open CASCADE crash, or takes it far too long, is left out. The same on any
+/// number of threads. Throws Error where nothing can be drawn.
+ModelDrawing drawModel(
+  const CADModel& model, double deflection, const DrawingShare& share = {}, int threads = 1);
+
+} // namespace cadrefine

@@ -1,0 +1,249 @@
+#include <cadrefine/classification/BoundaryProjector.h>
+
+#include <cadrefine/classification/CADAdjacency.h>
+#include <cadrefine/classification/ClassificationTolerances.h>
+#include <cadrefine/mesh/Quality.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace cadrefine
+{
+namespace
+{
+
+/// The nearer of two answers; on a tie the smaller entity.
+bool isBetter(const ClosestPoint& a, const ClosestPoint& b)
+{
+  return a.distance != b.distance ? a.distance < b.distance : a.entity < b.entity;
+}
+
+} // namespace
+
+BoundaryProjector::BoundaryProjector(const CADModel& model, BoundaryKind kind)
+  : model_(model), kind_(kind), faces_(model, FaceSides(model.count(2), 0)), edges_(model),
+    corners_(findCorners(model)), lines_(findCreaseLines(model.nurbs(), corners_))
+{
+}
+
+ClosestPoint BoundaryProjector::nearest(const Point3& point, double limit) const
+{
+  SearchScope scope;
+  scope.maximumDistance = limit;
+  scope.faces = kind_ == BoundaryKind::Triangles;
+  return onSharedEdge(model_, point, model_.nearest(point, scope));
+}
+
+ClosestPoint BoundaryProjector::onSmallest(
+  const Point3& point, double exact, const ClosestPoint& nearest) const
+{
+  if (!nearest.entity || nearest.distance > exact)
+  {
+    return nearest;
+  }
+  SearchScope scope;
+  scope.maximumDistance = exact;
+  scope.faces = false;
+  scope.edges = scope.sharpEdges = false;
+  const ClosestPoint vertex = model_.nearest(point, scope);
+  if (vertex.entity)
+  {
+    return vertex;
+  }
+  scope.edges = scope.sharpEdges = true;
+  const ClosestPoint edge = model_.nearest(point, scope);
+  return edge.entity ? edge : nearest;
+}
+
+ClosestPoint BoundaryProjector::nearestOn(EntityId entity, const Point3& point) const
+{
+  return onSharedEdge(model_, point, model_.nearestOn(entity, point));
+}
+
+bool BoundaryProjector::fitsNormal(
+  EntityId entity, const ClosestPoint& where, const Vector3& normal) const
+{
+  if (entity.dimension == 2 && where.entity == entity)
+  {
+    return fitsEitherWay(model_.normal(entity.index, where.parameters), normal);
+  }
+  const auto faces = entitiesAround(model_.nurbs(), entity, 2);
+  return std::any_of(faces.begin(), faces.end(),
+    [&](std::int32_t face) { return fitsEitherWay(model_.normalNear(face, where.point), normal); });
+}
+
+bool BoundaryProjector::isOnCAD(const ClassifiedFacet& facet) const
+{
+  const auto& p = facet.points;
+  const double unlimited = std::numeric_limits<double>::infinity();
+  if (kind_ == BoundaryKind::Segments)
+  {
+    const ClosestPoint where = nearest(0.5 * (p[0] + p[1]), unlimited);
+    return fitsTangent(model_, where, normalized(p[1] - p[0]));
+  }
+  const Vector3 normal = normalized(twofoldAreaVector(p[0], p[1], p[2]));
+  for (int k = 0; k < 3; ++k)
+  {
+    if (facet.entities[k].dimension == 2 &&
+        fitsEitherWay(model_.normalNear(facet.entities[k].index, p[k]), normal))
+    {
+      return true;
+    }
+  }
+  const Point3 centroid = (1.0 / 3.0) * (p[0] + p[1] + p[2]);
+  // Between the edges of a narrow face, other faces may be nearer to the centroid than it is.
+  const auto common = commonFaces(model_.nurbs(), facet.entities);
+  if (std::any_of(common.begin(), common.end(),
+        [&](std::int32_t face)
+        { return fitsEitherWay(model_.normalNear(face, centroid), normal); }))
+  {
+    return true;
+  }
+  const ClosestPoint where = nearest(centroid, unlimited);
+  return fitsNormal(where.entity, where, normal);
+}
+
+std::int32_t BoundaryProjector::faceOf(const ClassifiedFacet& facet) const
+{
+  const auto faces = commonFaces(model_.nurbs(), facet.entities);
+  return faces.size() == 1 ? faces[0] : faces_.nearestOf(faces, facet.points);
+}
+
+std::int32_t BoundaryProjector::commonCrease(
+  const std::array<Point3, 2>& points, const std::array<EntityId, 2>& entities) const
+{
+  const Point3 middle = 0.5 * (points[0] + points[1]);
+  std::int32_t best = -1;
+  double bestDistance = ClassificationTolerances::creaseDistance * distance(points[0], points[1]);
+  for (const std::int32_t edge : commonEntities(model_.nurbs(), entities[0], entities[1], 1))
+  {
+    const double away = nearestOn({ 1, edge }, middle).distance;
+    if (model_.nurbs().edges[edge].sharp && away < bestDistance)
+    {
+      best = edge;
+      bestDistance = away;
+    }
+  }
+  return best;
+}
+
+/// A smooth edge that both ends lie on, between the faces of the facets on the two sides.
+std::int32_t BoundaryProjector::commonSmoothEdge(const std::array<Point3, 2>& points,
+  const std::array<EntityId, 2>& entities, const std::vector<FacetRecord>& onCAD) const
+{
+  if (onCAD.size() != 2 || onCAD[0].face < 0 || onCAD[1].face < 0)
+  {
+    return -1;
+  }
+  const NurbsModel& nurbs = model_.nurbs();
+  const auto between = edgesBetween(nurbs, onCAD[0].face, onCAD[1].face);
+  for (const std::int32_t edge : commonEntities(nurbs, entities[0], entities[1], 1))
+  {
+    if (!nurbs.edges[edge].sharp && std::binary_search(between.begin(), between.end(), edge) &&
+        edges_.follows(edge, points))
+    {
+      return edge;
+    }
+  }
+  return -1;
+}
+
+bool BoundaryProjector::isOnLineOf(std::int32_t crease, EntityId entity) const
+{
+  const auto edges = entitiesAround(model_.nurbs(), entity, 1);
+  return std::any_of(
+    edges.begin(), edges.end(), [&](std::int32_t edge) { return lines_[edge] == lines_[crease]; });
+}
+
+EdgeClass BoundaryProjector::classify(const std::array<Point3, 2>& points,
+  const std::array<EntityId, 2>& entities, const std::vector<FacetRecord>& facets) const
+{
+  const auto onCAD = facetsOnCAD(facets);
+  if (!entities[0] || !entities[1] || onCAD.empty())
+  {
+    return {};
+  }
+  const bool endsOnEdges = entities[0].dimension <= 1 && entities[1].dimension <= 1;
+  if (kind_ == BoundaryKind::Segments || !endsOnEdges)
+  {
+    return { EdgeClass::Smooth, -1 };
+  }
+  const auto pairs = meshEdges(points, onCAD);
+  const bool angle = std::any_of(pairs.begin(), pairs.end(), hasAngle);
+  const std::int32_t common = angle ? commonCrease(points, entities) : -1;
+  const std::int32_t crease = common >= 0 ? common : edges_.findCrease(pairs).edge;
+  if (crease >= 0 && isOnLineOf(crease, entities[0]) && isOnLineOf(crease, entities[1]))
+  {
+    return { EdgeClass::OnEdge, crease };
+  }
+  const std::int32_t smooth = commonSmoothEdge(points, entities, onCAD);
+  return { smooth >= 0 ? EdgeClass::OnEdge : EdgeClass::Smooth, smooth };
+}
+
+ClosestPoint BoundaryProjector::projectOnEdge(std::int32_t edge, const Point3& point) const
+{
+  if (edge >= 0)
+  {
+    const ClosestPoint where = nearestOn({ 1, edge }, point);
+    if (where.entity.dimension == 1 || !model_.nurbs().edges[edge].sharp)
+    {
+      return where;
+    }
+  }
+  return edges_.nearestCrease(point, std::numeric_limits<double>::infinity());
+}
+
+ClosestPoint BoundaryProjector::projectSmoothly(
+  const std::array<EntityId, 2>& entities, const Point3& point) const
+{
+  // On an entity that both ends share: it cannot jump to the other side of something thin.
+  const std::int8_t dimension = kind_ == BoundaryKind::Triangles ? 2 : 1;
+  ClosestPoint best;
+  const auto tryOn = [&](EntityId entity)
+  {
+    const ClosestPoint where = nearestOn(entity, point);
+    if (where.entity.dimension == dimension && isBetter(where, best))
+    {
+      best = where;
+    }
+  };
+  if (entities[0] == entities[1] && entities[0].dimension == dimension)
+  {
+    tryOn(entities[0]); // as most are
+  }
+  else
+  {
+    for (const std::int32_t entity :
+      commonEntities(model_.nurbs(), entities[0], entities[1], dimension))
+    {
+      tryOn({ dimension, entity });
+    }
+  }
+  return best.entity ? best : nearest(point, std::numeric_limits<double>::infinity());
+}
+
+ClosestPoint BoundaryProjector::projectMidpoint(const BoundaryEdge& edge) const
+{
+  return project(edge.edgeClass, 0.5 * (edge.points[0] + edge.points[1]), edge.entities);
+}
+
+ClosestPoint BoundaryProjector::project(
+  const EdgeClass& edgeClass, const Point3& point, const std::array<EntityId, 2>& entities) const
+{
+  switch (edgeClass.kind)
+  {
+    case EdgeClass::OnEdge:
+      return projectOnEdge(edgeClass.edge, point);
+    case EdgeClass::Smooth:
+      return projectSmoothly(entities, point);
+    default:
+      return {};
+  }
+}
+
+bool BoundaryProjector::isCorner(std::int32_t vertex) const
+{
+  return std::binary_search(corners_.begin(), corners_.end(), vertex);
+}
+
+} // namespace cadrefine

@@ -1,0 +1,122 @@
+// Where the vertices, facets and edges of a mesh's boundary belong on the CAD.
+#pragma once
+
+#include <cadrefine/base/EntityId.h>
+#include <cadrefine/base/MeshTypes.h>
+#include <cadrefine/base/Vector3.h>
+#include <cadrefine/cad/model/CADModel.h>
+#include <cadrefine/classification/EdgeFinder.h>
+#include <cadrefine/classification/FaceFinder.h>
+
+#include <array>
+#include <vector>
+
+namespace cadrefine
+{
+
+/// What the CAD is compared with: the boundary facets of a mesh of tetrahedra or of triangles in
+/// space (triangles, against CAD faces), or those of a planar mesh (segments, against CAD edges).
+enum class BoundaryKind
+{
+  Triangles,
+  Segments
+};
+
+/// A facet with the CAD entities that its corners lie on. Segments use two corners.
+struct ClassifiedFacet
+{
+  std::array<Point3, 3> points;
+  std::array<EntityId, 3> entities;
+};
+
+/// How the midpoint of a mesh edge is to be placed.
+struct EdgeClass
+{
+  enum Kind : std::int32_t
+  {
+    Straight = 0, ///< In the middle of the edge: the edge does not lie on the CAD.
+    Smooth = 1,   ///< On the faces (of a planar mesh: edges) that the ends lie on.
+    OnEdge = 2    ///< On CAD edge `edge`, or on the nearest crease where that is -1.
+  };
+  Kind kind = Straight;
+  std::int32_t edge = -1;
+};
+
+struct BoundaryEdge
+{
+  EdgeClass edgeClass;
+  std::array<Point3, 2> points;
+  std::array<EntityId, 2> entities;
+};
+
+/// The rules by which mesh entities are classified on the CAD and their points are projected.
+/// All answers are pure functions of the arguments and the model.
+class BoundaryProjector
+{
+public:
+  BoundaryProjector(const CADModel& model, BoundaryKind kind);
+
+  BoundaryKind kind() const { return kind_; }
+  const CADModel& model() const { return model_; }
+
+  /// Nearest point of what the boundary is compared with, up to `limit`; on a face's border that of
+  /// the edge which the faces share (see onSharedEdge).
+  ClosestPoint nearest(const Point3& point, double limit) const;
+  /// Given the nearest point of the model: where the point lies on a CAD vertex or else a CAD edge
+  /// within `exact`, the nearest of these; otherwise that point.
+  ClosestPoint onSmallest(const Point3& point, double exact, const ClosestPoint& nearest) const;
+  /// Nearest point of `entity` and its closure, in the same sense.
+  ClosestPoint nearestOn(EntityId entity, const Point3& point) const;
+
+  /// Whether a facet whose corners all lie near the CAD stands for a part of it: whether its normal
+  /// (a segment's direction) fits that of the CAD to 60 degrees at one of its corners or at its
+  /// centroid. Tells the facets of a wall that meets the CAD from those on the CAD.
+  bool isOnCAD(const ClassifiedFacet& facet) const;
+
+  /// Of a classified facet, the CAD face that all of its corners lie on; of several the nearest one
+  /// whose normal fits; -1 where there is none.
+  std::int32_t faceOf(const ClassifiedFacet& facet) const;
+
+  /// Class of the edge between two classified vertices, from the facets beside it (never from its
+  /// ends alone).
+  EdgeClass classify(const std::array<Point3, 2>& points, const std::array<EntityId, 2>& entities,
+    const std::vector<FacetRecord>& facets) const;
+
+  /// The point of the CAD for the midpoint of an edge; with no entity for Straight. The same for
+  /// both directions of the edge.
+  ClosestPoint projectMidpoint(const BoundaryEdge& edge) const;
+  /// The same for another point that stands for the edge, such as one of a curved edge.
+  ClosestPoint project(
+    const EdgeClass& edgeClass, const Point3& point, const std::array<EntityId, 2>& entities) const;
+
+  /// CAD vertices that want a mesh vertex of their own: see findCorners.
+  const std::vector<std::int32_t>& corners() const { return corners_; }
+  bool isCorner(std::int32_t vertex) const;
+  /// For each CAD edge the line of creases that it is part of: see findCreaseLines.
+  const std::vector<std::int32_t>& lines() const { return lines_; }
+  /// Nearest crease (sharp edges and their ends) up to `limit`.
+  ClosestPoint nearestCrease(const Point3& point, double limit) const
+  {
+    return edges_.nearestCrease(point, limit);
+  }
+
+private:
+  bool fitsNormal(EntityId entity, const ClosestPoint& where, const Vector3& normal) const;
+  std::int32_t commonCrease(
+    const std::array<Point3, 2>& points, const std::array<EntityId, 2>& entities) const;
+  std::int32_t commonSmoothEdge(const std::array<Point3, 2>& points,
+    const std::array<EntityId, 2>& entities, const std::vector<FacetRecord>& onCAD) const;
+  /// Whether the crease is part of a line of creases that the entity, an edge or a vertex, is on.
+  bool isOnLineOf(std::int32_t crease, EntityId entity) const;
+  ClosestPoint projectOnEdge(std::int32_t edge, const Point3& point) const;
+  ClosestPoint projectSmoothly(const std::array<EntityId, 2>& entities, const Point3& point) const;
+
+  const CADModel& model_;
+  BoundaryKind kind_;
+  FaceFinder faces_;
+  EdgeFinder edges_;
+  std::vector<std::int32_t> corners_;
+  std::vector<std::int32_t> lines_;
+};
+
+} // namespace cadrefine

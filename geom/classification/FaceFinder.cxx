@@ -1,0 +1,173 @@
+#include <cadrefine/classification/FaceFinder.h>
+
+#include <cadrefine/classification/CADAdjacency.h>
+#include <cadrefine/classification/ClassificationTolerances.h>
+#include <cadrefine/mesh/Quality.h>
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+namespace cadrefine
+{
+namespace
+{
+
+std::int8_t sideOf(std::int64_t alike, std::int64_t opposite, std::int8_t otherwise)
+{
+  const std::int64_t all = alike + opposite;
+  if (all == 0)
+  {
+    return otherwise;
+  }
+  const double enough = ClassificationTolerances::sideMajority * static_cast<double>(all);
+  return static_cast<double>(alike) >= enough      ? 1
+         : static_cast<double>(opposite) >= enough ? -1
+                                                   : otherwise;
+}
+
+Point3 centroidOf(const std::array<Point3, 3>& p)
+{
+  return (1.0 / 3.0) * (p[0] + p[1] + p[2]);
+}
+
+} // namespace
+
+FaceSides decideSides(
+  const std::vector<std::int64_t>& alike, const std::vector<std::int64_t>& opposite)
+{
+  const std::int64_t zero = 0;
+  const std::int8_t ofAll = sideOf(std::accumulate(alike.begin(), alike.end(), zero),
+    std::accumulate(opposite.begin(), opposite.end(), zero), 0);
+  FaceSides sides(alike.size());
+  for (std::size_t face = 0; face < sides.size(); ++face)
+  {
+    sides[face] = sideOf(alike[face], opposite[face], ofAll);
+  }
+  return sides;
+}
+
+bool FaceFinder::fits(std::int32_t face, const Vector3& normalOfFace, const Vector3& normal) const
+{
+  return fitsEitherWay(normalOfFace, normal) && sides_[face] * dot(normalOfFace, normal) >= 0;
+}
+
+bool FaceFinder::fitsAt(const ClosestPoint& where, const Vector3& normal) const
+{
+  if (where.entity.dimension == 2)
+  {
+    return fits(where.entity.index, model_.normal(where.entity.index, where.parameters), normal);
+  }
+  const auto faces = entitiesAround(model_.nurbs(), where.entity, 2);
+  return std::any_of(faces.begin(), faces.end(),
+    [&](std::int32_t face) { return fits(face, model_.normalNear(face, where.point), normal); });
+}
+
+std::int32_t FaceFinder::faceByCorners(const CornerHits& facet, const Vector3& normal) const
+{
+  for (int k = 0; k < 3; ++k)
+  {
+    const ClosestPoint& hit = facet.hits[k];
+    if (facet.amongItsOwn[k] && hit.entity.dimension == 2 && fitsAt(hit, normal))
+    {
+      return hit.entity.index;
+    }
+  }
+  return -1;
+}
+
+/// Of faces that are equally near, as those at an edge are, the one whose normal fits best.
+std::int32_t FaceFinder::nearestFitting(
+  const std::vector<std::int32_t>& faces, const Point3& centroid, const Vector3& normal) const
+{
+  const double tie = ClassificationTolerances::tie * model_.size();
+  std::vector<double> distances(faces.size(), std::numeric_limits<double>::infinity());
+  std::vector<double> cosines(faces.size(), 0);
+  for (std::size_t i = 0; i < faces.size(); ++i)
+  {
+    const Vector3 ofFace = model_.normalNear(faces[i], centroid);
+    if (fits(faces[i], ofFace, normal))
+    {
+      distances[i] = model_.nearestOn({ 2, faces[i] }, centroid).distance;
+      cosines[i] = std::abs(dot(ofFace, normal));
+    }
+  }
+  std::int32_t best = -1;
+  double bestCosine = 0;
+  for (std::size_t i = 0; i < faces.size(); ++i)
+  {
+    if (distances[i] <= *std::min_element(distances.begin(), distances.end()) + tie &&
+        cosines[i] > bestCosine)
+    {
+      best = faces[i];
+      bestCosine = cosines[i];
+    }
+  }
+  return best;
+}
+
+FaceMatch FaceFinder::find(const CornerHits& facet) const
+{
+  const auto& p = facet.points;
+  const Vector3 twofoldArea = twofoldAreaVector(p[0], p[1], p[2]);
+  const Vector3 normal = normalized(twofoldArea);
+  const std::int32_t ofCorners = faceByCorners(facet, normal);
+  if (ofCorners >= 0)
+  {
+    return { ofCorners, 1 };
+  }
+  const Point3 centroid = centroidOf(p);
+  if (facet.exact)
+  {
+    const auto common = commonFaces(
+      model_.nurbs(), { facet.hits[0].entity, facet.hits[1].entity, facet.hits[2].entity });
+    const std::int32_t ofAll = nearestFitting(common, centroid, normal);
+    if (ofAll >= 0)
+    {
+      return { ofAll, 1 };
+    }
+  }
+  const auto nearest = [&](const Point3& point)
+  { return onSharedEdge(model_, point, model_.nearest(point)); };
+  const ClosestPoint where = nearest(centroid);
+  if (where.entity.dimension == 2 && fitsAt(where, normal))
+  {
+    return { where.entity.index, 1 };
+  }
+  std::vector<EntityId> nearby{ where.entity };
+  if (where.entity.dimension == 2)
+  {
+    // A thin part: what the corners are near to, and what is seen from beside the facet.
+    const Vector3 height = std::sqrt(norm(twofoldArea)) * normal;
+    nearby.push_back(nearest(centroid + height).entity);
+    nearby.push_back(nearest(centroid - height).entity);
+    for (const ClosestPoint& hit : facet.hits)
+    {
+      nearby.push_back(hit.entity);
+    }
+  }
+  const std::int32_t face = nearestFitting(facesAround(nearby), centroid, normal);
+  return { face, face >= 0 && where.entity.dimension == 2 };
+}
+
+std::vector<std::int32_t> FaceFinder::facesAround(const std::vector<EntityId>& entities) const
+{
+  std::vector<std::int32_t> faces;
+  for (const EntityId entity : entities)
+  {
+    const auto more = entitiesAround(model_.nurbs(), entity, 2);
+    faces.insert(faces.end(), more.begin(), more.end());
+  }
+  std::sort(faces.begin(), faces.end());
+  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  return faces;
+}
+
+std::int32_t FaceFinder::nearestOf(
+  const std::vector<std::int32_t>& faces, const std::array<Point3, 3>& points) const
+{
+  return nearestFitting(
+    faces, centroidOf(points), normalized(twofoldAreaVector(points[0], points[1], points[2])));
+}
+
+} // namespace cadrefine

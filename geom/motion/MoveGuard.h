@@ -1,0 +1,111 @@
+// Moving vertices to their targets without ever inverting a cell.
+#pragma once
+
+#include <cadrefine/base/ParallelFor.h>
+#include <cadrefine/mesh/SimplexMesh.h>
+
+#include <vector>
+
+namespace cadrefine
+{
+
+/// Straight moves of some vertices of a mesh, each done up to a part of its way.
+struct Moves
+{
+  std::vector<Point3> targets;      ///< A vertex each; the vertex itself where it does not move.
+  std::vector<double> fractions;    ///< In [0, 1]; 0 where it does not move.
+  std::vector<unsigned char> whole; ///< 1: the vertex moves all of its way or not at all.
+
+  /// No moves of the vertices of `mesh`.
+  explicit Moves(const SimplexMesh& mesh);
+  void add(Index vertex, const Point3& target);
+  /// Where the vertex stands: its target exactly at fraction 1.
+  Point3 position(const SimplexMesh& mesh, Index vertex) const;
+};
+
+/// Cells of the mesh's own dimension with a flagged vertex, ascending. Work: one look at each cell.
+std::vector<Index> cellsAt(
+  const SimplexMesh& mesh, const std::vector<unsigned char>& flags, const ParallelFor& parallelFor);
+/// Flags the vertices of these cells.
+void flagVertices(
+  const SimplexMesh& mesh, const std::vector<Index>& cells, std::vector<unsigned char>& flags);
+
+/// Whether a cell is valid, and its mean ratio, negative where it is inverted.
+struct CellState
+{
+  bool valid = false;
+  double quality = 0;
+};
+
+/// Of a cell with its vertices at `points`: validity by exact orientation. A triangle is valid
+/// where it turns as seen from the end of `side`.
+CellState stateOf(
+  const std::array<Index, 4>& cell, const std::vector<Point3>& points, const Vector3& side = {});
+CellState stateOf(
+  const std::array<Index, 3>& cell, const std::vector<Point3>& points, const Vector3& side);
+
+/// Keeps cells valid while their vertices move, from a mesh whose points are the starting state.
+///
+/// A cell that is valid accepts moves after which it is valid by exact orientation and its mean
+/// ratio is at least half of what it was in the reference state, but not below `lowestQuality`, or
+/// at least `qualityFloor`; one that is worse than that, inverted or flat, if it gets no worse.
+/// With the state before all moves as reference, no number of moves in a row wears cells down.
+/// Halving the way of the vertices of every cell that does not accept, at once and until all do,
+/// ends in a state that does not depend on the order of cells: the unmoved state is accepted by
+/// all. Over ranks take the minimum of the fractions of shared vertices after each sweep, until no
+/// rank changes any.
+class MoveGuard
+{
+public:
+  static constexpr double qualityFloor = 0.05;
+  static constexpr double lowestQuality = 0.001;
+  static constexpr int maximumHalvings = 12;
+
+  /// For these moves; the starting state is the reference.
+  MoveGuard(const SimplexMesh& mesh, const Moves& moves);
+  /// `reference` has a point for each vertex; all cells accept the starting state. `plane` is the
+  /// unit normal of a planar mesh, from whose end its triangles should turn; where it is zero,
+  /// triangles keep the side that they have in the reference state. `cells` are those with a vertex
+  /// that moves (others among them are left out); without them all are looked at. Memory for those
+  /// with a vertex that moves. Keeps a reference to the mesh. All methods loop by `parallelFor`.
+  MoveGuard(const SimplexMesh& mesh, const Moves& moves, const std::vector<Point3>& reference,
+    const Vector3& plane, const ParallelFor& parallelFor = serialFor);
+  MoveGuard(const SimplexMesh& mesh, const Moves& moves, const std::vector<Point3>& reference,
+    const Vector3& plane, const std::vector<Index>& cells,
+    const ParallelFor& parallelFor = serialFor);
+
+  /// One sweep: halves the fractions of the moving vertices of every cell that does not accept (to
+  /// 0 after `maximumHalvings`, and at once where they move wholly). Returns true where it halved
+  /// any. Work linear in the number of cells with a vertex that moves.
+  bool halveUnaccepted(Moves& moves) const;
+
+  /// Vertices of the guarded cells whose mean ratio, with the mesh's points as they now are, is
+  /// below this part of what it was in the reference state. In any order; may name a vertex more
+  /// than once.
+  std::vector<Index> verticesOfSpoiltCells(double part) const;
+
+private:
+  /// A cell with a vertex that moves, and what it accepts.
+  struct GuardedCell
+  {
+    Index cell = -1;
+    CellState before;
+    double leastQuality = 0;
+    Vector3 side{};
+  };
+
+  template<std::size_t Corners>
+  void guard(const Simplices<Corners>& cells, const std::vector<Index>& chosen, const Moves& moves,
+    const std::vector<Point3>& reference, const Vector3& plane);
+  template<std::size_t Corners>
+  bool accepts(
+    const std::array<Index, Corners>& cell, const GuardedCell& guarded, const Moves& moves) const;
+  template<class Predicate>
+  std::vector<Index> cornersWhere(const Predicate& holds) const;
+
+  const SimplexMesh& mesh_;
+  ParallelFor parallelFor_;
+  std::vector<GuardedCell> guarded_;
+};
+
+} // namespace cadrefine

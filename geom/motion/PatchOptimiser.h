@@ -1,0 +1,88 @@
+// Moving the vertices of a patch of cells to where the cells are valid and well shaped.
+#pragma once
+
+#include <cadrefine/base/EntityId.h>
+#include <cadrefine/base/ParallelFor.h>
+#include <cadrefine/classification/BoundaryProjector.h>
+#include <cadrefine/mesh/SimplexMesh.h>
+#include <cadrefine/motion/ShapeEnergy.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace cadrefine
+{
+
+/// Cells and what may be done with their vertices: an entry in each list for each vertex.
+struct Patch
+{
+  SimplexMesh mesh;          ///< Points: where the vertices stand, or are to stand; may be tangled.
+  std::vector<Point3> start; ///< Where they stood in the mesh; gives the size of a cell.
+  std::vector<unsigned char> free;     ///< 1: it may move.
+  std::vector<unsigned char> complete; ///< 1: all cells of the whole mesh round it are here.
+  std::vector<EntityId> entities;      ///< The CAD entity to which a free vertex keeps.
+  Vector3 plane{}; ///< Unit normal of a planar mesh; zero: triangles keep the side of `start`.
+};
+
+/// Minimises the energies of the free vertices one after the other (see ShapeEnergy), each with the
+/// others in place, in sweeps. A vertex waits for its free neighbours that come before it, in the
+/// order of a hash of the global ids, so that a sweep has one result however the patch is split
+/// over ranks: all ranks that hold all cells of a vertex compute the same bits, others wait for
+/// them (see `place`). The order is random, so that chains of waiting vertices are short, O(log n),
+/// and many vertices may take their turn at once, on several threads.
+///
+/// A vertex on a CAD face or edge moves in its tangents there and is put back onto the entity; it
+/// stays where that is not possible (at a pole, or where it would leave the entity for its border).
+///
+/// No step raises the energy that it is for. Work of a sweep: linear in the number of cells, some
+/// 10 microseconds a vertex, and up to 8 projections for each vertex on the CAD.
+class PatchOptimiser
+{
+public:
+  /// `projector` is needed for vertices on the CAD only. Keeps references; moves patch.mesh.points.
+  explicit PatchOptimiser(Patch& patch, const BoundaryProjector* projector = nullptr,
+    ParallelFor parallelFor = serialFor);
+
+  /// The smallest measure of a cell of the patch, 1 for the equilateral cell of its size in
+  /// `start`, negative where it is inverted. 1 where there are no cells.
+  double smallestMeasure() const;
+
+  /// Begins a sweep, given the smallest measure over all ranks.
+  void beginSweep(double smallest);
+  /// Moves the vertices whose turn has come. True where vertices are left, that wait for others.
+  bool advance();
+  bool isDone(Index vertex) const { return done_[vertex] != 0; }
+  /// A vertex that another rank has moved in this sweep.
+  void place(Index vertex, const Point3& point);
+
+private:
+  double measure(const std::array<Index, 4>& cell) const;
+  double measure(const std::array<Index, 3>& cell) const;
+  Vector3 normalAt(const std::array<Index, 3>& triangle) const;
+  template<std::size_t Corners>
+  void prepare(const Simplices<Corners>& cells);
+  template<class Visit>
+  void forCornersRound(Index vertex, const Visit& visit) const;
+  bool comesBefore(Index other, Index vertex) const;
+  void findLevels();
+  bool mustWait(Index vertex) const;
+  ShapeEnergy energyAt(Index vertex) const;
+  Point3 onItsEntity(Index vertex, const Point3& point) const;
+  void improve(Index vertex);
+
+  Patch& patch_;
+  const BoundaryProjector* projector_;
+  ParallelFor parallelFor_;
+  std::vector<double> sizes_; ///< Measure of the equilateral cell of each cell's size in `start`.
+  std::vector<std::size_t> firstOfStar_; ///< Cells round vertex v: from firstOfStar_[v] on.
+  std::vector<Index> stars_;
+  std::vector<Index> order_;         ///< The free vertices, level by level.
+  std::vector<std::size_t> levels_;  ///< Where each level begins, and the last ends.
+  std::vector<std::uint64_t> turns_; ///< Of each vertex: the larger, the earlier.
+  std::vector<unsigned char> done_;
+  double delta_ = 0;
+};
+
+} // namespace cadrefine

@@ -1,0 +1,79 @@
+// How badly shaped the cells round a vertex are, as a function of where the vertex is.
+#pragma once
+
+#include <cadrefine/base/Vector3.h>
+
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace cadrefine
+{
+
+/// Directions in which a vertex may move: orthonormal, the first `count` of them.
+struct Directions
+{
+  std::array<Vector3, 3> axes{};
+  int count = 0;
+
+  static Directions everywhere();
+  /// Across `normal`, which need not have length 1; none where it is zero.
+  static Directions across(const Vector3& normal);
+  static Directions along(const Vector3& tangent);
+};
+
+/// The sum of the squares of the regularised inverse mean ratios of the cells round a vertex x:
+///
+///     eta = L(x) / h(s(x))^p,     h(s) = (s + sqrt(s^2 + 4 delta^2)) / 2,
+///
+/// with L the sum of a cell's squared edge lengths and s its signed measure, both scaled so that
+/// eta is 1 for an equilateral cell; p is 2/3 for tetrahedra, 1 for triangles. With delta = 0 it is
+/// infinite where a cell is inverted or flat; with delta > 0 it is finite and smooth, and inverted
+/// cells pull x to where they are valid (J. M. Escobar, E. Rodriguez, R. Montenegro, G. Montero,
+/// J. M. Gonzalez-Yuste, "Simultaneous untangling and smoothing of tetrahedral meshes", CMAME 192,
+/// 2003). Squares, so that the worst cells count most. L is quadratic and s linear in x, so that
+/// derivatives are closed forms. Work linear in the number of cells.
+class ShapeEnergy
+{
+public:
+  /// Of tetrahedra (3) or triangles (2).
+  explicit ShapeEnergy(int dimension) : dimension_(dimension) {}
+
+  /// A tetrahedron (a, b, c, x), in VTK's order; `delta` in terms of `measure`.
+  void addTetrahedron(const Point3& a, const Point3& b, const Point3& c, double delta);
+  /// A triangle (a, b, x), seen from the end of the unit vector `normal`.
+  void addTriangle(const Point3& a, const Point3& b, const Vector3& normal, double delta);
+
+  double at(const Point3& x) const;
+
+  /// A step of Newton's method from x in the given directions, with a shift where the second
+  /// derivatives are not positive definite, no longer than half of the distance to the farthest
+  /// vertex of a cell; zero where there is nothing to gain.
+  Vector3 step(const Point3& x, const Directions& directions) const;
+
+private:
+  /// What a cell adds.
+  struct Term
+  {
+    std::array<Point3, 3> others;
+    double otherLengths = 0; ///< Squared lengths of the edges away from x.
+    Vector3 slope{};         ///< s = slope . (x - others[0]).
+    double delta = 0;
+  };
+  struct Derivatives
+  {
+    Vector3 gradient{};
+    std::array<Vector3, 3> hessian{};
+  };
+
+  double lengths(const Term& term, const Point3& x) const;
+  Derivatives derivativesAt(const Point3& x) const;
+
+  int dimension_;
+  std::vector<Term> terms_;
+};
+
+/// The measure s (see ShapeEnergy) of the equilateral cell with this sum of squared edge lengths.
+double equilateralMeasure(int dimension, double squaredLengths);
+
+} // namespace cadrefine

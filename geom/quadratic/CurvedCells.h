@@ -1,0 +1,73 @@
+// Cells of second order, and whether they are valid, by Bezier bounds of their Jacobian.
+#pragma once
+
+#include <cadrefine/base/Vector3.h>
+#include <cadrefine/mesh/SimplexMesh.h>
+
+#include <array>
+
+namespace cadrefine
+{
+
+/// Nodes of a cell of second order: its corners, then a mid node for each of triangleEdges or
+/// tetrahedronEdges (for tetrahedra not in VTK's order).
+using CurvedTriangle = std::array<Point3, 6>;
+using CurvedTetrahedron = std::array<Point3, 10>;
+
+/// A polynomial on a simplex in Bezier form: sum over the multi-indices of coefficient times
+/// Bernstein polynomial. Coefficients are in the order of the ascending index tuples: of degree 2
+/// on a triangle 00 01 02 11 12 22, of degree 3 on a tetrahedron 000 001 002 003 011 ... 333. The
+/// polynomial lies between the smallest and the largest of them, and is equal to those with one
+/// index at the corners.
+template<std::size_t Count>
+struct BezierForm
+{
+  std::array<double, Count> coefficients{};
+  double rounding = 0; ///< No coefficient is farther from that of exact arithmetic.
+};
+
+/// The Jacobian determinant of x(l) = sum N_i(l) x_i with respect to the barycentric coordinates
+/// l_1, l_2, l_3: six times the volume where the cell is straight. Its derivatives are linear in l
+/// with coefficients a^k_i = 4 (x_ik - x_i0) - (x_k - x_0), x_ik being the node between corners i
+/// and k (x_ii = x_i), and the coefficients of the determinant are the means of det(a^1, a^2, a^3)
+/// over the permutations of the index tuple (A. Johnen, J.-F. Remacle, C. Geuzaine, "Geometrical
+/// validity of curvilinear finite elements", J. Comput. Phys. 233, 2013). 64 determinants, about
+/// 0.2 microseconds.
+///
+/// Rounding, with u half of the machine epsilon and m = 4 |x_ik - x_i0| + |x_k - x_0|: a^k_i errs
+/// by less than 3 u m, so three factors by 9 u, a determinant's arithmetic adds 5 u, and the mean
+/// of at most six 6 u, of the permanent of the three m. That is at most the product of their
+/// 1-norms, M_1 M_2 M_3 with the largest ones over i: the bound is 12 epsilon M_1 M_2 M_3.
+BezierForm<20> jacobianOf(const CurvedTetrahedron& nodes);
+
+/// The same of a triangle: the component along the unit normal `side` of the product of the two
+/// derivatives, twice the area where the cell is straight and has that normal.
+BezierForm<6> jacobianOf(const CurvedTriangle& nodes, const Vector3& side);
+
+/// Whether the Jacobian determinant is positive on all of the cell, for certain: its smallest
+/// Bezier coefficient is larger than the rounding errors in it. Where it is not, and no corner
+/// tells that the cell is invalid, the cell is halved at the longest edge of its parameters, with
+/// the coefficients of the halves by de Casteljau's algorithm, which converge to the polynomial at
+/// second order: a valid cell is not refused because its bounds are loose. A cell is refused if it
+/// takes more than 256 pieces to tell. About 0.2 microseconds without a halving, and
+/// 0.1 for each.
+///
+/// A cell all of whose mid nodes are the middles of its edges, to the last bit, is straight: it is
+/// valid by its exact orientation. Others whose determinant is lost in the rounding of their
+/// coordinates are not valid, nor is one with a coordinate that is not finite or edges outside of
+/// 1e-90 to 1e100.
+bool isValid(const CurvedTetrahedron& nodes);
+
+/// The same of a triangle, as seen from the end of `side`: in a plane from the side to which all
+/// triangles turn; in space take the normal of the straight triangle. The triangle is then a graph
+/// over its own plane: its normal is nowhere 90 degrees off.
+bool isValid(const CurvedTriangle& nodes, const Vector3& side);
+
+/// The cell with mid nodes in the middles of its edges.
+CurvedTetrahedron straightCell(const std::array<Point3, 4>& corners);
+CurvedTriangle straightCell(const std::array<Point3, 3>& corners);
+
+/// The point of the triangle at these barycentric coordinates.
+Point3 pointAt(const CurvedTriangle& nodes, const std::array<double, 3>& where);
+
+} // namespace cadrefine

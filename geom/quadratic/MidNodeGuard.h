@@ -1,0 +1,76 @@
+// Moving mid nodes onto the CAD without making a cell of second order invalid.
+#pragma once
+
+#include <cadrefine/base/ParallelFor.h>
+#include <cadrefine/mesh/EdgeTable.h>
+#include <cadrefine/mesh/SimplexMesh.h>
+
+#include <vector>
+
+namespace cadrefine
+{
+
+/// Moves of mid nodes from the middles of their edges, each done up to a part of its way.
+struct MidNodeMoves
+{
+  std::vector<Point3> middles;   ///< A node for each edge.
+  std::vector<Point3> targets;   ///< The middle where the node does not move.
+  std::vector<double> fractions; ///< In [0, 1]; 0 where it does not move.
+
+  /// No moves of the mid nodes of `mesh`.
+  MidNodeMoves(const SimplexMesh& mesh, const EdgeTable& table);
+  void add(Index edge, const Point3& target);
+  /// Where the node stands: its target exactly at fraction 1, the middle exactly at 0.
+  Point3 position(Index edge) const;
+};
+
+/// Finds how far mid nodes can go so that all cells of the mesh's own dimension stay valid by the
+/// Bezier bounds of isValid.
+///
+/// Each cell that is not valid takes its mid nodes back a step, all cells at once, until all are
+/// valid: what is left of the way is 1/128 first, then twice as much each time up to one half, then
+/// the way itself is halved, and after 12 halvings the node stays in the middle. A straight cell is
+/// valid if it was before, so this ends, and in a state that does not depend on the order of cells.
+/// Over ranks take the minimum of the fractions of shared edges after each sweep, until no rank
+/// changes any.
+///
+/// Steps are small at first, since cells with three edges on a smooth surface at a corner have
+/// tangents there that lie nearly in a plane: the exact cell has Jacobian 0 at that corner,
+/// whatever its size, and its interpolation one of either sign, smaller by a factor of the size h
+/// than that of the straight cell. A part of the way of order h is then enough to make it valid,
+/// which keeps the distance to the surface of third order; half of the way would make it second
+/// order.
+class MidNodeGuard
+{
+public:
+  static constexpr double firstStep = 1.0 / 128;
+  static constexpr int maximumHalvings = 12;
+
+  /// `plane` is the unit normal of a planar mesh, from whose end its triangles should turn; where
+  /// it is zero, triangles keep the side of their straight normal. Keeps references to mesh and
+  /// table. Work: one look at each cell; memory for those with a node that moves.
+  MidNodeGuard(const SimplexMesh& mesh, const EdgeTable& table, const MidNodeMoves& moves,
+    const Vector3& plane, const ParallelFor& parallelFor = serialFor);
+
+  /// One sweep: takes the mid nodes of every invalid cell back a step. Returns true where it took
+  /// any. Work: isValid for the guarded cells with a node that has moved since the last sweep.
+  bool stepBack(MidNodeMoves& moves);
+
+  std::size_t guardedCells() const { return cells_.size(); }
+
+private:
+  template<class Cells, class Edges>
+  std::vector<unsigned char> findInvalid(
+    const Cells& cells, const Edges& edgesOf, const MidNodeMoves& moves) const;
+  template<std::size_t Count>
+  bool hasChanged(const std::array<Index, Count>& edges, const MidNodeMoves& moves) const;
+
+  const SimplexMesh& mesh_;
+  const EdgeTable& table_;
+  Vector3 plane_;
+  ParallelFor parallelFor_;
+  std::vector<Index> cells_; ///< Those with a node that moves.
+  std::vector<double> seen_; ///< The fractions at the last sweep.
+};
+
+} // namespace cadrefine

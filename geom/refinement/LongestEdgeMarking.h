@@ -1,0 +1,87 @@
+// Which edges longest edge bisection cuts.
+#pragma once
+
+#include <cadrefine/base/VertexBuckets.h>
+#include <cadrefine/mesh/EdgeTable.h>
+#include <cadrefine/mesh/SimplexMesh.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace cadrefine
+{
+
+/// Marks of edges: not 0 where the edge will be cut. (A vector of bytes, so that ranks can exchange
+/// entries.)
+using EdgeMarks = std::vector<unsigned char>;
+
+/// Longest edge bisection of marked cells until no vertex hangs, as a least fixpoint:
+///   1. a marked cell marks its longest edge;
+///   2. a cell that has a marked edge marks its longest edge, and so does each of its faces;
+///   3. repeat 2 until nothing changes.
+/// The rules are monotone and the edges finite, so the fixpoint exists, is unique, and does not
+/// depend on the order in which cells are visited or on how they are spread over ranks: over ranks,
+/// close locally, exchange the marks of shared edges, and repeat until no rank changes any.
+/// Recursive bisection of a cell at the longest of its marked edges (see splitMarked) then gives
+/// conforming meshes, since each face is cut in an order that its own edges fix.
+///
+/// Algorithm 3.1 of S. Strunk, KTH 2013, as a fixpoint on the edges of the mesh at hand;
+/// M.-C. Rivara, "Algorithms for refining triangular grids suitable for adaptive and multigrid
+/// techniques", Int. J. Numer. Meth. Eng. 20, 1984 (4-triangle partition and its conforming partial
+/// versions); A. Plaza, G. F. Carey, "Local refinement of simplicial grids based on the skeleton",
+/// Appl. Numer. Math. 32, 2000 (its form in three dimensions).
+
+/// Rule 1 for the cells of the mesh's own dimension; `cellMarks` has one entry for each of them.
+void markLongestEdges(const SimplexMesh& mesh, const EdgeTable& table,
+  const std::vector<unsigned char>& cellMarks, EdgeMarks& marks);
+
+/// Rules 2 and 3 within this piece. Where few marks spread, as is usual, a few sweeps over all
+/// cells do; what they leave is spread from edge to edge, through lists of the cells at each edge.
+///
+/// Work: linear in the number of cells, whatever their order and however often marks come from
+/// other ranks: at most 6 sweeps, and one look at a cell for each of its edges. In a sweep only the
+/// marks of cells without a mark are looked at. Memory: none, or, once sweeps have not been enough,
+/// 8 bytes an edge and 24 a tetrahedron.
+class MarkClosure
+{
+public:
+  /// Sweeps before the cells at each edge are listed, which costs as much as some five of them.
+  static constexpr int maximumSweeps = 6;
+
+  /// Both must outlive this object. Throughout, marks may be set by others, but not reset.
+  MarkClosure(const EdgeTable& table, EdgeMarks& marks);
+
+  /// Closes all marks. Returns true where an edge was marked.
+  bool closeAll();
+  /// The same where all marks were closed before these edges were marked.
+  bool closeFrom(const std::vector<Index>& edges);
+
+  /// Cells that were looked at so far, each as often as it was.
+  std::size_t looks() const { return looks_; }
+
+private:
+  bool close();
+  void sweep();
+  bool spread();
+  void listCells();
+  void lookAtCell(std::uint32_t cell);
+  template<class Edges>
+  void lookAt(const Edges& edges);
+  void markLongest(const std::array<Index, 6>& edges);
+  void markLongest(const std::array<Index, 3>& edges);
+  void mark(Index edge);
+
+  const EdgeTable& table_;
+  const EdgeOrder order_;
+  EdgeMarks& marks_;
+  std::vector<Index> fresh_; ///< Marked edges at which cells wait for a look.
+  int sweepsLeft_ = maximumSweeps;
+  /// At each edge: tetrahedra, and triangles, whose numbers follow those of the tetrahedra.
+  std::optional<VertexBuckets<std::uint32_t>> cellsAt_;
+  std::size_t looks_ = 0;
+};
+
+} // namespace cadrefine

@@ -1,0 +1,23 @@
+// How the cells and vertices of a refined mesh come from those before.
+#pragma once
+
+#include <cadrefine/refinement/Split.h>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace cadrefine
+{
+
+/// What refinement made of a mesh, beside the mesh: how to carry arrays over.
+struct RefinementTrace
+{
+  std::vector<std::array<Index, 2>> parentEdges; ///< See SplitMesh.
+  ChildRanges firstChildren;
+  std::int64_t projectedPoints = 0; ///< Over all ranks.
+  /// 1 for vertices on the boundary, of a mesh that is classified.
+  std::vector<unsigned char> onBoundary = {};
+};
+
+} // namespace cadrefine

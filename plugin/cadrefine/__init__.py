@@ -1,0 +1,1 @@
+"""The driver: see cadrefine.py."""

@@ -1,0 +1,85 @@
+"""Joins the blocks of a file, such as a mesh and its boundary, to one grid that has the arrays of all of them."""
+
+import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkUnstructuredGrid
+from vtkmodules.vtkFiltersCore import vtkAppendFilter
+
+from cadrefine.formats.grid import to_vtk
+
+VERTEX, POLY_VERTEX, LINE, POLY_LINE, TRIANGLE, TETRAHEDRON = 1, 2, 3, 4, 5, 10  # VTK's types of cells.
+
+
+def joined(data):
+    """One vtkUnstructuredGrid. Points with the same coordinates become one. Where a block lacks an array, its points
+    and cells have 0 there: no tag."""
+    blocks = [block for block in leaves(data) if block.GetNumberOfCells() > 0]
+    for attribute in (vtkDataObject.POINT, vtkDataObject.CELL):
+        complete([(block.GetAttributes(attribute), block.GetNumberOfElements(attribute)) for block in blocks])
+    append = vtkAppendFilter()
+    append.SetMergePoints(len(blocks) > 1)
+    for block in blocks:
+        append.AddInputData(block)
+    if not blocks:
+        return vtkUnstructuredGrid()
+    append.Update()
+    return with_plain_cells(append.GetOutput())
+
+
+def with_plain_cells(grid):
+    """Polylines of two points become lines, clouds of one point vertices: XDMF has no others beside other cells."""
+    types = vtk_to_numpy(grid.GetCellTypesArray())
+    sizes = np.diff(vtk_to_numpy(grid.GetCells().GetOffsetsArray()))
+    types[(types == POLY_LINE) & (sizes == 2)] = LINE
+    types[(types == POLY_VERTEX) & (sizes == 1)] = VERTEX
+    return grid
+
+
+def leaves(data):
+    """The grids in `data`, shallow copies, that can be given arrays."""
+    if not data.IsA("vtkCompositeDataSet"):
+        return [copy_of(data)] if data.IsA("vtkPointSet") else []
+    found = []
+    iterator = data.NewIterator()
+    while not iterator.IsDoneWithTraversal():
+        if iterator.GetCurrentDataObject().IsA("vtkPointSet"):
+            found.append(copy_of(iterator.GetCurrentDataObject()))
+        iterator.GoToNextItem()
+    return found
+
+
+def copy_of(data):
+    copy = data.NewInstance()
+    copy.ShallowCopy(data)
+    return copy
+
+
+def complete(parts):
+    """Gives each of `parts`, attributes and how many tuples they have, the arrays that only others have."""
+    known = {}
+    for attributes, _ in parts:
+        for index in range(attributes.GetNumberOfArrays()):
+            array = attributes.GetArray(index)
+            if array is not None:
+                known.setdefault(array.GetName(), array)
+    for attributes, count in parts:
+        for name, array in known.items():
+            if attributes.GetArray(name) is None:
+                kind = vtk_to_numpy(array).dtype
+                width = array.GetNumberOfComponents()
+                attributes.AddArray(to_vtk(name, np.zeros((count, width) if width > 1 else count, dtype=kind)))
+
+
+def orient(grid):
+    """Turns tetrahedra of negative volume round, and triangles of the plane z = 0, where there are no tetrahedra."""
+    points = vtk_to_numpy(grid.GetPoints().GetData())
+    offsets = vtk_to_numpy(grid.GetCells().GetOffsetsArray())
+    corners = vtk_to_numpy(grid.GetCells().GetConnectivityArray())
+    types = vtk_to_numpy(grid.GetCellTypesArray())
+    kind, size = (TETRAHEDRON, 4) if (types == TETRAHEDRON).any() else (TRIANGLE, 3)
+    if kind == TRIANGLE and points[:, 2].any():
+        return
+    places = offsets[:-1][types == kind][:, np.newaxis] + np.arange(size)
+    sides = points[corners[places]][:, 1:] - points[corners[places]][:, :1]
+    turned = places[np.linalg.det(sides[:, :, : size - 1]) < 0]
+    corners[turned[:, -2:]] = corners[turned[:, :-3:-1]]

@@ -1,0 +1,118 @@
+"""Meshes as numpy arrays, and as VTK's grids: what the readers and writers of this driver's own have in common."""
+
+import dataclasses
+
+import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkUnstructuredGrid
+
+PHYSICAL, GEOMETRICAL = "gmsh:physical", "gmsh:geometrical"  # Cell arrays, named as meshio names them.
+# Cell arrays that tell groups of cells, the first of them counts: of gmsh, Medit, Exodus, SU2, Netgen, .vtk files.
+SERIAL = "SERIAL:"  # Before the name of an HDF5 file: this process opens it alone, not all ranks together.
+TAG_ARRAYS = (PHYSICAL, "medit:ref", "ObjectId", "su2:tag", "netgen:index", "CellEntityIds", "MaterialIds")
+
+TYPES = {  # VTK's number of a type of cell: its name in meshio, its dimension, its number of points.
+    1: ("vertex", 0, 1), 3: ("line", 1, 2), 5: ("triangle", 2, 3), 9: ("quad", 2, 4), 10: ("tetra", 3, 4),
+    12: ("hexahedron", 3, 8), 13: ("wedge", 3, 6), 14: ("pyramid", 3, 5), 21: ("line3", 1, 3),
+    22: ("triangle6", 2, 6), 24: ("tetra10", 3, 10),
+}
+TYPE_OF_NAME = {name: number for number, (name, _, _) in TYPES.items()}
+
+
+@dataclasses.dataclass
+class Mesh:
+    """Cells of one type after the other, in `blocks` of VTK's type and corners (cells, points); arrays over all points,
+    and over all cells in the order of the blocks; `groups` is tag and dimension by name of group."""
+
+    points: np.ndarray
+    blocks: list
+    point_data: dict = dataclasses.field(default_factory=dict)
+    cell_data: dict = dataclasses.field(default_factory=dict)
+    groups: dict = dataclasses.field(default_factory=dict)
+
+    def cell_dimensions(self):
+        return np.repeat([TYPES[number][1] for number, _ in self.blocks], [len(corners) for _, corners in self.blocks])
+
+
+def to_grid(mesh):
+    """A vtkUnstructuredGrid. Names of groups become field data: two integers, the tag and the dimension."""
+    grid = vtkUnstructuredGrid()
+    points = vtkPoints()
+    points.SetData(to_vtk("Points", in_space(mesh.points)))
+    grid.SetPoints(points)
+    sizes = [np.full(len(corners), corners.shape[1]) for _, corners in mesh.blocks]
+    offsets = np.concatenate([[0], np.cumsum(np.concatenate(sizes or [[]]))])
+    corners = np.concatenate([corners.ravel() for _, corners in mesh.blocks] or [[]])
+    types = np.concatenate([np.full(len(corners), number) for number, corners in mesh.blocks] or [[]])
+    set_cells(grid, types, offsets, corners)
+    for data, arrays in ((grid.GetPointData(), mesh.point_data), (grid.GetCellData(), mesh.cell_data),
+                         (grid.GetFieldData(), {name: np.int32([pair]) for name, pair in mesh.groups.items()})):
+        for name, values in arrays.items():
+            data.AddArray(to_vtk(name, np.asarray(values)))
+    return grid
+
+
+def set_cells(grid, types, offsets, corners):
+    cells = vtkCellArray()
+    cells.SetData(numpy_to_vtkIdTypeArray(offsets.astype(np.int64), deep=True),
+                  numpy_to_vtkIdTypeArray(corners.astype(np.int64), deep=True))
+    grid.SetCells(numpy_to_vtk(types.astype(np.uint8), deep=True), cells)
+
+
+def to_vtk(name, values):
+    array = numpy_to_vtk(np.ascontiguousarray(values), deep=True)
+    array.SetName(name)
+    return array
+
+
+def in_space(points):
+    """Points of a plane get z = 0."""
+    points = np.asarray(points, dtype=float)
+    return np.column_stack([points, np.zeros((len(points), 3 - points.shape[1]))]) if points.shape[1] < 3 else points
+
+
+def from_grid(grid):
+    """A Mesh with the cells ordered by type, those of a type as they were; ids and ghost arrays are left out."""
+    types = vtk_to_numpy(grid.GetCellTypesArray())
+    offsets = vtk_to_numpy(grid.GetCells().GetOffsetsArray())
+    corners = vtk_to_numpy(grid.GetCells().GetConnectivityArray())
+    order, blocks = [], []
+    for number in np.unique(types):
+        chosen = np.flatnonzero(types == number)
+        size = TYPES[int(number)][2]
+        blocks.append((int(number), corners[offsets[chosen][:, np.newaxis] + np.arange(size)]))
+        order.append(chosen)
+    order = np.concatenate(order or [[]]).astype(int)
+    cell_data = {name: values[order] for name, values in arrays_of(grid.GetCellData()).items()}
+    return Mesh(vtk_to_numpy(grid.GetPoints().GetData()), blocks, arrays_of(grid.GetPointData()), cell_data,
+                groups_of(grid.GetFieldData()))
+
+
+def arrays_of(data):
+    """The arrays of numbers, by name, but for ids and what ParaView adds for its own use."""
+    ids = data.GetGlobalIds()
+    arrays = {}
+    for index in range(data.GetNumberOfArrays()):
+        array = data.GetArray(index)
+        if array is not None and array != ids and not array.GetName().startswith("vtk"):
+            arrays[array.GetName()] = vtk_to_numpy(array)
+    return arrays
+
+
+def groups_of(field_data):
+    """Names of groups: field data of two integers, tag and dimension, as meshio has them too."""
+    groups = {}
+    for index in range(field_data.GetNumberOfArrays()):
+        array = field_data.GetArray(index)
+        if array is not None and array.GetNumberOfValues() == 2 and not array.IsA("vtkDoubleArray"):
+            tag, dimension = (int(array.GetComponent(i // array.GetNumberOfComponents(),
+                                                     i % array.GetNumberOfComponents())) for i in range(2))
+            if tag > 0 and 0 <= dimension <= 3:
+                groups[array.GetName()] = (tag, dimension)
+    return groups
+
+
+def tag_array(cell_data):
+    """Name of the array that tells groups of cells, or None."""
+    return next((name for name in TAG_ARRAYS if name in cell_data), None)

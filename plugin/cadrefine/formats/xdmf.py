@@ -1,0 +1,155 @@
+"""Reads and writes XDMF files with their HDF5 files, as meshio, DOLFIN, DOLFINx and ParaView have them."""
+
+import contextlib
+import os
+import xml.etree.ElementTree as ElementTree
+
+import numpy as np
+from vtkmodules.vtkCommonDataModel import vtkMultiBlockDataSet, vtkUnstructuredGrid
+from vtkmodules.vtkIOXdmf2 import vtkXdmfReader, vtkXdmfWriter
+
+from cadrefine.formats import BadFile
+from cadrefine.formats.blocks import joined, orient
+from cadrefine.formats.grid import SERIAL, TYPES, Mesh, arrays_of, tag_array, to_grid, to_vtk
+
+FACET_TAGS = "facet_tags"
+PLANE = "plane"  # Points in the plane, two coordinates: DOLFIN takes them for a mesh of two dimensions.
+ORDER = ("mesh", "facets", "edges", "vertices")
+
+OVERHEAD = 1 << 20  # Bytes of an HDF5 file beside its numbers, more or less.
+KINDS = {1: "Scalar", 3: "Vector", 6: "Tensor6", 9: "Tensor"}  # Of attributes, by components.
+
+
+def read(path):
+    """All grids of the file's domain as one, of a series the first time step. Throws BadFile."""
+    tree = parse(path)
+    if tree.find(".//Grid/Topology") is None or tree.find(".//Grid/Geometry") is None:
+        raise BadFile("it holds no grid of cells")  # VTK's reader would crash.
+    folder = os.path.dirname(os.path.abspath(path))
+    for item in tree.iter("DataItem"):
+        if item.get("Format", "XML").upper() != "HDF" or ":" not in (item.text or ""):
+            continue
+        name, _, inside = item.text.strip().rpartition(":")
+        heavy = os.path.join(folder, name)
+        if not os.path.isfile(heavy):
+            raise BadFile(f"its data file {name} is not there")
+        item.text = f"{SERIAL}{heavy}:{inside}"
+        if item.get("NumberType", "Float") == "Float" and item.get("DataType", "Float") == "Float":
+            item.set("Precision", "8")  # DOLFIN leaves it out, and has doubles; 4 would be the default.
+    reader = vtkXdmfReader()
+    reader.SetFileName(path)
+    reader.SetReadFromInputString(1)
+    text = ElementTree.tostring(tree.getroot(), encoding="unicode")
+    reader.SetInputString(text)
+    reader.Update()
+    if reader.GetOutputDataObject(0) is None:
+        raise BadFile("it holds no grid that can be read")
+    grid = joined(reader.GetOutputDataObject(0))
+    grid.GetCellData().RemoveArray(FACET_TAGS)
+    orient(grid)  # DOLFIN orders the corners of a cell by their numbers.
+    return grid
+
+
+def parse(path):
+    try:
+        return ElementTree.parse(path)
+    except ElementTree.ParseError as error:
+        raise BadFile(f"malformed: {error}") from None
+
+
+def write(path, mesh):
+    """Writes a Mesh to `path`, and its numbers to the HDF5 file beside it: a grid for each type of cells, all with the
+    same points. The cells of the highest dimension are the grid "mesh", which DOLFIN takes; those of its boundary are
+    "facets", with their tags a second time as FACET_TAGS, since DOLFIN seeks arrays by name in all grids."""
+    grids = dict(sorted(grids_of(mesh), key=lambda item: ORDER.index(item[0])))
+    data = vtkMultiBlockDataSet()
+    names = {}
+    for index, grid in enumerate(grids.values()):
+        data.SetBlock(index, with_numbered_arrays(grid, names))
+    folder, name = os.path.split(os.path.abspath(path))
+    check_space(os.path.splitext(path)[0] + ".h5", 1024 * data.GetActualMemorySize() + OVERHEAD)
+    writer = vtkXdmfWriter()
+    writer.SetInputData(data)
+    writer.SetFileName(SERIAL + name)  # Becomes a part of the names of both files, but is none of the HDF5 file's.
+    writer.SetLightDataLimit(0)
+    with contextlib.chdir(folder):
+        if not writer.Write():
+            raise OSError("the HDF5 library reports an error")
+    os.replace(os.path.join(folder, SERIAL + name), path)
+    arrange(path, list(grids), names, (FACET_TAGS, tag_array(mesh.cell_data)))
+
+
+def check_space(path, size):
+    """Throws OSError where the disk cannot take a file of that size: HDF5 would crash at the end of the process."""
+    with open(path, "wb") as file:
+        try:
+            os.posix_fallocate(file.fileno(), 0, size)
+        finally:
+            os.remove(path)
+
+
+def grids_of(mesh):
+    """Pairs of name and vtkUnstructuredGrid. Points in the plane z = 0 get the array PLANE."""
+    dimensions = [TYPES[number][1] for number, _ in mesh.blocks]
+    tags = mesh.cell_data.get(tag_array(mesh.cell_data))
+    points = dict(mesh.point_data)
+    if not np.any(mesh.points[:, 2]):
+        points[PLANE] = mesh.points[:, :2]
+    first = 0
+    for (number, corners), dimension in zip(mesh.blocks, dimensions):
+        cells = slice(first, first + len(corners))
+        first = cells.stop
+        arrays = {name: values[cells] for name, values in mesh.cell_data.items()}
+        below = max(dimensions) - dimension
+        if below == 1 and tags is not None:
+            arrays[FACET_TAGS] = tags[cells]
+        name = ("mesh", "facets")[below] if below < 2 else ("vertices", "edges")[dimension]
+        yield name, to_grid(Mesh(mesh.points, [(number, corners)], points, arrays))
+
+
+def with_numbered_arrays(grid, names):
+    """A copy whose arrays have names that HDF5 takes; `names` gets what they stand for."""
+    copy = vtkUnstructuredGrid()
+    copy.CopyStructure(grid)
+    for source, target in ((grid.GetPointData(), copy.GetPointData()), (grid.GetCellData(), copy.GetCellData())):
+        for name, values in arrays_of(source).items():
+            number = next((key for key, value in names.items() if value == name), f"array{len(names)}")
+            names[number] = name
+            target.AddArray(to_vtk(number, values))
+    return copy
+
+
+def arrange(path, grid_names, array_names, first_names):
+    """Puts all grids side by side under the domain, as DOLFIN has them, and gives grids and arrays their names. DOLFIN
+    and DOLFINx look at the first array of a grid alone: that is the one of `first_names` that comes first there."""
+    tree = parse(path)
+    domain = tree.find("Domain")
+    grids = [grid for grid in domain.iter("Grid") if grid.get("GridType") == "Uniform"]
+    for child in list(domain):
+        domain.remove(child)
+    for name, grid in zip(grid_names, grids):
+        grid.set("Name", name)
+        attributes = {array_names[item.get("Name")]: item for item in grid.findall("Attribute")}
+        for name, attribute in attributes.items():
+            name_attribute(attribute, name)
+        if PLANE in attributes:
+            geometry = grid.find("Geometry")
+            geometry.set("GeometryType", "XY")
+            geometry[0] = attributes[PLANE].find("DataItem")
+            grid.remove(attributes[PLANE])
+        for name in reversed(first_names):
+            if name in attributes:
+                grid.remove(attributes[name])
+                grid.insert(0, attributes[name])
+        for item in grid.iter("DataItem"):
+            item.text = item.text.strip().removeprefix(SERIAL)
+        domain.append(grid)
+    ElementTree.indent(tree)
+    tree.write(path, encoding="utf-8", xml_declaration=True)
+
+
+def name_attribute(attribute, name):
+    sizes = attribute.find("DataItem").get("Dimensions").split()
+    attribute.attrib.pop("Active", None)
+    attribute.set("Name", name)
+    attribute.set("AttributeType", KINDS.get(int(sizes[1]) if len(sizes) > 1 else 1, "Matrix"))

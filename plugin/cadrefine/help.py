@@ -1,0 +1,78 @@
+"""What --help says besides the options, and its layout."""
+
+import argparse
+
+WIDTH = 100  # Columns.
+
+USAGE = """mpirun -np N pvbatch cadrefine.py MESH CAD [options]
+       pvpython cadrefine.py MESH CAD [options]"""
+
+DESCRIPTION = """\
+Makes a mesh follow its CAD geometry: projects its boundary onto the CAD model, measures the
+geometric error between both, and refines the mesh so that new boundary vertices lie on the CAD.
+Lengths are in the unit of the CAD file, whose numbers are taken as they are; the mesh must have
+the same. The result is the same on any number of ranks."""
+
+EPILOG = """\
+course of a run:
+  Step 0 is the projected mesh. Then come --uniform-steps steps, then --steps steps of --method. The
+  run ends early at --target-error, at --maximum-cells, and when no cell is marked.
+
+examples:
+  Three steps that refine all cells, and a report:
+    pvpython cadrefine.py wing.msh wing.step --method uniform --report wing.json --output fine.msh
+  The cells that carry 30 % of the error, until the error is 1e-4, on 8 ranks:
+    mpirun -np 8 pvbatch cadrefine.py wing.vtu wing.igs --steps 40 --marking bulk --threshold 0.3 \\
+        --cut-facets --target-error 1e-4 --output fine.pvtu
+  Where a solver's cell array "eta" is larger than 1e-3, on a mesh that an earlier run wrote:
+    pvpython cadrefine.py flow.vtu wing.igs --projected --steps 1 --indicator eta \\
+        --indicator-threshold 1e-3 --output next.vtu
+  Quadratic cells whose mid-edge nodes lie on the CAD:
+    pvpython cadrefine.py wing.msh wing.step --steps 0 --quadratic --output curved.msh
+  Only the nose, with the picture of the result, without a screen:
+    xvfb-run -a pvpython cadrefine.py plane.vtu plane.igs --region 0 0.2 -1 1 -1 1 \\
+        --screenshot nose.png
+
+formats of MESH (triangles or tetrahedra; cells of lower dimension carry tags):
+  .vtu .pvtu .vtk .vtp ...  VTK's files, and whatever else ParaView reads
+  .msh                      gmsh, versions 2.2 and 4.1, text and binary, with physical groups
+  .xdmf                     as written by meshio, DOLFIN, DOLFINx, ParaView; all grids of the domain
+  .e .ex2 .exo              Exodus: element blocks and side sets
+  .mesh                     Medit         (this and the next ones: through python3-meshio)
+  .inp                      Abaqus; sets of elements become groups, and cell arrays of 0 and 1
+  .su2 .vol                 SU2, Netgen
+  Tags of gmsh are the cell arrays gmsh:physical and gmsh:geometrical, those of Medit medit:ref, of
+  Exodus ObjectId. Names of groups are field data of the mesh, and are written to .msh files.
+  Of a time series the first time step is read.
+
+formats of --output:
+  .vtu   one file
+  .pvtu  a file for each rank, in a folder beside it: for large meshes
+  .xdmf  with an .h5 file beside it, for DOLFIN, DOLFINx and ParaView: the grid "mesh", and the grid
+         "facets" with the tags of the boundary as "facet_tags"
+  .msh   gmsh 2.2, binary, with physical groups and their names
+
+table:
+  step; vertices and cells of the mesh; vertices on the CAD; points looked up on the CAD in this
+  step; global geometric error (area in 2D, volume in 3D); largest distance from the boundary to the
+  CAD; inverted or degenerate cells; vertices that had to stop on the way to the CAD; least quality
+  of a cell (mean ratio, 1 is best); seconds of the step; what was done in it.
+
+environment:
+  CADREFINE_PLUGIN     the plugin CADRefine.so, where it is neither built nor installed as usual
+  NO_COLOR             if set, no colours; they are used on terminals alone
+  VTK_SMP_MAX_THREADS  most threads of a rank (default: the cores that mpirun bound it to)
+
+exit status:
+  0     done; results are in their places
+  1     bad input or a failure: one line on standard error names the file and the reason; no result
+        is left behind. On every rank.
+  130   ended by Ctrl-C (SIGINT); 143 by SIGTERM; 129 by SIGHUP. What is left is the mesh after the
+        last whole step as --output, and the report up to it; a line says so. mpirun makes 1 of it.
+
+docs/command-line.md says more, docs/cluster.md how to run on a cluster."""
+
+
+class Layout(argparse.RawDescriptionHelpFormatter):
+    def __init__(self, prog):
+        super().__init__(prog, max_help_position=30, width=WIDTH)

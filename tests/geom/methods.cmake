@@ -1,0 +1,20 @@
+if (NOT TARGET CADRefineTestSupport)
+  add_subdirectory("${CMAKE_SOURCE_DIR}/tests/support" "${CMAKE_BINARY_DIR}/tests/support")
+endif ()
+
+cadrefine_geom_test(method_tests
+  SOURCES
+    classification/BoundaryProjectorTest.cxx
+    classification/FaceFinderTest.cxx
+    error/CurvedErrorTest.cxx
+    error/GeometricErrorTest.cxx
+    motion/MoveGuardTest.cxx
+    motion/PatchOptimiserTest.cxx
+    motion/ShapeEnergyTest.cxx
+    motion/ThreadsTest.cxx
+    quadratic/CurvedCellsTest.cxx
+    quadratic/MidNodeGuardTest.cxx
+    refinement/BisectionTest.cxx
+    refinement/LongestEdgeMarkingTest.cxx
+    refinement/UniformSplitTest.cxx
+  LINKS CADRefineFloatingPoint CADRefineTestSupport)

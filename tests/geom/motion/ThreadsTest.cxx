@@ -1,0 +1,109 @@
+// What is done on threads is the same as on one: here each range has a thread, the last one first.
+
+#include "TestMeshes.h"
+
+#include <cadrefine/base/VertexBuckets.h>
+#include <cadrefine/mesh/Facets.h>
+#include <cadrefine/mesh/QualitySummary.h>
+#include <cadrefine/motion/MoveGuard.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <thread>
+#include <vector>
+
+namespace
+{
+
+using namespace cadrefine;
+
+void threadsFor(std::size_t count, std::size_t grain, const RangeBody& body)
+{
+  const std::size_t length = std::max(grain, count / 7 + 1);
+  std::vector<std::thread> threads;
+  for (std::size_t end = count; end > 0;)
+  {
+    const std::size_t begin = (end - 1) / length * length;
+    threads.emplace_back([&body, begin, end] { body(begin, end); });
+    end = begin;
+  }
+  std::for_each(threads.begin(), threads.end(), [](std::thread& thread) { thread.join(); });
+}
+
+/// Of so many cells that they are looked at in several parts.
+SimplexMesh largeMesh()
+{
+  return cadtest::cubeMesh(20, 0.1, 1);
+}
+
+std::vector<Index> cellsOf(const std::vector<Facet>& facets)
+{
+  std::vector<Index> cells;
+  for (const Facet& facet : facets)
+  {
+    cells.push_back(facet.cell);
+    cells.insert(cells.end(), facet.vertices.begin(), facet.vertices.end());
+  }
+  return cells;
+}
+
+TEST(Threads, fillBucketsInTheOrderOfTheThings)
+{
+  const SimplexMesh mesh = largeMesh();
+  const auto visit = [&](std::size_t begin, std::size_t end, const auto& use)
+  {
+    for (std::size_t c = begin; c < end; ++c)
+    {
+      use(mesh.tetrahedra[c][c % 4], static_cast<Index>(c));
+    }
+  };
+  VertexBuckets<Index> expected(mesh.points.size());
+  visit(0, mesh.tetrahedra.size(), [&](Index vertex, Index) { expected.count(vertex); });
+  expected.start();
+  visit(0, mesh.tetrahedra.size(), [&](Index vertex, Index cell) { expected.add(vertex, cell); });
+  VertexBuckets<Index> filled(mesh.points.size());
+  filled.fill(mesh.tetrahedra.size(), visit, threadsFor);
+  for (Index v = 0; v < static_cast<Index>(mesh.points.size()); ++v)
+  {
+    const auto [first, last] = expected.at(v);
+    const auto [filledFirst, filledLast] = filled.at(v);
+    ASSERT_TRUE(std::equal(first, last, filledFirst, filledLast));
+  }
+}
+
+TEST(Threads, findTheSameFacets)
+{
+  const SimplexMesh mesh = largeMesh();
+  const auto facets = findOuterFacets(mesh);
+  EXPECT_EQ(facets.size(), 12u * 20 * 20);
+  EXPECT_EQ(cellsOf(findOuterFacets(mesh, {}, threadsFor)), cellsOf(facets));
+  std::vector<unsigned char> among(mesh.points.size(), 0);
+  std::fill_n(among.begin(), among.size() / 2, 1);
+  EXPECT_EQ(
+    cellsOf(findOuterFacets(mesh, among, threadsFor)), cellsOf(findOuterFacets(mesh, among)));
+}
+
+TEST(Threads, findTheSameQuality)
+{
+  SimplexMesh mesh = largeMesh();
+  std::swap(mesh.tetrahedra[7][0], mesh.tetrahedra[7][1]);
+  const QualitySummary expected = summariseTetrahedra(mesh);
+  const QualitySummary summary = summariseTetrahedra(mesh, threadsFor);
+  EXPECT_EQ(summary.invalidCells, 1);
+  EXPECT_EQ(summary.smallestRatio, expected.smallestRatio);
+  EXPECT_EQ(summary.smallestCube, expected.smallestCube);
+}
+
+TEST(Threads, findTheSameCellsAtVertices)
+{
+  const SimplexMesh mesh = largeMesh();
+  std::vector<unsigned char> flags(mesh.points.size(), 0);
+  for (std::size_t v = 0; v < flags.size(); v += 50)
+  {
+    flags[v] = 1;
+  }
+  EXPECT_EQ(cellsAt(mesh, flags, threadsFor), cellsAt(mesh, flags, serialFor));
+}
+
+} // namespace

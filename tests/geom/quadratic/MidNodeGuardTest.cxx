@@ -1,0 +1,121 @@
+// Mid nodes go as far as all cells stay valid, and no farther back than they must.
+
+#include <cadrefine/quadratic/MidNodeGuard.h>
+
+#include "TestMeshes.h"
+
+#include <cadrefine/quadratic/MidNodes.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+namespace
+{
+
+using namespace cadrefine;
+
+const Vector3 up{ 0, 0, 1 };
+
+MidNodes placed(const EdgeTable& table, const MidNodeMoves& moves)
+{
+  MidNodes nodes{ table, {}, {} };
+  for (std::size_t e = 0; e < table.edges.size(); ++e)
+  {
+    nodes.points.push_back(moves.position(static_cast<Index>(e)));
+  }
+  return nodes;
+}
+
+/// Number of sweeps until all cells accept.
+int settle(
+  const SimplexMesh& mesh, const EdgeTable& table, const Vector3& plane, MidNodeMoves& moves)
+{
+  MidNodeGuard guard(mesh, table, moves, plane);
+  int sweeps = 0;
+  while (guard.stepBack(moves))
+  {
+    ++sweeps;
+  }
+  return sweeps;
+}
+
+bool allValid(const SimplexMesh& mesh, const MidNodes& nodes, const Vector3& plane)
+{
+  const auto valid = findValidCells(mesh, nodes, plane);
+  return std::all_of(valid.begin(), valid.end(), [](unsigned char each) { return each == 1; });
+}
+
+TEST(MidNodeGuard, leavesValidMovesAlone)
+{
+  const SimplexMesh mesh = cadtest::oneTriangle({ { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } } });
+  const EdgeTable table = buildEdgeTable(mesh);
+  MidNodeMoves moves(mesh, table);
+  const Index edge = table.find(0, 1);
+  moves.add(edge, { 0.5, -0.2, 0 });
+  EXPECT_EQ(settle(mesh, table, up, moves), 0);
+  EXPECT_EQ(moves.fractions[edge], 1);
+  EXPECT_EQ(moves.position(edge), (Point3{ 0.5, -0.2, 0 }));
+}
+
+/// The Jacobian at the corner vanishes when the node has gone a quarter of the edge: of a way of
+/// 0.26 a part of 0.9615 is too much, and the first of the parts 1 - 2^-k below it is 0.9375.
+TEST(MidNodeGuard, takesSmallStepsFirst)
+{
+  const SimplexMesh mesh = cadtest::oneTriangle({ { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } } });
+  const EdgeTable table = buildEdgeTable(mesh);
+  MidNodeMoves moves(mesh, table);
+  const Index edge = table.find(0, 1);
+  moves.add(edge, { 0.76, 0, 0 });
+  EXPECT_EQ(settle(mesh, table, up, moves), 4);
+  EXPECT_EQ(moves.fractions[edge], 1 - 1.0 / 16);
+  EXPECT_TRUE(allValid(mesh, placed(table, moves), up));
+}
+
+/// A cell that is flat accepts nothing, and a target too far away only the middle.
+TEST(MidNodeGuard, endsInTheMiddle)
+{
+  SimplexMesh mesh =
+    cadtest::oneTetrahedron({ { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } });
+  const EdgeTable table = buildEdgeTable(mesh);
+  for (const double height : { 1.0, 0.0 })
+  {
+    mesh.points[3][2] = height;
+    MidNodeMoves moves(mesh, table);
+    const Index edge = table.find(1, 2);
+    moves.add(edge, { -1e5, -1e5, 0 });
+    EXPECT_LE(settle(mesh, table, {}, moves), 20);
+    EXPECT_EQ(moves.position(edge), (Point3{ 0.5, 0.5, 0 }));
+    EXPECT_EQ(allValid(mesh, placed(table, moves), {}), height > 0);
+  }
+}
+
+/// Random targets in a cube: all cells end valid, and in the same state whatever the cells' order.
+TEST(MidNodeGuard, makesAllCellsValidInAnyOrder)
+{
+  const SimplexMesh mesh = cadtest::cubeMesh(4, 0.1, 1);
+  const EdgeTable table = buildEdgeTable(mesh);
+  MidNodeMoves moves(mesh, table);
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> offset(-0.1, 0.1);
+  for (std::size_t e = 0; e < table.edges.size(); e += 2)
+  {
+    const auto edge = static_cast<Index>(e);
+    moves.add(
+      edge, moves.middles[edge] + Vector3{ offset(random), offset(random), offset(random) });
+  }
+  EXPECT_FALSE(allValid(mesh, placed(table, moves), {}));
+  SimplexMesh shuffled = mesh;
+  std::shuffle(shuffled.tetrahedra.begin(), shuffled.tetrahedra.end(), random);
+  const EdgeTable otherTable = buildEdgeTable(shuffled);
+  MidNodeMoves others = moves;
+  EXPECT_EQ(settle(mesh, table, {}, moves), settle(shuffled, otherTable, {}, others));
+  EXPECT_TRUE(allValid(mesh, placed(table, moves), {}));
+  EXPECT_EQ(moves.fractions, others.fractions);
+  const auto onTheWay = std::count_if(moves.fractions.begin(), moves.fractions.end(),
+    [](double fraction) { return fraction > 0 && fraction < 1; });
+  EXPECT_GT(onTheWay, 0);
+}
+
+} // namespace
