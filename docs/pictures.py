@@ -146,7 +146,7 @@ def cad_reader():
 
 def project_onto_cad():
     cad, mesh = CADReader(FileName=os.path.join(ROOT, "data", "naca0012_sharp.igs")), data("naca0012_coarse.vtu")
-    projected = ProjectontoCAD(Input=mesh, CAD=cad, UseRegion=1, Region=[-0.3, 3.3, -1, 3, -0.6, 0.6])
+    projected = ProjectOntoCAD(Input=mesh, CAD=cad, UseRegion=1, Region=[-0.3, 3.3, -1, 3, -0.6, 0.6])
     inside = Calculator(Input=ExtractSurface(Input=mesh), ResultArrayName="inside",
                         Function="(abs(coordsX - 1.5) < 1.8) * (abs(coordsZ) < 0.6)")
     before = Threshold(Input=inside)
@@ -167,7 +167,7 @@ def project_onto_cad():
 
 def three_arcs():
     cad = CADReader(FileName=os.path.join(ROOT, "data", "three_arcs.igs"))
-    return cad, ProjectontoCAD(Input=data("three_arcs_coarse.vtu"), CAD=cad)
+    return cad, ProjectOntoCAD(Input=data("three_arcs_coarse.vtu"), CAD=cad)
 
 
 def cad_geometric_error():
@@ -183,7 +183,7 @@ def cad_geometric_error():
 def refine_with_cad():
     cad, projected = three_arcs()
     images = []
-    for mesh in (projected, RefinewithCAD(Input=projected, CAD=cad, Method="Uniform Bisection", Levels=2)):
+    for mesh in (projected, RefineWithCAD(Input=projected, CAD=cad, Method="Uniform Bisection", Levels=2)):
         scene = Scene((440, 440), (0, 0, 1), (0, 1, 0))
         scene.show(mesh, "Surface With Edges")
         scene.show(blocks(cad)[1], color=(0.9, 0.1, 0.1), LineWidth=3)
@@ -195,7 +195,7 @@ def adapt_to_cad():
     cad = CADReader(FileName=os.path.join(ROOT, "data", "cylinder.brep"))
     images, top = [], None
     for steps in (0, 12):
-        mesh = AdapttoCAD(Input=data("cylinder_coarse.vtu"), CAD=cad, ErrorMarking="Bulk", ErrorFraction=0.3,
+        mesh = AdaptToCAD(Input=data("cylinder_coarse.vtu"), CAD=cad, ErrorMarking="Bulk", ErrorFraction=0.3,
                           MaximumSteps=steps)
         top = top or largest(mesh)
         scene = Scene((480 if images else 640, 440), (0.6, -0.8, 0.55))
@@ -227,9 +227,9 @@ def quadratic_ball():
         subprocess.run(["/usr/bin/python3", os.path.join(ROOT, "data", "solid_mesh.py"), "ball", "--cad", file,
                         os.path.join(folder, "ball.vtu")], check=True, stdout=subprocess.DEVNULL)
         cad = CADReader(FileName=file)
-        projected = ProjectontoCAD(Input=data("ball_coarse.vtu"), CAD=cad)
+        projected = ProjectOntoCAD(Input=data("ball_coarse.vtu"), CAD=cad)
         images = []
-        for mesh in (projected, RefinewithCAD(Input=projected, CAD=cad, Levels=0, QuadraticCells=1)):
+        for mesh in (projected, RefineWithCAD(Input=projected, CAD=cad, Levels=0, QuadraticCells=1)):
             scene = Scene((400, 400), (0.6, -0.8, 0.4))
             scene.show(mesh, "Surface With Edges", NonlinearSubdivisionLevel=4)
             images.append(scene.image(1.5))
@@ -246,7 +246,7 @@ def tutorial_meshes():
         subprocess.run(["bash", "-e", "-c", "\n".join(block.lines)], cwd=folder, check=True)
         mesh, cad, images, top = OpenDataFile(os.path.join(folder, "rod.vtk")), CADReader(FileName=ROD), [], None
         for steps in (0, 6):
-            adapted = AdapttoCAD(Input=mesh, CAD=cad, ErrorMarking="Bulk", MaximumSteps=steps)
+            adapted = AdaptToCAD(Input=mesh, CAD=cad, ErrorMarking="Bulk", MaximumSteps=steps)
             top = top or largest(adapted)
             scene = Scene((470, 360), (0.5, -0.6, 0.75))
             shown = scene.show(ExtractSurface(Input=adapted), "Surface With Edges")

@@ -71,12 +71,12 @@ def play(window, mesh):
     window.picture("tutorial_cad")
     window.play(*open_file(mesh), APPLY, *choose_from_menu("ProjectOntoCAD"), *choose_cad())
     window.picture("tutorial_inputs")
-    window.play(OK, APPLY, show(window, "ProjectontoCAD1", "POINTS", "CADDimension"))
+    window.play(OK, APPLY, show(window, "ProjectOntoCAD1", "POINTS", "CADDimension"))
     window.picture("tutorial_projected")
     window.play(*select("rod.vtk"), *choose_from_menu("AdaptToCAD"), *choose_cad(), OK,
                 event(PANEL + "ErrorMarking/ComboBox", "activated", "Bulk"),
                 event(PANEL + "MaximumSteps/LineEdit0", "set_string", "6"), APPLY,
-                show(window, "AdapttoCAD1", "CELLS", "GeometricError"))
+                show(window, "AdaptToCAD1", "CELLS", "GeometricError"))
     window.picture("tutorial_adapted")
 
 

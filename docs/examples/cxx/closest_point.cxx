@@ -1,6 +1,6 @@
 // Prints the point of a CAD file that is nearest to a given one: closest_point FILE X Y Z.
-#include <CADFile.h>
-#include <Error.h>
+#include <cadrefine/base/Error.h>
+#include <cadrefine/cad/import/CADFile.h>
 
 #include <cstdio>
 #include <cstdlib>

@@ -42,7 +42,7 @@ def refine(ranks, mesh, output, *options):
     """Runs CADRefine. Returns the last step of its report."""
     report = output + ".json"
     run(*mpirun(ranks), "pvbatch", os.path.join(ROOT, "plugin", "cadrefine.py"), mesh, CAD, "--quiet",
-        "--output", output, "--report", report, *options)
+        "--recursion-depth", 1, "--output", output, "--report", report, *options)
     return load(report)["steps"][-1]
 
 
