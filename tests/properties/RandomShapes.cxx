@@ -329,6 +329,7 @@ TopoDS_Shape nearUnitCircle(Random& random, double offset)
   const int count = random.among(5, 8);
   const double start = random.between(0, 2 * M_PI);
   std::vector<double> angles;
+  angles.reserve(count + 1);
   for (int k = 0; k < count; ++k)
   {
     angles.push_back(start + 2 * M_PI * (k + random.between(-0.2, 0.2)) / count);
