@@ -24,6 +24,7 @@ def rows_of(table):
 
 
 def main():
+    session.start()
     session.load_plugin()
     cad = simple.CADReader(FileName=sys.argv[1])
     mesh = simple.OpenDataFile(sys.argv[2])

@@ -43,6 +43,7 @@ def measure(label, proxy):
 
 def main():
     levels = int(sys.argv[1]) if len(sys.argv) > 1 else 4
+    session.start()
     session.load_plugin()
     cad = simple.CADReader(FileName=os.path.join(DATA, "naca0012_sharp.igs"))
     coarse = simple.ProjectOntoCAD(Input=simple.OpenDataFile(os.path.join(DATA, "naca0012_coarse.vtu")), CAD=cad)

@@ -95,8 +95,8 @@ def cycles():
 
 def main():
     folder, case = sys.argv[1:]
+    session.start()
     session.load_plugin()
-    session.messages.observe()
     started = time.perf_counter()
     result = {"surface": surface, "uniform": uniform, "adaptive": adaptive, "cycles": cycles}[case]()
     result["wall"] = time.perf_counter() - started

@@ -49,6 +49,7 @@ def refined(cad, mesh, levels):
 
 
 def main():
+    session.start()
     session.load_plugin()
     cad = simple.CADReader(FileName=sys.argv[1])
     cad.UpdatePipeline()

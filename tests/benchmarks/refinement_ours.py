@@ -84,6 +84,7 @@ def main():
     parser.add_argument("--balance", type=int, default=1)
     parser.add_argument("--levels", type=int, default=1)
     options = parser.parse_args()
+    session.start()
     session.load_plugin()
     if options.case == "box":
         source = box(int(options.input))
