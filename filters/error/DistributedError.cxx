@@ -251,7 +251,7 @@ MeshError measureError(RankExchange& exchange, const DistributedMesh& mesh,
     CellError& cell = result.ofCells[boundary.facets[facets[i]].cell];
     const double measure = isAutomatic ? extrapolatedMeasure(error) : error.measure;
     cell.measure += measure;
-    cell.largest.add({ error.maximumDistance, error.chordError, angles[facets[i]] });
+    cell.largest.add({ error.largestDistance, error.chordError, angles[facets[i]] });
     addends.push_back(measure);
   }
   for (const CellError& cell : result.ofCells)

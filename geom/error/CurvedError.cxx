@@ -94,7 +94,7 @@ private:
       const ClosestPoint where = projector_.nearestOn(entity, point);
       sample.place = where.point;
       sample.entity = where.entity;
-      error_.maximumDistance = std::max(error_.maximumDistance, where.distance);
+      error_.largestDistance = std::max(error_.largestDistance, where.distance);
     }
     return sample;
   }
@@ -118,7 +118,7 @@ private:
   void count(const Sample& sample, bool onEdge)
   {
     const double away = distance(sample.point, sample.place);
-    error_.maximumDistance = std::max(error_.maximumDistance, away);
+    error_.largestDistance = std::max(error_.largestDistance, away);
     error_.chordError = onEdge ? std::max(error_.chordError, away) : error_.chordError;
   }
 

@@ -32,7 +32,7 @@ struct CurvedErrorFacet
 /// values are added up over the parts: where facet and CAD cross in a part, it counts too little,
 /// and less so the deeper.
 ///
-/// maximumDistance is the largest distance of these points from their places, chordError that of
+/// largestDistance is the largest distance of these points from their places, chordError that of
 /// points on the facet's edges. Work: 3 (4 + 16 + ... + 4^depth) projections, in the plane
 /// 2 + 4 + ... + 2^depth.
 FacetError curvedError(

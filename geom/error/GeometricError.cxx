@@ -74,7 +74,7 @@ FacetError errorOf(const ClassifiedSurface& surface, const std::vector<ClosestPo
   for (int k = 0; k < cornersOf(surface.kind); ++k)
   {
     c[k] = surface.points[facet.corners[k]];
-    error.maximumDistance = std::max(error.maximumDistance, distance(c[k].point, c[k].place));
+    error.largestDistance = std::max(error.largestDistance, distance(c[k].point, c[k].place));
   }
   std::array<SurfacePoint, 3> m;
   for (int k = 0; k < edgesOf(surface.kind); ++k)
@@ -83,7 +83,7 @@ FacetError errorOf(const ClassifiedSurface& surface, const std::vector<ClosestPo
     const ClosestPoint& where = midpoints[facet.edges[k]];
     error.chordError = std::max(error.chordError, where.entity ? where.distance : 0);
   }
-  error.maximumDistance = std::max(error.maximumDistance, error.chordError);
+  error.largestDistance = std::max(error.largestDistance, error.chordError);
   error.measure =
     surface.kind == BoundaryKind::Segments ? areaBetween(c[0], c[1], m[0]) : volumeBetween(c, m);
   error.lastLevel = error.measure;
@@ -176,7 +176,7 @@ std::vector<FacetError> errorsOf(const ClassifiedSurface& surface,
     {
       error.measure += child->measure;
       error.lastLevel += child->lastLevel;
-      error.maximumDistance = std::max(error.maximumDistance, child->maximumDistance);
+      error.largestDistance = std::max(error.largestDistance, child->largestDistance);
     }
   }
   return errors;

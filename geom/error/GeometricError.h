@@ -15,7 +15,7 @@ struct FacetError
 {
   double measure = 0;         ///< Area (segments) or volume (triangles) between facet and CAD.
   double chordError = 0;      ///< Largest distance from the middle of the facet's edges to the CAD.
-  double maximumDistance = 0; ///< The same over the edges of its children too.
+  double largestDistance = 0; ///< The same over the edges of its children too.
   double lastLevel = 0;       ///< What the last level of the recursion has added to `measure`.
 };
 

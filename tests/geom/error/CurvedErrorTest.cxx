@@ -84,7 +84,7 @@ TEST_P(Parabola, aMidNodeOffTheCADCounts)
   const double area = segment() - underParabola(0.5);
   const FacetError error = curvedError(projector, facet(0.5), 6);
   EXPECT_NEAR(error.measure, area, 0.002 * area);
-  EXPECT_NEAR(error.maximumDistance, 0.5 * sagitta(), 1e-9);
+  EXPECT_NEAR(error.largestDistance, 0.5 * sagitta(), 1e-9);
   EXPECT_NEAR(error.chordError, 0.5 * sagitta(), 1e-9);
 }
 
@@ -94,7 +94,7 @@ TEST_P(Parabola, distanceIsThatOfPointsOnTheParabola)
   const double x = radius * std::sin(angle / 2) / 2;
   const double y = radius * std::cos(angle / 2) + 0.75 * sagitta();
   EXPECT_NEAR(
-    curvedError(projector, facet(), 1).maximumDistance, std::abs(std::hypot(x, y) - radius), 1e-12);
+    curvedError(projector, facet(), 1).largestDistance, std::abs(std::hypot(x, y) - radius), 1e-12);
 }
 
 /// A straight facet written as one of second order, its mid nodes off the CAD: the volume between
@@ -122,7 +122,7 @@ TEST(CurvedError, ofAStraightFacetIsThatOfFirstOrder)
   EXPECT_NEAR(extrapolatedMeasure(coarse), volume, 0.03 * volume);
   EXPECT_NEAR(geometricError(projector, facet.straight, 6).measure, volume, 0.002 * volume);
   // Of the points at sixteenths of the parameters, (5, 5, 6) / 16 is nearest to the centre.
-  EXPECT_NEAR(curvedError(projector, facet, 3).maximumDistance, 2 - 2 * std::sqrt(86.0) / 16, 1e-9);
+  EXPECT_NEAR(curvedError(projector, facet, 3).largestDistance, 2 - 2 * std::sqrt(86.0) / 16, 1e-9);
   EXPECT_NEAR(curvedError(projector, facet, 3).chordError, 2 - std::sqrt(2.0), 1e-9);
 }
 

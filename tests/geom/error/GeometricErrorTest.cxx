@@ -44,7 +44,7 @@ FacetError errorOf(const BoundaryProjector& projector, const SimplexMesh& surfac
       depth);
     sum.measure += part.measure;
     sum.lastLevel += part.lastLevel;
-    sum.maximumDistance = std::max(sum.maximumDistance, part.maximumDistance);
+    sum.largestDistance = std::max(sum.largestDistance, part.largestDistance);
   }
   return sum;
 }
@@ -105,7 +105,7 @@ TEST_P(Chord, errorConvergesLikeFourToTheDepth)
 
 TEST_P(Chord, distanceIsTheSagitta)
 {
-  EXPECT_NEAR(geometricError(projector, facet(), 3).maximumDistance,
+  EXPECT_NEAR(geometricError(projector, facet(), 3).largestDistance,
     radius * (1 - std::cos(GetParam() / 2)), 1e-9);
 }
 
@@ -194,7 +194,7 @@ TEST(SphereError, ofFacetsThatShareEdgesIsThatOfEachAlone)
       EXPECT_EQ(errors[f].measure, alone.measure);
       EXPECT_EQ(errors[f].lastLevel, alone.lastLevel);
       EXPECT_EQ(errors[f].chordError, alone.chordError);
-      EXPECT_EQ(errors[f].maximumDistance, alone.maximumDistance);
+      EXPECT_EQ(errors[f].largestDistance, alone.largestDistance);
     }
     if (parts == 1)
     {
@@ -250,7 +250,7 @@ TEST(CylinderError, isTheVolumeDeficitOfAnInscribedPrism)
     const FacetError error = geometricError(
       projector, prismFacet(projector, { side.points[a], side.points[b], side.points[c] }), 4);
     volume += error.measure;
-    farthest = std::max(farthest, error.maximumDistance);
+    farthest = std::max(farthest, error.largestDistance);
   }
   const double deficit = height * radius * radius * (pi - 6 * std::sin(2 * pi / 12));
   EXPECT_NEAR(volume, deficit, 0.01 * deficit);
@@ -264,7 +264,7 @@ TEST(PlaneError, isZero)
   const FacetError error = geometricError(
     projector, facetOf(projector, { { { 0.1, 0.1, 0 }, { 0.8, 0.2, 0 }, { 0.3, 0.9, 0 } } }), 3);
   EXPECT_LT(error.measure, 1e-15);
-  EXPECT_LT(error.maximumDistance, 1e-15);
+  EXPECT_LT(error.largestDistance, 1e-15);
 }
 
 /// An edge off the CAD stays straight: the facet's error does not follow it.
