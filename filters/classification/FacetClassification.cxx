@@ -40,7 +40,7 @@ bool keepsItsShape(
     longest = std::max(longest, before);
     farthest = std::max(farthest, hits[a].distance);
   }
-  return task.options.maximumDistance > 0 ||
+  return task.options.maximumDistance ||
          farthest <= ClassificationTolerances::farthestCorner * longest;
 }
 

@@ -20,9 +20,9 @@ struct ProjectionOptions
 {
   /// Only vertices inside xmin xmax ymin ymax zmin zmax.
   std::optional<std::array<double, 6>> region;
-  /// Vertices farther from the CAD stay; 0: a vertex's longest boundary edge (points alone: no
-  /// limit).
-  double maximumDistance = 0;
+  /// Vertices farther from the CAD stay; without it, a vertex's longest boundary edge (points
+  /// alone: no limit).
+  std::optional<double> maximumDistance;
   /// Cells that are inverted or flat are to be mended (see MoveSettings).
   bool mendCells = false;
 
@@ -48,7 +48,7 @@ struct ProjectionTask
   /// How far a vertex may be from the CAD.
   double limit(std::size_t vertex) const
   {
-    return options.maximumDistance > 0 ? options.maximumDistance : boundary.longestEdge[vertex];
+    return options.maximumDistance.value_or(boundary.longestEdge[vertex]);
   }
   /// Up to which distance a vertex lies on the CAD already.
   double exact(std::size_t vertex) const

@@ -60,7 +60,7 @@ std::string reasonOfNone(
   {
     return none + "there is no boundary in the region (Region)";
   }
-  const std::string farther = options.maximumDistance > 0
+  const std::string farther = options.maximumDistance
                                 ? "MaximumDistance"
                                 : "its longest edges (MaximumDistance lets vertices go farther)";
   const std::string misfit = warningOfMisfit(projection.fit, cadUnit, true);
@@ -90,8 +90,11 @@ ProjectionOptions makeProjectionOptions(const double* region, double maximumDist
 {
   checkProperty("MaximumDistance", maximumDistance, 0);
   ProjectionOptions options;
-  constexpr double anyDistance = 0x1p172; // between coordinates that meshes may have
-  options.maximumDistance = std::min(maximumDistance, anyDistance);
+  if (maximumDistance > 0)
+  {
+    constexpr double anyDistance = 0x1p172; // between coordinates that meshes may have
+    options.maximumDistance = std::min(maximumDistance, anyDistance);
+  }
   if (region)
   {
     checkBox("Region", region);

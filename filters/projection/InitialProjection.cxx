@@ -146,10 +146,7 @@ ProjectionResult projectPoints(RankExchange& exchange, DistributedMesh& mesh, co
   result.conflicts.assign(points.size(), 0);
   const auto owned = mesh.shared.ownedHere(static_cast<Index>(points.size()));
   SearchScope scope;
-  if (options.maximumDistance > 0)
-  {
-    scope.maximumDistance = options.maximumDistance;
-  }
+  scope.maximumDistance = options.maximumDistance.value_or(scope.maximumDistance);
   std::vector<Index> vertices;
   std::vector<Point3> queries;
   for (std::size_t v = 0; v < points.size(); ++v)
