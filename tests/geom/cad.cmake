@@ -22,7 +22,8 @@ cadrefine_geom_test(cad_tests
     cad/TestFiles.cxx
     cad/UnitsTest.cxx
     cad/UnreadTest.cxx
-  LINKS CADRefineFloatingPoint CADRefineCad ${CADREFINE_IGES} ${CADREFINE_STEP} TKXSBase TKPrim TKBO TKTopAlgo TKBRep)
+  LINKS CADRefineFloatingPoint CADRefineCad ${CADREFINE_IGES} ${CADREFINE_STEP} TKXSBase TKPrim TKBO TKTopAlgo TKBRep
+  PACKAGED "RealFiles[.]")
 target_include_directories(cad_tests SYSTEM PRIVATE ${OpenCASCADE_INCLUDE_DIR})
 
 # What is read of CAD files, beside what Open CASCADE's plain reader reads: for any folder, see cad_files.py.
@@ -33,4 +34,4 @@ target_link_libraries(cad_file_probe PRIVATE CADRefineCad CADRefineWarnings
 add_test(NAME cad_files COMMAND /usr/bin/python3 -B "${CMAKE_CURRENT_SOURCE_DIR}/cad_files.py" --all
   $<TARGET_FILE:cad_file_probe> "${CMAKE_SOURCE_DIR}/data" /usr/share/opencascade/data/iges
   /usr/share/opencascade/data/step)
-set_tests_properties(cad_files PROPERTIES LABELS unit TIMEOUT 300)
+set_tests_properties(cad_files PROPERTIES LABELS "unit;packaged" TIMEOUT 300)

@@ -8,6 +8,7 @@ cadrefine_geom_test(exact_tests
     cad/TestFiles.cxx
     ../support/TestShapes.cxx
   LINKS CADRefineFloatingPoint CADRefineCad ${CADREFINE_IGES} ${CADREFINE_STEP} TKXSBase TKPrim TKBO TKTopAlgo TKBRep TKGeomBase TKShHealing
-  SLOW "*/terrain_brep:*/data_aeroplane_igs:*/shell1_brep:*/bearing_iges:*/MAT_brep")
+  SLOW "data_aeroplane_igs|packaged_(terrain_brep|shell1_brep|bearing_iges|MAT_brep)"
+  PACKAGED "/packaged_")
 target_include_directories(exact_tests PRIVATE cad nurbs ../support)
 target_include_directories(exact_tests SYSTEM PRIVATE ${OpenCASCADE_INCLUDE_DIR})

@@ -117,7 +117,7 @@ std::vector<TestModel> allModels()
   }
   for (const char* path : packagedFiles)
   {
-    models.push_back({ nameOf(path), path, {}, {} });
+    models.push_back({ "packaged_" + nameOf(path), path, {}, {} });
   }
   for (const NamedShape& shape : shapes)
   {
