@@ -47,7 +47,7 @@ gallery: build ## Run the cases of docs/gallery.md: meshes, reports and pictures
 	@/usr/bin/python3 docs/gallery/gallery.py
 
 .PHONY: test
-test: format-check build-all ## Run the tests, but for the slow ones
+test: lint build-all ## Run the tests, but for the slow ones
 	@ctest --preset release --parallel $(JOBS)
 
 .PHONY: test-slow
@@ -55,7 +55,7 @@ test-slow: build-all ## Run the slow tests
 	@ctest --preset release-slow --parallel $(JOBS)
 
 .PHONY: test-all
-test-all: format-check build-all ## Run all tests
+test-all: lint build-all ## Run all tests
 	@ctest --preset release-all --parallel $(JOBS)
 
 .PHONY: install
@@ -124,11 +124,12 @@ format: ## Format the sources
 	@.ci/install-packages clang-format
 	@clang-format -i $(SOURCES)
 
-.PHONY: format-check
-format-check: ## Fail where make format would change something (clang-format 14: others differ)
-	@.ci/install-packages clang-format
+.PHONY: lint
+lint: ## Look at the format of the sources (clang-format 14: others differ) and of the documentation
+	@.ci/install-packages clang-format python3
 	@if clang-format --version | grep -q 'version 14\.'; then clang-format --dry-run --Werror $(SOURCES); \
-	  else echo "format-check: left out, $$(clang-format --version) is not 14"; fi
+	  else echo "lint: the sources are left out, $$(clang-format --version) is not 14"; fi
+	@/usr/bin/python3 -B tests/docs/lint.py
 
 .PHONY: tidy
 tidy: build-all ## Run clang-tidy on the sources

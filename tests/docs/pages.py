@@ -85,3 +85,8 @@ def all_pages():
     for folder, _, names in os.walk(DOCS):
         found += [os.path.join(folder, name) for name in names if name.endswith(".md")]
     return [Page(path) for path in sorted(found)]
+
+
+def pictures():
+    for folder, _, names in os.walk(DOCS):
+        yield from (os.path.join(folder, name) for name in names if name.endswith((".png", ".svg", ".jpg", ".gif")))

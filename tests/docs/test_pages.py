@@ -1,6 +1,5 @@
 #!/usr/bin/python3
-"""Links lead somewhere, pictures exist, are small and are used, lines are not longer than 120 columns, code is fenced; the
-citation and the issue templates say what they have to."""
+"""Links lead somewhere, pictures exist and are used; the citation and the issue templates say what they have to."""
 
 import glob
 import os
@@ -12,15 +11,6 @@ import yaml
 
 PAGES = pages.all_pages()
 ANCHORS = {page.path: page.anchors() for page in PAGES}
-LANGUAGES = {"bash", "python", "console", "text", "json", "xml", "cmake", "cpp", "c", "yaml", "make"}
-PICTURES = (".png", ".svg", ".jpg", ".gif")
-LARGEST_PICTURE = 80_000  # Bytes.
-WIDTH = 120
-
-
-def pictures_of_the_repository():
-    for folder, _, names in os.walk(pages.DOCS):
-        yield from (os.path.join(folder, name) for name in names if name.endswith(PICTURES))
 
 
 class Pages(unittest.TestCase):
@@ -49,14 +39,9 @@ class Pages(unittest.TestCase):
 
     def test_pictures_are_used(self):
         used = {file for _, picture, file, _ in self.targets() if picture}
-        found = set(pictures_of_the_repository())
+        found = set(pages.pictures())
         self.assertTrue(found)
         self.every(sorted(os.path.relpath(path, pages.ROOT) for path in found - used))
-
-    def test_pictures_are_small(self):
-        sizes = {path: os.path.getsize(path) for path in pictures_of_the_repository()}
-        self.every(f"{os.path.relpath(path, pages.ROOT)}: {size} bytes" for path, size in sorted(sizes.items())
-                   if size > LARGEST_PICTURE)
 
     def test_every_page_is_reached_from_the_list(self):
         """By links from docs/README.md."""
@@ -68,30 +53,6 @@ class Pages(unittest.TestCase):
             reached |= new
             new = {file for path in new for file in links.get(path, ())} - reached
         self.every(page.name for page in PAGES if page.path.startswith(pages.DOCS) and page.path not in reached)
-
-    def test_code_is_fenced(self):
-        for page in PAGES:
-            previous, in_list = "", False
-            for number, line in page.prose:
-                if line and not line.startswith(" "):
-                    in_list = line.startswith(("* ", "- ")) or line[0].isdigit()
-                if line.startswith("    ") and not previous.strip() and not in_list:
-                    self.fail(f"{page.name}:{number}: indented code; put it into a fence")
-                previous = line
-
-    def test_languages_are_known(self):
-        self.every(f"{page.name}:{block.first}: {block.language or 'no language'}" for page in PAGES
-                   for block in page.blocks if block.language not in LANGUAGES)
-
-    def test_lines_are_short(self):
-        """But for tables, addresses, and what a program printed."""
-        for page in PAGES:
-            printed = {block.first + i for block in page.blocks if block.language == "text"
-                       for i in range(1, len(block.lines) + 1)}
-            self.every(f"{page.name}:{number}: {len(line)} columns" for number, line in enumerate(page.lines, 1)
-                       if len(line) > WIDTH and number not in printed and not line.startswith("|")
-                       and "://" not in line)
-
 
 def load(*names):
     with open(os.path.join(pages.ROOT, *names), encoding="utf-8") as file:
