@@ -3,6 +3,7 @@
 Runs from the repository's root after `make build`; `make pictures` does it.
 """
 
+import contextlib
 import glob
 import math
 import os
@@ -236,15 +237,30 @@ def quadratic_ball():
         save("quadratic_ball", *images)
 
 
-def tutorial_meshes():
-    """The rod as the tutorial meshes it (its first block), projected and after six steps."""
+@contextlib.contextmanager
+def rod_of_the_tutorial():
+    """The rod as the tutorial meshes it (its first block)."""
     sys.path.insert(0, os.path.join(ROOT, "tests", "docs"))
     import pages
 
     block = next(b for b in pages.Page(os.path.join(ROOT, "docs", "tutorial.md")).blocks if b.language == "bash")
     with tempfile.TemporaryDirectory() as folder:
         subprocess.run(["bash", "-e", "-c", "\n".join(block.lines)], cwd=folder, check=True)
-        mesh, cad, images, top = OpenDataFile(os.path.join(folder, "rod.vtk")), CADReader(FileName=ROD), [], None
+        yield OpenDataFile(os.path.join(folder, "rod.vtk")), CADReader(FileName=ROD)
+
+
+def cad_boundary():
+    with rod_of_the_tutorial() as (mesh, cad):
+        boundary = CADBoundary(Input=ProjectOntoCAD(Input=mesh, CAD=cad), CAD=cad)
+        scene = Scene((760, 420), (0.5, -0.6, 0.75))
+        ColorBy(scene.show(boundary, "Surface With Edges"), ("CELLS", "CADEntity"))
+        save("cad_boundary", scene.image(1.3))
+
+
+def tutorial_meshes():
+    """Projected, and after six steps."""
+    with rod_of_the_tutorial() as (mesh, cad):
+        images, top = [], None
         for steps in (0, 6):
             adapted = AdaptToCAD(Input=mesh, CAD=cad, ErrorMarking="Bulk", MaximumSteps=steps)
             top = top or largest(adapted)
@@ -256,8 +272,8 @@ def tutorial_meshes():
         save("tutorial_meshes", *images)
 
 
-PICTURES = (cad_reader, project_onto_cad, cad_geometric_error, refine_with_cad, adapt_to_cad, mesh_validity,
-            quadratic_ball, tutorial_meshes)
+PICTURES = (cad_reader, project_onto_cad, cad_geometric_error, refine_with_cad, adapt_to_cad, cad_boundary,
+            mesh_validity, quadratic_ball, tutorial_meshes)
 
 
 def main():

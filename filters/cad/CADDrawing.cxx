@@ -13,8 +13,6 @@
 #include <vtkStringArray.h>
 #include <vtkUnsignedCharArray.h>
 
-#include <cmath>
-
 namespace cadrefine
 {
 namespace
@@ -99,14 +97,10 @@ public:
 private:
   void addCell(EntityId entity)
   {
-    constexpr std::array<float, 3> white{ 1, 1, 1 };
     entities_->InsertNextValue(entity.index);
     const EntityAttributes& attributes = model_.attributes(entity);
     names_->InsertNextValue(attributes.name);
-    for (const float part : attributes.colour.value_or(white))
-    {
-      colours_->InsertNextValue(static_cast<unsigned char>(std::lround(255 * part)));
-    }
+    colours_->InsertNextTypedTuple(colourOf(attributes).data());
   }
 
   /// The same arrays on every rank, whatever it draws.

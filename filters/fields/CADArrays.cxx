@@ -10,6 +10,7 @@
 #include <vtkSignedCharArray.h>
 #include <vtkUnsignedCharArray.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -144,6 +145,16 @@ void writeClassification(vtkPointSet* output, const Classification& classificati
   pointData->AddArray(entities);
   pointData->AddArray(parameters);
   pointData->AddArray(distances);
+}
+
+std::array<unsigned char, 3> colourOf(const EntityAttributes& attributes)
+{
+  constexpr std::array<float, 3> white{ 1, 1, 1 };
+  std::array<unsigned char, 3> result;
+  const auto colour = attributes.colour.value_or(white);
+  std::transform(colour.begin(), colour.end(), result.begin(),
+    [](float part) { return static_cast<unsigned char>(std::lround(255 * part)); });
+  return result;
 }
 
 void writeConflicts(vtkPointData* output, const std::vector<unsigned char>& conflicts)

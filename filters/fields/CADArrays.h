@@ -4,6 +4,7 @@
 #include <cadrefine/cad/model/CADModel.h>
 #include <cadrefine/classification/Classification.h>
 
+#include <array>
 #include <vector>
 
 #include <vtkType.h>
@@ -20,6 +21,8 @@ constexpr const char* dimension = "CADDimension";
 constexpr const char* entity = "CADEntity";
 constexpr const char* parameters = "CADParameters";
 constexpr const char* distance = "CADDistance";
+constexpr const char* name = "CADName";
+constexpr const char* colour = "CADColor";
 constexpr const char* conflict = "CADConflict";
 constexpr const char* error = "GeometricError";
 constexpr const char* errorDistance = "GeometricDistance";
@@ -42,6 +45,9 @@ bool hasClassification(vtkPointSet* input);
 
 /// Adds or replaces the point arrays; one entry for each point of `output`.
 void writeClassification(vtkPointSet* output, const Classification& classification);
+
+/// Red, green and blue; white for an entity without a colour.
+std::array<unsigned char, 3> colourOf(const EntityAttributes& attributes);
 
 /// Adds or replaces the point array CADConflict; one entry for each point.
 void writeConflicts(vtkPointData* output, const std::vector<unsigned char>& conflicts);

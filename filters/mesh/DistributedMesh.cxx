@@ -130,26 +130,6 @@ void appendKeys(
   }
 }
 
-/// Cell ids from the ids of their vertices: cells with the same vertices have the same one.
-void numberCells(RankExchange& exchange, const SharedVertices& shared, ConvertedMesh& converted)
-{
-  const SimplexMesh& mesh = converted.mesh;
-  std::vector<VertexKey<3>> keys;
-  reserveLong(keys, mesh.cellCount());
-  appendKeys(mesh, mesh.vertices, keys);
-  appendKeys(mesh, mesh.segments, keys);
-  appendKeys(mesh, mesh.triangles, keys);
-  appendKeys(mesh, mesh.tetrahedra, keys);
-  const auto numbers = numberAtVertices(exchange, shared, mesh.ids, keys).numbers;
-  auto next = numbers.begin();
-  for (int d = 0; d < 4; ++d)
-  {
-    const auto end = next + static_cast<std::ptrdiff_t>(converted.cellOf[d].size());
-    converted.cellIds[d].assign(next, end);
-    next = end;
-  }
-}
-
 bool haveIds(const ConvertedMesh& converted)
 {
   return converted.cellIds[converted.mesh.dimension].size() ==
@@ -157,6 +137,27 @@ bool haveIds(const ConvertedMesh& converted)
 }
 
 } // namespace
+
+void numberCells(RankExchange& exchange, DistributedMesh& mesh)
+{
+  const SimplexMesh& cells = mesh.mesh();
+  std::vector<VertexKey<3>> keys;
+  reserveLong(keys, cells.cellCount());
+  appendKeys(cells, cells.vertices, keys);
+  appendKeys(cells, cells.segments, keys);
+  appendKeys(cells, cells.triangles, keys);
+  appendKeys(cells, cells.tetrahedra, keys);
+  const auto numbers = numberAtVertices(exchange, mesh.shared, cells.ids, keys).numbers;
+  auto next = numbers.begin();
+  const std::size_t counts[] = { cells.vertices.size(), cells.segments.size(),
+    cells.triangles.size(), cells.tetrahedra.size() };
+  for (int d = 0; d < 4; ++d)
+  {
+    const auto end = next + static_cast<std::ptrdiff_t>(counts[d]);
+    mesh.converted.cellIds[d].assign(next, end);
+    next = end;
+  }
+}
 
 SharedVertices findShared(RankExchange& exchange, const SimplexMesh& mesh)
 {
@@ -192,7 +193,7 @@ DistributedMesh makeDistributedMesh(RankExchange& exchange, vtkPointSet* input, 
   checkPieces(exchange, result);
   if (exchange.any(!haveIds(result.converted)))
   {
-    numberCells(exchange, result.shared, result.converted);
+    numberCells(exchange, result);
   }
   const auto& ids = result.mesh().ids;
   GlobalId largest = ids.empty() ? -1 : *std::max_element(ids.begin(), ids.end());

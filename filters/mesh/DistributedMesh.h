@@ -32,6 +32,10 @@ struct DistributedMesh
 DistributedMesh makeDistributedMesh(
   RankExchange& exchange, vtkPointSet* input, CellOrder order = CellOrder::First);
 
+/// Gives the cells ids by those of their vertices: cells with the same vertices have the same one,
+/// wherever they are. Collective; see numberAtVertices.
+void numberCells(RankExchange& exchange, DistributedMesh& mesh);
+
 /// The shared points of a mesh whose edges are shared like this: those of its vertices, and of the
 /// mid nodes that have numbers after them. No communication.
 SharedVertices findSharedPoints(const DistributedMesh& mesh, const SharedEdges& edges);

@@ -3,6 +3,8 @@
 #include "DataSets.h"
 #include "TestMeshes.h"
 
+#include <vtkCADBoundary.h>
+
 namespace cadrefine
 {
 namespace
@@ -29,6 +31,7 @@ const std::vector<NamedFilter>& BadMesh::allFilters()
     { "Adapt To CAD", attemptAdapt },
     { "Mesh Validity", attemptFilter<vtkMeshValidity> },
     { "CAD Geometric Error", attemptFilter<vtkCADGeometricError> },
+    { "CAD Boundary", attemptFilter<vtkCADBoundary> },
     { "Refine With CAD", attemptFilter<vtkRefineWithCAD> },
   };
   return filters;

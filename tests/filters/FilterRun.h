@@ -37,7 +37,8 @@ struct Outcome
 Outcome execute(vtkAlgorithm* filter);
 
 /// Filters with one CAD file, on the ranks of a controller (none: one rank). Where the input has no
-/// invalid cell here, it is a failure of the test if the output has one, by exact orientation.
+/// invalid cell here, it is a failure of the test if the output, of the same dimension, has one, by
+/// exact orientation.
 class FilterRun
 {
 public:

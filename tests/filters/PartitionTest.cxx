@@ -9,6 +9,7 @@
 #include "TestMeshes.h"
 #include "TestShapes.h"
 
+#include <vtkCADBoundary.h>
 #include <vtkDataArray.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
@@ -16,6 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace cadrefine
 {
@@ -260,7 +262,8 @@ protected:
 
   using Steps = std::vector<cadtest::FilterRun::Data>;
 
-  /// The mesh after each filter: projected, measured, refined locally, refined uniformly, measured.
+  /// The mesh after each filter: projected, measured, refined locally, refined uniformly, its
+  /// boundary, measured.
   Steps run(vtkPointSet* mesh, vtkMultiProcessController* controller) const
   {
     const cadtest::FilterRun filters(cadFile(), controller);
@@ -280,7 +283,8 @@ protected:
         filter->SetMethod(vtkRefineWithCAD::UNIFORM_BISECTION);
         filter->SetBalance(GetParam().balance);
       }));
-    steps.push_back(filters.measure(steps.back(), 1));
+    steps.push_back(filters.run<vtkCADBoundary>(steps.back(), [](vtkCADBoundary*) {}));
+    steps.push_back(filters.measure(*std::prev(steps.end(), 2), 1));
     return steps;
   }
 

@@ -43,7 +43,8 @@ def fitting(file):
     # The filters whose input may be this file as ParaView sees it.
     source = simple.FindSource(file)
     fit = []
-    for name in ("ProjectOntoCAD", "CADGeometricError", "RefineWithCAD", "AdaptToCAD", "MeshValidity"):
+    for name in ("ProjectOntoCAD", "CADGeometricError", "RefineWithCAD", "AdaptToCAD", "CADBoundary",
+                 "MeshValidity"):
         prototype = servermanager.ProxyManager().SMProxyManager.GetPrototypeProxy("filters", name)
         property = prototype.GetProperty("Input")
         property.RemoveAllUncheckedProxies()

@@ -60,7 +60,8 @@ with open(FILE, "w") as file:
 """
 
 FILTERS = {"ProjectOntoCAD": "Project Onto CAD", "CADGeometricError": "CAD Geometric Error",
-           "RefineWithCAD": "Refine With CAD", "MeshValidity": "Mesh Validity", "AdaptToCAD": "Adapt To CAD"}
+           "RefineWithCAD": "Refine With CAD", "CADBoundary": "CAD Boundary", "MeshValidity": "Mesh Validity",
+           "AdaptToCAD": "Adapt To CAD"}
 FUNCTIONS = ["CADReader"] + [label.replace(" ", "") for label in FILTERS.values()]
 
 
@@ -158,6 +159,7 @@ def play_all(window, data):
                ("Fraction", "visible", "false")),
         event(PANEL + "Threshold/DoubleLineEdit0", "set_string", "1e-5"))
     use(window, "MeshValidity")
+    use(window, "CADBoundary")
     window.play(python("from paraview import simple"),
                 python("simple.SetActiveSource(simple.FindSource('naca0012_coarse.vtu'))"))
     use(window, "AdaptToCAD",

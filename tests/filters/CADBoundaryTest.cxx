@@ -1,0 +1,240 @@
+// CAD Boundary: each facet has the CAD face that it lies on, and what belongs to it.
+
+#include "DataSets.h"
+#include "FilterRun.h"
+#include "IgesCases.h"
+#include "MeshChecks.h"
+#include "TestFiles.h"
+#include "TestMeshes.h"
+#include "TestShapes.h"
+
+#include <cadrefine/cad/model/CADModel.h>
+
+#include <vtkCADBoundary.h>
+#include <vtkCADModelCache.h>
+#include <vtkCellData.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkStringArray.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+namespace
+{
+
+using namespace cadrefine;
+using Data = cadtest::FilterRun::Data;
+
+Data boundaryOf(const cadtest::FilterRun& filters, vtkPointSet* mesh)
+{
+  return filters.run<vtkCADBoundary>(mesh, [](vtkCADBoundary*) {});
+}
+
+EntityId entityOf(vtkPointSet* boundary, vtkIdType cell)
+{
+  vtkCellData* const cells = boundary->GetCellData();
+  return { static_cast<std::int8_t>(cells->GetArray("CADDimension")->GetTuple1(cell)),
+    static_cast<std::int32_t>(cells->GetArray("CADEntity")->GetTuple1(cell)) };
+}
+
+Point3 centroidOf(vtkPointSet* boundary, vtkIdType cell)
+{
+  vtkIdList* const points = boundary->GetCell(cell)->GetPointIds();
+  Point3 sum{};
+  for (const vtkIdType point : *points)
+  {
+    Point3 corner;
+    boundary->GetPoint(point, corner.data());
+    sum = sum + corner;
+  }
+  return (1.0 / static_cast<double>(points->GetNumberOfIds())) * sum;
+}
+
+/// By a search of each entity of this dimension by itself.
+double nearestOfAll(const CADModel& model, int dimension, const Point3& point)
+{
+  double nearest = std::numeric_limits<double>::infinity();
+  for (int entity = 0; entity < model.count(dimension); ++entity)
+  {
+    const EntityId id{ static_cast<std::int8_t>(dimension), entity };
+    nearest = std::min(nearest, model.nearestOn(id, point).distance);
+  }
+  return nearest;
+}
+
+/// Each facet is on the entity nearest to its middle, up to `tolerance` (at corners facets bulge
+/// over their face's border).
+void expectNearestEntities(
+  const CADModel& model, vtkPointSet* boundary, int dimension, double tolerance)
+{
+  for (vtkIdType cell = 0; cell < boundary->GetNumberOfCells(); ++cell)
+  {
+    const EntityId entity = entityOf(boundary, cell);
+    ASSERT_EQ(entity.dimension, dimension) << cell;
+    const Point3 middle = centroidOf(boundary, cell);
+    EXPECT_LE(
+      model.nearestOn(entity, middle).distance, nearestOfAll(model, dimension, middle) + tolerance)
+      << cell;
+  }
+}
+
+TEST(CADBoundary, namesTheFaceOfEachFacet)
+{
+  const cadtest::TemporaryFolder folder;
+  const cadtest::FilterRun filters(cadtest::writeInto(folder, cadtest::partWithCavity(), ".step"));
+  const auto mesh =
+    filters.refineUniformly(filters.project(cadtest::readGrid(CADREFINE_DATA "/part_coarse.vtu")));
+  const auto boundary = boundaryOf(filters, mesh);
+  const auto facets = static_cast<vtkIdType>(cadtest::countOuterSides(cadtest::toMesh(mesh)));
+  ASSERT_EQ(boundary->GetNumberOfCells(), facets);
+  EXPECT_EQ(cadtest::countOuterSides(cadtest::toMesh(boundary)), 0u) << "it is closed";
+  EXPECT_NEAR(cadtest::volumeInside(cadtest::toMesh(boundary)),
+    cadtest::measureOf(cadtest::toMesh(mesh)), 1e-12);
+  const auto model = vtkCADModelCache::Get(filters.cad());
+  expectNearestEntities(*model, boundary, 2, 1e-3);
+  std::vector<int> facetsOf(model->count(2), 0);
+  for (vtkIdType cell = 0; cell < facets; ++cell)
+  {
+    ++facetsOf[entityOf(boundary, cell).index];
+  }
+  EXPECT_EQ(std::count(facetsOf.begin(), facetsOf.end(), 0), 0) << "every face has some";
+}
+
+/// In the plane facets are segments, and lie on edges.
+TEST(CADBoundary, namesTheEdgeOfEachSegment)
+{
+  const cadtest::FilterRun filters(CADREFINE_DATA "/three_arcs.igs");
+  const auto mesh = filters.refineUniformly(
+    filters.project(cadtest::readGrid(CADREFINE_DATA "/three_arcs_coarse.vtu")));
+  const auto boundary = boundaryOf(filters, mesh);
+  const auto model = vtkCADModelCache::Get(filters.cad());
+  std::vector<double> lengths(model->count(1), 0);
+  for (vtkIdType cell = 0; cell < boundary->GetNumberOfCells(); ++cell)
+  {
+    ASSERT_EQ(boundary->GetCellType(cell), VTK_LINE);
+    const EntityId entity = entityOf(boundary, cell);
+    const Point3 middle = centroidOf(boundary, cell);
+    if (entity)
+    {
+      ASSERT_EQ(entity.dimension, 1);
+      EXPECT_LE(model->nearestOn(entity, middle).distance, nearestOfAll(*model, 1, middle) + 1e-9);
+      lengths[entity.index] += std::sqrt(boundary->GetCell(cell)->GetLength2());
+    }
+    else
+    {
+      EXPECT_GT(nearestOfAll(*model, 1, middle), 0.1) << "the outer square";
+    }
+  }
+  for (int edge = 0; edge < model->count(1); ++edge)
+  {
+    const double length = model->measure({ 1, edge });
+    EXPECT_LT(lengths[edge], length);
+    EXPECT_GT(lengths[edge], 0.98 * length) << "chords of all of the arc";
+  }
+}
+
+/// Arrays and ids come along: those of points, and those of the cell behind a facet.
+TEST(CADBoundary, keepsTheArraysOfTheMesh)
+{
+  const cadtest::TemporaryFolder folder;
+  const cadtest::FilterRun filters(cadtest::writeInto(folder, cadtest::sphere(2), ".step"));
+  const auto coarse = cadtest::toGrid(cadtest::ballMesh(2, 0.03));
+  cadtest::addArrays(coarse);
+  cadtest::addGlobalIds(coarse);
+  const auto mesh = filters.measure(filters.project(coarse), 1);
+  const auto boundary = boundaryOf(filters, mesh);
+  vtkDataArray* const errors = boundary->GetCellData()->GetArray("GeometricError");
+  vtkDataArray* const tags = boundary->GetCellData()->GetArray("Tag");
+  ASSERT_TRUE(errors && tags);
+  for (vtkIdType cell = 0; cell < boundary->GetNumberOfCells(); ++cell)
+  {
+    EXPECT_GT(errors->GetTuple1(cell), 0);
+    const auto parent = static_cast<vtkIdType>(tags->GetTuple1(cell));
+    const vtkSmartPointer<vtkCell> behind = mesh->GetCell(parent);
+    for (const vtkIdType vertex : *boundary->GetCell(cell)->GetPointIds())
+    {
+      double corner[3];
+      boundary->GetPoint(vertex, corner);
+      const vtkIdType point = mesh->FindPoint(corner);
+      EXPECT_TRUE(behind->GetPointIds()->IsId(point) >= 0);
+      for (const char* name : { "Linear", "CADEntity", "CADDistance" })
+      {
+        EXPECT_EQ(boundary->GetPointData()->GetArray(name)->GetTuple1(vertex),
+          mesh->GetPointData()->GetArray(name)->GetTuple1(point));
+      }
+      EXPECT_EQ(boundary->GetPointData()->GetGlobalIds()->GetTuple1(vertex),
+        mesh->GetPointData()->GetGlobalIds()->GetTuple1(point));
+    }
+  }
+}
+
+/// Two squares of an IGES file, one of them red and with a name.
+TEST(CADBoundary, hasTheNamesAndColoursOfTheFile)
+{
+  const cadtest::TemporaryFolder folder;
+  cadtest::IgesWriter file;
+  cadtest::IgesAttributes deck;
+  deck.label = "DECK";
+  deck.colour = 2;
+  cadtest::addSquare(file, { 0, 0, 0 }, deck);
+  cadtest::addSquare(file, { 0, 0, 1 }, {});
+  file.write(folder.file("squares.igs"));
+  const cadtest::FilterRun filters(folder.file("squares.igs"));
+  SimplexMesh mesh;
+  mesh.dimension = 2;
+  mesh.points = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, { 1, 0, 1 },
+    { 1, 1, 1 }, { 0, 1, 1 } };
+  mesh.triangles = { { 0, 1, 2 }, { 0, 2, 3 }, { 4, 5, 6 }, { 4, 6, 7 } };
+  const auto boundary = boundaryOf(filters, filters.project(cadtest::toPolyData(mesh)));
+  ASSERT_EQ(boundary->GetNumberOfCells(), 4);
+  auto* const names =
+    vtkStringArray::SafeDownCast(boundary->GetCellData()->GetAbstractArray("CADName"));
+  auto* const colours =
+    vtkUnsignedCharArray::SafeDownCast(boundary->GetCellData()->GetArray("CADColor"));
+  ASSERT_TRUE(names && colours);
+  for (vtkIdType cell = 0; cell < 4; ++cell)
+  {
+    const bool onDeck = centroidOf(boundary, cell)[2] < 0.5;
+    EXPECT_EQ(names->GetValue(cell), onDeck ? "DECK" : "");
+    EXPECT_EQ(colours->GetTypedComponent(cell, 0), 255);
+    EXPECT_EQ(colours->GetTypedComponent(cell, 1), onDeck ? 0 : 255);
+  }
+}
+
+/// A ball in a shell: the triangles between the two, which the mesh lists, lie on the sphere; those
+/// of the outer border do not lie on the CAD.
+TEST(CADBoundary, hasListedFacetsBetweenMaterials)
+{
+  constexpr double radius = 2;
+  const cadtest::TemporaryFolder folder;
+  const cadtest::FilterRun filters(cadtest::writeInto(folder, cadtest::sphere(radius), ".step"));
+  const SimplexMesh mesh = cadtest::ballInShellMesh(radius, 0.03);
+  const auto boundary = boundaryOf(filters, filters.project(cadtest::toGrid(mesh)));
+  std::size_t onSphere = 0;
+  for (vtkIdType cell = 0; cell < boundary->GetNumberOfCells(); ++cell)
+  {
+    const bool inside = norm(centroidOf(boundary, cell)) < 1.5 * radius;
+    EXPECT_EQ(entityOf(boundary, cell), (inside ? EntityId{ 2, 0 } : EntityId{}));
+    onSphere += inside;
+  }
+  EXPECT_EQ(onSphere, mesh.triangles.size());
+  EXPECT_EQ(boundary->GetNumberOfCells() - onSphere, cadtest::countOuterSides(mesh));
+}
+
+TEST(CADBoundary, needsAProjectedMesh)
+{
+  const cadtest::TemporaryFolder folder;
+  const cadtest::FilterRun filters(cadtest::writeInto(folder, cadtest::sphere(2), ".step"));
+  const auto outcome = filters.attempt<vtkCADBoundary>(
+    cadtest::toGrid(cadtest::ballMesh(2, 0.03)), [](vtkCADBoundary*) {});
+  EXPECT_FALSE(outcome.succeeded);
+  ASSERT_EQ(outcome.errors.size(), 1u);
+  EXPECT_NE(outcome.errors[0].find("CADDimension"), std::string::npos) << outcome.errors[0];
+}
+
+} // namespace
