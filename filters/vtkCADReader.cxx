@@ -325,7 +325,7 @@ void vtkCADReader::Warn(const cadrefine::CADModel& model, const Lines& repairs)
   const std::string text = Section("not read:", EntityLines(report.unread), "CADUnread") +
                            Section("repaired:", repairs, "CADRepairs") +
                            Section("inexact:", InexactLines(model), "CADInexact") +
-                           Section("faces that are not joined:", GapLines(report), "CADGaps");
+                           Section("gaps between faces (not sewn):", GapLines(report), "CADGaps");
   if (!text.empty())
   {
     vtkWarningMacro(<< this->FileName << ":" << text

@@ -24,7 +24,7 @@ cadrefine::PipelineResult vtkMeshValidity::Execute(
 {
   using namespace cadrefine;
   MeshState state = readMesh(exchange, input, CellOrder::FirstOrSecond);
-  exchange.progress().say(0.5, "looking at cells");
+  exchange.progress().say(0.5, "checking cells");
   const SimplexMesh& mesh = state.mesh.mesh();
   const CellQualities qualities = measureQuality(exchange, state.mesh);
   const auto cells = static_cast<vtkIdType>(mesh.cellCount());

@@ -4,10 +4,10 @@
 #include "comm/RankExchange.h"
 #include "comm/RunStatistics.h"
 #include "mesh/InputCheck.h"
+#include "pipeline/FitReport.h"
 #include "pipeline/GeometryCache.h"
 #include "pipeline/InputSplit.h"
 #include "pipeline/PipelineContext.h"
-#include "projection/Fit.h"
 #include "vtkCADModelCache.h"
 
 #include <cadrefine/cad/model/CADModel.h>

@@ -122,7 +122,7 @@ std::vector<int> partitionByWeight(RankExchange& exchange, const std::vector<Poi
   Zoltan zoltan(exchange.link()->ranks);
   setUp(zoltan, weighted);
   const bool done = runZoltan(zoltan, ranks);
-  exchange.agree(done ? "" : "Zoltan could not share out the cells of the mesh");
+  exchange.agree(done ? "" : "Zoltan failed to partition the mesh");
   return ranks;
 }
 

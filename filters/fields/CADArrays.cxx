@@ -26,7 +26,7 @@ vtkDataArray* requireArray(vtkPointSet* input, const char* name, int components)
   vtkDataArray* array = input->GetPointData()->GetArray(name);
   if (!array && input->GetPointData()->HasArray(name))
   {
-    throw Error(std::string("the point array ") + name + " is not one of numbers");
+    throw Error(std::string("the point array ") + name + " is not numeric");
   }
   if (!array && input->GetNumberOfPoints() > 0)
   {
@@ -73,8 +73,7 @@ void checkPlace(
 {
   if (!std::isgreaterequal(distance, 0.0))
   {
-    throw Error(
-      "the point array CADDistance has a value that is negative or no number" + atPoint(point));
+    throw Error("the point array CADDistance has a value that is negative or NaN" + atPoint(point));
   }
   const bool finite = std::isfinite(parameters[0]) && std::isfinite(parameters[1]);
   if (entity.dimension > 0 && !finite)

@@ -36,7 +36,7 @@ constexpr const char* quality = "CellQuality";
 /// The distance of a vertex without an entity is 0. Throws Error where an array is missing, is not
 /// one of numbers, has the wrong number of components, or names an entity that `model` does not
 /// have, and for a vertex with one (point named) where a parameter is not finite or the distance is
-/// negative or no number.
+/// negative or NaN.
 Classification readClassification(
   vtkPointSet* input, const std::vector<vtkIdType>& pointOf, const CADModel& model);
 

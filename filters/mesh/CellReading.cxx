@@ -92,14 +92,14 @@ void checkPoints(
 {
   if (count != expected)
   {
-    throw Error("cell " + std::to_string(cell) + " of the mesh names " + std::to_string(count) +
+    throw Error("cell " + std::to_string(cell) + " of the mesh has " + std::to_string(count) +
                 " points instead of " + std::to_string(expected));
   }
   for (vtkIdType k = 0; k < count; ++k)
   {
     if (points[k] < 0 || points[k] >= pointCount)
     {
-      throw Error("cell " + std::to_string(cell) + " of the mesh names the point " +
+      throw Error("cell " + std::to_string(cell) + " of the mesh refers to point " +
                   std::to_string(points[k]) + ", but there are " + std::to_string(pointCount) +
                   " points");
     }
@@ -118,8 +118,9 @@ void checkCell(int type, const CellKind& kind, CellOrder order, vtkIdType cell)
   }
   if (kind.secondOrder && order == CellOrder::First)
   {
-    throw Error(holds() + "this filter takes cells of first order: refine the mesh of first order, "
-                          "and choose Quadratic Cells in the last step");
+    throw Error(holds() +
+                "this filter takes linear cells: refine the linear mesh, and choose Quadratic "
+                "Cells in the last step");
   }
 }
 

@@ -47,8 +47,7 @@ void checkGhosts(vtkCellData* cells)
       (!vtkUnsignedCharArray::SafeDownCast(ghosts) || ghosts->GetNumberOfComponents() != 1))
   {
     throw Error(std::string("the cell array ") + name +
-                ", which says which cells are ghosts, is not one of unsigned characters with one "
-                "component");
+                ", which marks ghost cells, must have one component of unsigned characters");
   }
 }
 
@@ -56,8 +55,7 @@ void checkCells(vtkCellArray* cells)
 {
   if (cells && !cells->IsValid())
   {
-    throw Error("the mesh's list of cells contradicts itself: its offsets do not fit the points "
-                "that the cells name");
+    throw Error("the cell offsets of the mesh do not match its connectivity");
   }
 }
 
@@ -70,7 +68,8 @@ void checkCells(vtkPointSet* input)
       grid->GetCellTypesArray() ? grid->GetCellTypesArray()->GetNumberOfValues() : 0;
     if (types < grid->GetNumberOfCells())
     {
-      throw Error("the mesh tells the type of " + std::to_string(types) + " cells, but has " +
+      throw Error("the mesh has " + std::to_string(types) +
+                  " cell types, but its number of cells is " +
                   std::to_string(grid->GetNumberOfCells()));
     }
   }

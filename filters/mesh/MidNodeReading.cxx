@@ -90,7 +90,7 @@ bool isOfSecondOrder(
   second = exchange.any(second);
   if (first && second)
   {
-    throw Error("the mesh has cells of first and of second order; they do not meet in their nodes");
+    throw Error("the mesh mixes linear and quadratic cells, which do not conform");
   }
   return second;
 }

@@ -89,7 +89,7 @@ std::string describeTwins(
   if (places[0] == places[1])
   {
     return "pieces of the mesh overlap: the ranks " + ranks[0] + " and " + ranks[1] +
-           " both have cells round the point " + places[0] +
+           " both have cells around the point " + places[0] +
            " (a cell that several ranks have must be marked as a ghost on all but one)";
   }
   return "two points of the mesh have the global id " + std::to_string(id) + ": " + places[0] +
@@ -194,7 +194,7 @@ void checkCells(
   const auto twins = twinsInPiece(mesh.mesh().points.size(), cells, forOnThreads(exchange));
   exchange.agree(twins.empty()
                    ? ""
-                   : "the mesh lists a cell twice: cells " + std::to_string(numbers[twins[0]]) +
+                   : "the mesh has duplicate cells: " + std::to_string(numbers[twins[0]]) +
                        " and " + std::to_string(numbers[twins[1]]) + " of rank " +
                        std::to_string(exchange.rank()) +
                        " have the same points (the filter Clean Cells to Grid merges "
@@ -206,7 +206,7 @@ void checkCells(
     const auto holders = shared.all.empty() ? SharedItems::Ranks{} : shared.holdersOfSlot(0);
     exchange.agree(shared.all.empty()
                      ? ""
-                     : "the mesh lists a cell twice: cell " +
+                     : "the mesh has duplicate cells: cell " +
                          std::to_string(numbers[shared.all[0]]) + " of rank " +
                          std::to_string(exchange.rank()) + " is also on rank " +
                          std::to_string(holders.first[holders.lowest() == exchange.rank()]) +
@@ -266,11 +266,11 @@ void complainOfRepeatedCells(RankExchange& exchange, const SimplexMesh& mesh,
                               cornersOf(mesh, mesh.tetrahedra, cellIds[3], id);
   exchange.agree(corners.empty()
                    ? ""
-                   : "the mesh lists a cell twice: two cells have the same points, or "
+                   : "the mesh has duplicate cells: two cells have the same points, or "
                      "the same global id (" +
                        std::to_string(id) + "); the corners of one are" + corners +
                        " (the filter Clean Cells to Grid merges cells)");
-  throw Error("the mesh lists a cell twice");
+  throw Error("the mesh has duplicate cells");
 }
 
 } // namespace cadrefine

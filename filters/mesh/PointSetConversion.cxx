@@ -184,8 +184,8 @@ void checkCells(const Simplices<Corners>& cells, const std::vector<vtkIdType>& c
     }
     if (!distinct)
     {
-      throw Error("cell " + std::to_string(cellOf[c]) +
-                  " of the mesh names a point twice, or two points at the same place");
+      throw Error(
+        "cell " + std::to_string(cellOf[c]) + " of the mesh has repeated or coincident points");
     }
   };
   forEachIndex(parallelFor, cells.size(), fineGrain, check);
@@ -313,11 +313,11 @@ ConvertedMesh convert(RankExchange& exchange, vtkPointSet* input, CellOrder orde
   result.mesh.dimension = highestDimension(exchange, result);
   if (result.mesh.dimension < 0)
   {
-    throw Error("the mesh has no cells but empty ones and such as are marked as ghosts or hidden");
+    throw Error("all cells of the mesh are empty, or marked as ghosts or hidden");
   }
   if (result.mesh.dimension == 1)
   {
-    throw Error("the mesh is one of lines; CADRefine takes triangles and tetrahedra");
+    throw Error("the mesh has cells of lines alone; CADRefine takes triangles and tetrahedra");
   }
   const std::vector<Point3> points = readPoints(input);
   const auto ids = pointIds(exchange, input, points, parallelFor);

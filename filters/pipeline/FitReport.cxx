@@ -1,7 +1,6 @@
-// What is told of a fit: text and field arrays.
+#include "pipeline/FitReport.h"
 
 #include "pipeline/MeshSummary.h"
-#include "projection/Fit.h"
 
 #include <cadrefine/cad/model/LengthUnit.h>
 

@@ -97,12 +97,12 @@ std::string warningOfInvalidCells(const QualitySummary& quality, const MeshCount
   {
     throw Error("more than half of the cells are inverted or degenerate (" + std::to_string(count) +
                 " of " + std::to_string(counts.cells) +
-                "); if the mesh is turned the other way, exchange two points of each cell");
+                "); if its orientation is reversed, swap two points of each cell");
   }
   return count == 0 ? std::string()
                     : "the input mesh has " + std::to_string(count) +
-                        " inverted or degenerate cells; those that moving vertices can mend are "
-                        "mended while vertices move onto the CAD";
+                        " inverted or degenerate cells; they are repaired where that is possible "
+                        "while vertices move onto the CAD";
 }
 
 void setFieldValue(vtkFieldData* data, const char* name, double value)

@@ -1,9 +1,10 @@
 #include "pipeline/Projection.h"
+#include "pipeline/FitReport.h"
 
 #include "comm/WorkSteps.h"
+#include "pipeline/FitReport.h"
 #include "pipeline/MeshSummary.h"
 #include "pipeline/PropertyCheck.h"
-#include "projection/Fit.h"
 #include "projection/InitialProjection.h"
 
 #include <cadrefine/base/Error.h>
@@ -58,14 +59,14 @@ std::string reasonOfNone(
   const std::string none = "no vertex was put onto the CAD: ";
   if (projection.result.projectedPoints == 0)
   {
-    return none + "there is no boundary in the region (Region)";
+    return none + "the region (Region) contains no boundary vertex";
   }
   const std::string farther = options.maximumDistance
                                 ? "MaximumDistance"
                                 : "its longest edges (MaximumDistance lets vertices go farther)";
   const std::string misfit = warningOfMisfit(projection.fit, cadUnit, true);
-  return none + "all of the boundary is farther from it than " + farther +
-         " or does not run along it; " + misfit;
+  return none + "every boundary facet is farther from the CAD than " + farther +
+         ", or not aligned with it; " + misfit;
 }
 
 /// Tells what does not fit; throws Error where nothing lies on the CAD.
@@ -115,7 +116,7 @@ std::string projectMesh(
   projection.fit.meshBox = { low, high };
   ProjectionResult& result = projection.result;
   recordBalance(context.statistics, "points", result.balance);
-  context.statistics.set("points that gave up", static_cast<double>(result.slowPoints));
+  context.statistics.set("points not converged", static_cast<double>(result.slowPoints));
 
   setClassification(state, std::move(result.classification));
   writeConflicts(state.arrays.ofVertices, result.conflicts);

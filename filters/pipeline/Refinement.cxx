@@ -171,7 +171,7 @@ private:
   /// Puts the cells where the plan makes equal work, if they are not, and plans anew.
   void balanceCells(Level& level)
   {
-    progress().say(0.1, "sharing out the cells over the ranks");
+    progress().say(0.1, "redistributing cells over the ranks");
     {
       const auto stopwatch = watch("seconds balancing");
       const auto weights = childCounts(level.plan);

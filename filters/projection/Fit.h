@@ -8,10 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <string>
 #include <vector>
-
-class vtkFieldData;
 
 namespace cadrefine
 {
@@ -53,21 +50,5 @@ Fit findFit(const ProjectionTask& task, const ProjectionResult& result);
 /// The same for points alone.
 Fit findFitOfPoints(RankExchange& exchange, const DistributedMesh& mesh, const CADModel& model,
   const ProjectionResult& result);
-
-/// What is to be said of a mesh that seems not to fit: less than half of its boundary on the CAD,
-/// or most of it in another place while the CAD is not covered (both where `isWhole`: no region was
-/// chosen), or boxes whose sizes compare like two units of length where the CAD is not covered, or
-/// that are alike but shifted. Names the units and what to do. Empty: nothing.
-std::string warningOfMisfit(const Fit& fit, const std::string& cadUnit, bool isWhole);
-
-/// All of it, for a person: several lines.
-std::string describeFit(const Fit& fit, const std::string& cadUnit);
-
-/// Sets field arrays: MeshBox, CADBox (xmin xmax ymin ymax zmin zmax), BoundaryOnCAD,
-/// BoundaryInBox, CADCovered, VerticesOffCAD, ClassificationConflicts, FarthestVertices (x y z
-/// distance) and ConflictPoints (x y z).
-void writeFit(vtkFieldData* data, const Fit& fit);
-/// Takes away those of them that another fit may not have.
-void removeFit(vtkFieldData* from);
 
 } // namespace cadrefine

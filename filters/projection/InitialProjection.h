@@ -19,8 +19,8 @@ struct ProjectionResult
 {
   Classification classification;
   std::int64_t projectedPoints = 0; ///< Vertices that were looked up on the CAD, over all ranks.
-  std::int64_t slowPoints = 0;      ///< Those of them that gave up (ClosestPoint::converged).
-  WorkBalance balance;              ///< Of these look-ups over the ranks.
+  std::int64_t slowPoints = 0; ///< Those of them whose query has not converged (see ClosestPoint).
+  WorkBalance balance;         ///< Of these look-ups over the ranks.
   /// 1 for vertices whose CAD entity could not be decided (see findConflicts).
   std::vector<unsigned char> conflicts;
   std::vector<FacetRecord> facets; ///< Of this rank's boundary.

@@ -163,7 +163,7 @@ RefinementTrace refine(RankExchange& exchange, DistributedMesh& mesh, const Refi
   }
   SplitMesh split;
   {
-    exchange.progress().say(0.5, "cutting cells");
+    exchange.progress().say(0.5, "splitting cells");
     const RunStatistics::Stopwatch watch(statistics, "seconds cutting");
     split = plan.uniform ? splitUniformly(mesh.mesh(), plan.table, midpoints, ids)
                          : splitMarked(mesh.mesh(), plan.table, plan.marks, midpoints, ids);

@@ -45,15 +45,15 @@ std::vector<double> valuesOf(
   values.erase(values.begin(), values.begin() + firstCellOfDimension(mesh.mesh(), dimension));
   if (std::any_of(values.begin(), values.end(), [](double x) { return std::isnan(x); }))
   {
-    throw Error("the marking array " + criterion.array + " has a value that is no number (NaN)");
+    throw Error("the marking array " + criterion.array + " contains NaN");
   }
   if (criterion.strategy != Strategy::Threshold &&
       !std::all_of(
         values.begin(), values.end(), [](double x) { return std::isfinite(x) && x >= 0; }))
   {
     throw Error("the marking array " + criterion.array +
-                " has a value that is negative or not finite; parts of its largest value or of "
-                "its sum cannot be taken");
+                " has a value that is negative or not finite; marking by a fraction or in bulk "
+                "needs finite values of at least 0");
   }
   return values;
 }
@@ -64,7 +64,7 @@ void checkFraction(const MarkingCriterion& criterion)
       !(std::isgreater(criterion.value, 0.0) && criterion.value <= 1))
   {
     throw Error(
-      "the fraction by which " + criterion.array + " marks cells is not above 0 and at most 1");
+      "the fraction by which " + criterion.array + " marks cells must be above 0 and at most 1");
   }
 }
 

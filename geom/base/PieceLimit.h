@@ -20,7 +20,7 @@ inline void requireAtMost(std::size_t count, const char* what, std::size_t most 
   if (count > most)
   {
     throw Error("too many " + std::string(what) + " for one rank: " + std::to_string(count) +
-                "; the most is " + std::to_string(most) + ", use more ranks");
+                "; the limit is " + std::to_string(most) + ", use more ranks");
   }
 }
 

@@ -1,4 +1,5 @@
-// All thresholds by which mesh entities are classified on the CAD.
+// All thresholds by which mesh entities are classified on the CAD, but for the angle of a crease, a
+// property of the model (NurbsModel::creaseAngle).
 #pragma once
 
 #include <cadrefine/nurbs/NurbsModel.h>
@@ -31,7 +32,8 @@ struct ClassificationTolerances
   /// which a mesh that cuts the corner shows blunted.
   static inline const double flatCosine = cosineOfDegrees(10);
   /// A mesh edge follows a CAD edge up to this angle (30 degrees). Stricter than `fittingCosine`:
-  /// of a smooth CAD edge nothing else tells that the mesh knows of it.
+  /// along a smooth CAD edge normals do not change, and the angle alone tells whether the mesh has
+  /// edges there.
   static inline const double followingCosine = cosineOfDegrees(30);
 
   // Distances of mesh edges from CAD edges

@@ -49,8 +49,8 @@ public:
   FaceFinder(const CADModel& model, FaceSides sides) : model_(model), sides_(std::move(sides)) {}
 
   /// The face nearest to the centroid of those whose normal there fits the triangle's: to 60
-  /// degrees, and pointing the way that `sides` tells. So of a thin part neither side is taken for
-  /// the other. Of facets whose corners lie on the CAD already, one that all corners lie on,
+  /// degrees, and pointing the way that `sides` tells. So the two sides of a thin part are not
+  /// confused. Of facets whose corners lie on the CAD already, one that all corners lie on,
   /// if it fits. No query where a corner and all vertices around it lie nearest to one face;
   /// otherwise one of the whole model, and where the normal does not fit, two more and two for each
   /// face at the points found.

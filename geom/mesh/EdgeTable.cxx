@@ -195,7 +195,7 @@ Index EdgeTable::find(Index a, Index b) const
 EdgeTable buildEdgeTable(const SimplexMesh& mesh)
 {
   requireAtMost(6 * mesh.tetrahedra.size() + 3 * mesh.triangles.size() + mesh.segments.size(),
-    "sides of cells", Side::most);
+    "edges of cells", Side::most);
   EdgeTable table;
   const std::vector<Index> order = orderByIds(mesh.ids);
   table.rankOfVertex.resize(order.size());

@@ -14,8 +14,8 @@
 namespace cadrefine
 {
 
-/// Marks of edges: not 0 where the edge will be cut. (A vector of bytes, so that ranks can exchange
-/// entries.)
+/// Marks of edges: 1 where the edge will be cut, else 0. (A vector of bytes, so that ranks can
+/// exchange entries.)
 using EdgeMarks = std::vector<unsigned char>;
 
 /// Longest edge bisection of marked cells until no vertex hangs, as a least fixpoint:

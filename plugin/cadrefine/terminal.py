@@ -29,7 +29,7 @@ class Terminal:
     @contextlib.contextmanager
     def following(self, algorithm, title="", parts=0):
         """Tells now and then how far `algorithm`, a vtkAlgorithm, has come with what is done here; with `parts`, how
-        far it is with one of so many, which its texts begin with, as in "Step 2: cutting cells"."""
+        far it is with one of so many, which its texts begin with, as in "Step 2: splitting cells"."""
         if not self.speaks:
             yield
             return

@@ -343,13 +343,13 @@ TEST_F(AdaptPieces, failTogether)
     whole, "3 components", [](vtkAdaptToCAD* filter) { filter->SetIndicatorArray("Colour"); });
   for (const double fraction : { 0.0, 1.5, std::numeric_limits<double>::quiet_NaN() })
   {
-    expectFailure(whole, "is not above 0 and at most 1",
+    expectFailure(whole, "must be above 0 and at most 1",
       [&](vtkAdaptToCAD* filter)
       {
         filter->SetErrorMarking(vtkAdaptToCAD::FRACTION_OF_LARGEST);
         filter->SetErrorFraction(fraction);
       });
-    expectFailure(whole, "is not above 0 and at most 1",
+    expectFailure(whole, "must be above 0 and at most 1",
       [&](vtkAdaptToCAD* filter)
       {
         filter->SetIndicatorArray("Indicator");
@@ -395,7 +395,7 @@ TEST_F(AdaptPieces, failWhereOneValueIsNoNumber)
   for (const int strategy :
     { vtkAdaptToCAD::THRESHOLD, vtkAdaptToCAD::FRACTION_OF_LARGEST, vtkAdaptToCAD::BULK })
   {
-    expectFailure(whole, "no number",
+    expectFailure(whole, "contains NaN",
       [&](vtkAdaptToCAD* filter)
       {
         filter->SetIndicatorArray("Indicator");

@@ -588,9 +588,9 @@ TEST_F(AdaptObserved, countsCellsBeforeItCutsThem)
     EXPECT_NE(adapted.reason.find("MaximumCells"), std::string::npos) << adapted.reason;
     const auto has = [&](const char* text)
     { return std::find(texts.begin(), texts.end(), text) != texts.end(); };
-    EXPECT_TRUE(has("Step 1: cutting cells"));
+    EXPECT_TRUE(has("Step 1: splitting cells"));
     EXPECT_TRUE(has("Step 2: marking cells"));
-    EXPECT_FALSE(has("Step 2: cutting cells"));
+    EXPECT_FALSE(has("Step 2: splitting cells"));
   }
 }
 

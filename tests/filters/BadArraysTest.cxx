@@ -226,7 +226,7 @@ TEST_F(BadArrays, valuesThatMarkCells)
     return filters.attempt<vtkRefineWithCAD>(
       mesh, [&](vtkRefineWithCAD* filter) { filter->SetMarkingArray(name); });
   };
-  expectError(refineBy("Mark"), "the marking array Mark has a value that is no number (NaN)");
+  expectError(refineBy("Mark"), "the marking array Mark contains NaN");
   expectError(refineBy("Text"), "the mesh has no cell array Text of numbers to mark cells by");
   expectError(refineBy("Nothing"), "the mesh has no cell array Nothing");
 }

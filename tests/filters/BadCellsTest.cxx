@@ -117,28 +117,28 @@ TEST_F(BadCells, repeatedPointsAreOne)
 
 TEST_F(BadCells, cellsThatNameAPointTwice)
 {
-  expectErrors(
-    allFilters(), withCell(VTK_TETRA, { 0, 1, 2, 1 }), "cell 20 of the mesh names a point twice");
-  expectErrors(
-    allFilters(), withCell(VTK_TRIANGLE, { 3, 3, 2 }), "cell 20 of the mesh names a point twice");
+  expectErrors(allFilters(), withCell(VTK_TETRA, { 0, 1, 2, 1 }),
+    "cell 20 of the mesh has repeated or coincident points");
+  expectErrors(allFilters(), withCell(VTK_TRIANGLE, { 3, 3, 2 }),
+    "cell 20 of the mesh has repeated or coincident points");
 }
 
 TEST_F(BadCells, cellsThatNamePointsThatAreNotThere)
 {
-  const std::string reason = "names the point 13, but there are 13 points";
+  const std::string reason = "refers to point 13, but there are 13 points";
   expectErrors(allFilters(), withCell(VTK_TETRA, { 0, 1, 2, 13 }), reason);
   expectErrors(
-    allFilters(), withCell(VTK_TRIANGLE, { 0, -1, 2 }), "cell 20 of the mesh names the point -1");
+    allFilters(), withCell(VTK_TRIANGLE, { 0, -1, 2 }), "cell 20 of the mesh refers to point -1");
   expectErrors(allFilters(), withCell(VTK_TETRA, { 0, 1, 2, vtkIdType{ 1 } << 40 }),
-    "names the point 1099511627776");
+    "refers to point 1099511627776");
 }
 
 TEST_F(BadCells, cellsWithTooFewOrTooManyPoints)
 {
   expectErrors(allFilters(), withCell(VTK_TETRA, { 0, 1, 2 }),
-    "cell 20 of the mesh names 3 points instead of 4");
+    "cell 20 of the mesh has 3 points instead of 4");
   expectErrors(allFilters(), withCell(VTK_TRIANGLE, { 0, 1, 2, 3 }),
-    "cell 20 of the mesh names 4 points instead of 3");
+    "cell 20 of the mesh has 4 points instead of 3");
 }
 
 TEST_F(BadCells, listsOfCellsThatContradictThemselves)
@@ -148,7 +148,7 @@ TEST_F(BadCells, listsOfCellsThatContradictThemselves)
   {
     grid->GetCells()->GetOffsetsArray64()->SetValue(3, 1000);
   }
-  expectErrors(allFilters(), grid, "contradicts itself");
+  expectErrors(allFilters(), grid, "do not match its connectivity");
 }
 
 TEST_F(BadCells, otherTypesOfCells)
@@ -179,7 +179,7 @@ TEST_F(BadCells, polyhedra)
 TEST_F(BadCells, quadraticAndLinearCellsTogether)
 {
   const Grid grid = withCell(VTK_QUADRATIC_TETRA, { 0, 1, 2, 3, 4, 5, 6, 7, 8, 9 });
-  const std::string neither = "cells of first and of second order";
+  const std::string neither = "mixes linear and quadratic cells";
   expectError(filters.attempt<vtkMeshValidity>(grid, [](vtkMeshValidity*) {}), neither);
   expectError(filters.attempt<vtkCADGeometricError>(grid, [](vtkCADGeometricError*) {}), neither);
   expectErrors(filtersOfRawMeshes(), Grid::New(), "no points");
@@ -202,7 +202,7 @@ TEST_F(BadCells, cellsThatAreListedTwice)
     std::swap(*points->begin(), *(points->begin() + 2)); // another order
     grid->InsertNextCell(VTK_TETRA, points);
   }
-  const std::string reason = "the mesh lists a cell twice: cells 7 and 20 of rank ";
+  const std::string reason = "the mesh has duplicate cells: 7 and 20 of rank ";
   expectErrors(allFilters(), grid, reason + std::to_string(exchange.size() - 1));
   cadtest::addGlobalIds(grid);
   expectErrors(allFilters(), grid, reason);
@@ -215,7 +215,7 @@ TEST_F(BadCells, trianglesThatAreListedTwice)
   surface->GetCellPoints(4, points);
   surface->InsertNextCell(VTK_TRIANGLE, points);
   expectErrors(allFilters(), isLast() ? surface : vtkSmartPointer<vtkPolyData>::New(),
-    "the mesh lists a cell twice: cells 4 and 20");
+    "the mesh has duplicate cells: 4 and 20");
 }
 
 /// Tags do not matter to the boundary; they cannot be told apart by ids of their own making.
@@ -335,7 +335,7 @@ TEST_F(BadCells, noCells)
   points = Grid::New();
   points->SetPoints(ball()->GetPoints());
   points->InsertNextCell(VTK_EMPTY_CELL, 0, nullptr);
-  expectErrors(allFilters(), points, "no cells but");
+  expectErrors(allFilters(), points, "all cells of the mesh are empty");
 }
 
 /// Every rank has the same points: they are the same points.

@@ -341,7 +341,7 @@ TEST_F(BadIds, allCellsAreGhosts)
 {
   const Grid grid = ball();
   grid->GetCellData()->AddArray(ghosts(20, vtkDataSetAttributes::DUPLICATECELL));
-  expectErrors(allFilters(), grid, "no cells but empty ones and such as are marked as ghosts");
+  expectErrors(allFilters(), grid, "all cells of the mesh are empty, or marked as ghosts");
   const Grid whole = ball();
   expectSame(filtersOfRawMeshes(), isLast() ? whole : grid, whole);
 }

@@ -226,7 +226,7 @@ protected:
   {
     if (exchange.size() > 1)
     {
-      stages.insert("sharing out the cells over the ranks");
+      stages.insert("redistributing cells over the ranks");
     }
     return stages;
   }
@@ -259,7 +259,7 @@ TEST_F(Faults, uniformRefinement)
   expectAllFailTogether(
     runOf<vtkRefineWithCAD>(filters.project(ownPiece()),
       [](vtkRefineWithCAD* filter) { filter->SetMethod(vtkRefineWithCAD::UNIFORM_BISECTION); }),
-    withBalance({ "marking cells", "cutting cells", "projecting", "moving vertices onto the CAD",
+    withBalance({ "marking cells", "splitting cells", "projecting", "moving vertices onto the CAD",
       "smoothing cells" }));
 }
 
@@ -271,7 +271,7 @@ TEST_F(Faults, longestEdgeRefinement)
                             filter->SetMarkingArray("GeometricError");
                             filter->SetThreshold(1e-3);
                           }),
-    withBalance({ "marking cells", "cutting cells", "projecting", "moving vertices onto the CAD",
+    withBalance({ "marking cells", "splitting cells", "projecting", "moving vertices onto the CAD",
       "smoothing cells" }));
 }
 
@@ -291,7 +291,7 @@ TEST_F(Faults, adaptation)
   expectAllFailTogether(
     runOf<vtkAdaptToCAD>(ownPiece(), [](vtkAdaptToCAD* filter) { filter->SetMaximumSteps(1); }),
     withBalance({ "finding the boundary", "projecting", "measuring facets", "marking cells",
-      "cutting cells", "smoothing cells" }));
+      "splitting cells", "smoothing cells" }));
 }
 
 /// With all of its steps, each of which is told of on the last rank.
@@ -315,13 +315,13 @@ TEST_F(Faults, observedAdaptation)
                               filter->AddObserver(vtkAdaptToCAD::StepEvent, observer);
                             }
                           }),
-    withBalance({ "marking cells", "cutting cells" }));
+    withBalance({ "marking cells", "splitting cells" }));
 }
 
 TEST_F(Faults, validity)
 {
   expectAllFailTogether(runOf<vtkMeshValidity>(ownPiece(), [](vtkMeshValidity*) {}),
-    { "reading the mesh", "looking at cells" });
+    { "reading the mesh", "checking cells" });
 }
 
 /// Rank 0 reads in a process of its own, then all draw, each in one.

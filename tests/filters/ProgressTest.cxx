@@ -104,7 +104,7 @@ TEST_F(FilterProgress, tellsWhatIsDone)
     << testing::PrintToString(measuringDeeper);
   const auto refining =
     textsOf<vtkRefineWithCAD>(projected, [](vtkRefineWithCAD* filter) { filter->SetLevels(2); });
-  for (const char* text : { "level 1 of 2: marking cells", "level 2 of 2: cutting cells" })
+  for (const char* text : { "level 1 of 2: marking cells", "level 2 of 2: splitting cells" })
   {
     EXPECT_EQ(refining.count(text), 1u) << text << testing::PrintToString(refining);
   }
@@ -128,7 +128,7 @@ TEST_F(FilterProgress, namesTheStepsOfAnAdaptation)
       filter->SetMaximumSteps(0);
       filter->QuadraticCellsOn();
     });
-  for (const char* text : { "Input", "Input: measuring facets", "Step 1: cutting cells",
+  for (const char* text : { "Input", "Input: measuring facets", "Step 1: splitting cells",
          "Quadratic cells", "Quadratic cells: measuring 0 of 80 facets" })
   {
     EXPECT_EQ(others.count(text), 1u) << text << testing::PrintToString(others);

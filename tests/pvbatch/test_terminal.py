@@ -74,10 +74,10 @@ class Output(unittest.TestCase):
     def test_news_of_the_steps_of_an_adaptation(self):
         """Each is told of as if it were alone."""
         events = [(0.0, "Projection", 0.0), (2.5, "Projection: finding the boundary", 0.1),
-                  (3.0, "Step 1", 0.25), (4.9, "Step 1: marking cells", 0.3), (5.5, "Step 1: cutting cells", 0.375),
+                  (3.0, "Step 1", 0.25), (4.9, "Step 1: marking cells", 0.3), (5.5, "Step 1: splitting cells", 0.375),
                   (6.0, "Step 2", 0.5), (9.0, "Step 2", 0.625), (9.5, "Quadratic cells", 0.75), (30.0, "done", 1.0)]
         self.assertEqual(self.news(events, parts=4), ["  projection, 2 s: finding the boundary, 40%",
-                                                      "  step 1, 2 s: cutting cells, 50%", "  step 2, 3 s: 50%"])
+                                                      "  step 1, 2 s: splitting cells, 50%", "  step 2, 3 s: 50%"])
 
     def test_table_fits(self):
         plain = lambda text, *_: text

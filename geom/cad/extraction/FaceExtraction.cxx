@@ -208,7 +208,7 @@ NurbsFace extractFace(const TopoDS_Face& face, const ShapeIndex* index)
   layPatches(converted.grid, window, loops, result);
   if (result.patches.empty())
   {
-    throw Error("its trim curves lie outside of its surface");
+    throw Error("its trim curves lie outside the surface's parameter domain");
   }
   transformPatches(location.Transformation(), result.patches);
   result.fitError = converted.fitError * std::abs(location.Transformation().ScaleFactor());

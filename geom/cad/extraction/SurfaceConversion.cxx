@@ -207,7 +207,7 @@ void cutToBounds(bool periodic, double low, double high, double& first, double& 
   }
   if (!(last > first))
   {
-    throw Error("its trim curves lie outside of its surface");
+    throw Error("its trim curves lie outside the surface's parameter domain");
   }
 }
 

@@ -245,7 +245,7 @@ void replaceUnwritable(AttributeMap& attributeMap, ConvertibleShape& result)
     }
     const TopoDS_Shape spline =
       healed(face, [&] { return BRepBuilderAPI_NurbsConvert(face).Shape(); });
-    const UnreadEntity lost = attributeMap.lost(face, "has a surface that contradicts itself");
+    const UnreadEntity lost = attributeMap.lost(face, "has an invalid surface definition");
     if (!spline.IsNull() && canBeWritten(spline))
     {
       result.repairs.push_back(repairOf(lost));

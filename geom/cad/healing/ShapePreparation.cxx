@@ -203,7 +203,7 @@ PreparedShape prepareShape(
   }
   PreparedShape prepared;
   const BoundedFaces bounded = boundFaces(shape, attributeMap);
-  prepared.unread = lostFaces(bounded.removed, attributeMap, "has neither border nor end");
+  prepared.unread = lostFaces(bounded.removed, attributeMap, "is unbounded");
   if (bounded.shape.IsNull())
   {
     return prepared;

@@ -35,8 +35,8 @@ void checkSize(double size)
 {
   if (!(size > 0) || !std::isfinite(size))
   {
-    throw Error(
-      size == 0 ? "CAD model: all of it lies in one point" : "CAD model: its size is not finite");
+    throw Error(size == 0 ? "CAD model: it is degenerate, a single point"
+                          : "CAD model: its size is not finite");
   }
 }
 

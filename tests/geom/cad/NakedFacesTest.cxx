@@ -63,7 +63,7 @@ TEST(NakedFaces, anUnboundedOneIsListed)
   EXPECT_EQ(model->count(2), 1);
   ASSERT_EQ(model->unread().size(), 1u);
   EXPECT_EQ(model->unread()[0].entity, 1);
-  EXPECT_EQ(model->unread()[0].reason, "has neither border nor end");
+  EXPECT_EQ(model->unread()[0].reason, "is unbounded");
 }
 
 } // namespace

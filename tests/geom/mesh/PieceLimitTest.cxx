@@ -25,7 +25,7 @@ TEST(PieceLimit, isWhatAnIndexCanCount)
   EXPECT_EQ(reasonOf(0), "");
   EXPECT_EQ(reasonOf(2147483647), "");
   EXPECT_EQ(reasonOf(2147483648),
-    "too many cells for one rank: 2147483648; the most is 2147483647, use more ranks");
+    "too many cells for one rank: 2147483648; the limit is 2147483647, use more ranks");
 }
 
 } // namespace
