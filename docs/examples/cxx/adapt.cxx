@@ -38,5 +38,6 @@ int main(int argc, char** argv)
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
   writer->SetInputConnection(adapt->GetOutputPort());
   writer->SetFileName(argv[4]);
+  writer->SetDataModeToBinary(); // VTK's default, appended data, is not what every program reads
   return writer->Write() == 1 ? EXIT_SUCCESS : EXIT_FAILURE;
 }
