@@ -1,5 +1,6 @@
 #include "comm/LoadBalancedMap.h"
 
+#include <algorithm>
 #include <numeric>
 
 namespace cadrefine

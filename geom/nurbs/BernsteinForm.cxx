@@ -2,6 +2,7 @@
 
 #include <cadrefine/nurbs/BernsteinBasis.h>
 
+#include <algorithm>
 #include <array>
 
 namespace cadrefine

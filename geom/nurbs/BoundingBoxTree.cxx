@@ -5,6 +5,7 @@
 
 #include <cadrefine/nurbs/BoundingBoxTree.h>
 
+#include <algorithm>
 #include <tuple>
 
 namespace cadrefine

@@ -4,6 +4,7 @@
 #include <cadrefine/nurbs/BoundingBox.h>
 #include <cadrefine/nurbs/FetchAhead.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>

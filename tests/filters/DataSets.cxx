@@ -21,6 +21,7 @@
 #include <vtkVariant.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
+#include <algorithm>
 #include <cstring>
 #include <map>
 #include <stdexcept>

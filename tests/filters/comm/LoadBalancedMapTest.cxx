@@ -7,6 +7,7 @@
 
 #include <vtkSMPTools.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstdlib>
 #include <numeric>
