@@ -105,7 +105,7 @@ threads: ## Run the tests of what runs on threads with the thread sanitizer
 FUZZ_SECONDS := 600
 .PHONY: fuzz
 fuzz: ## Fuzz the parsers for FUZZ_SECONDS each; what they find is left in build/fuzz/findings
-	@.ci/install-packages plugin clang libclang-rt-14-dev
+	@.ci/install-packages plugin clang libclang-rt-dev
 	@cmake --preset fuzz
 	@cmake --build --preset fuzz --parallel $(JOBS)
 	@tests/fuzz/run $(FUZZ_SECONDS)
