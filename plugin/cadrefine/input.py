@@ -9,7 +9,6 @@ import functools
 import importlib
 import io
 import os
-import sys
 
 from paraview import simple
 
@@ -82,8 +81,7 @@ def read_grid(read, path):
 @contextlib.contextmanager
 def silence():
     """Libraries write their own warnings and errors, from Python and from C; ours is one line."""
-    sys.stdout.flush()
-    sys.stderr.flush()
+    session.flush()
     kept = {number: os.dup(number) for number in (1, 2)}
     nowhere = os.open(os.devnull, os.O_WRONLY)
     try:

@@ -7,7 +7,7 @@ from cadrefine.checks import (DEEPEST, MOST_CELLS, MOST_STEPS, RESULTS, angle, c
                               whole)
 from cadrefine.help import DESCRIPTION, EPILOG, USAGE, Layout
 from cadrefine.pipeline import METHODS, STRATEGIES
-from cadrefine.session import Failure, speaks
+from cadrefine.session import Failure, flush, speaks
 
 UNITS = ("m", "cm", "mm", "in", "inch", "ft")  # Of the CAD Reader.
 BOX = ("X0", "X1", "Y0", "Y1", "Z0", "Z1")
@@ -19,7 +19,8 @@ def parse(arguments):
     """The options, checked; None where the help was wanted, and printed."""
     if "--help" in arguments or "-h" in arguments:
         if speaks():
-            print(option_parser().format_help(), end="", flush=True)
+            print(option_parser().format_help(), end="")
+            flush()
         return None
     options = option_parser().parse_args([as_given(text) for text in arguments])
     check(options)

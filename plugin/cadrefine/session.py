@@ -1,5 +1,6 @@
 """What the driver needs of ParaView as a whole: ranks, the plugin, and errors that end every rank with one line."""
 
+import ctypes
 import glob
 import os
 import sys
@@ -94,9 +95,17 @@ def raise_first(errors, path):
         raise Failure(errors[0] if path in errors[0] else f"{path}: {errors[0]}")
 
 
+def flush():
+    """What was printed goes out now: Python's, and C's, in whose buffer flush() of ParaView 5.13 leaves it where
+    standard output is no terminal. A process that a signal ends would lose it."""
+    sys.stdout.flush()
+    sys.stderr.flush()
+    ctypes.CDLL(None).fflush(None)
+
+
 def fail(reason):
     """Prints the line; every rank will end with exit status 1 when the script returns, which it must do next."""
-    sys.stdout.flush()
+    flush()
     if speaks():
         os.write(2, line_of(reason))
     run_on_all_ranks(EXIT_WITH_1)

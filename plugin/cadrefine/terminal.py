@@ -21,7 +21,8 @@ class Terminal:
 
     def say(self, line):
         if self.speaks:
-            print(line, flush=True)
+            print(line)
+            session.flush()
 
     def style(self, text, *names):
         return "".join(STYLES[name] for name in names) + text + END if names and self.coloured else text
