@@ -61,16 +61,14 @@ private:
     }
     rests_.resize(vertices_.all.size());
 
-    VertexBuckets<Entry<K>> buckets(ids_.size());
-    for (const VertexKey<K>& key : keys)
-    {
-      buckets.count(key.vertex);
-    }
-    buckets.start();
-    for (std::size_t i = 0; i < keys.size(); ++i)
-    {
-      buckets.add(keys[i].vertex, { keys[i].rest, static_cast<std::uint32_t>(i) });
-    }
+    VertexBuckets<Entry<K>> buckets(ids_.size(),
+      [&](const auto& use)
+      {
+        for (std::size_t i = 0; i < keys.size(); ++i)
+        {
+          use(keys[i].vertex, { keys[i].rest, static_cast<std::uint32_t>(i) });
+        }
+      });
     std::size_t slot = 0;
     buckets.forEach(
       [&](Index vertex, Entry<K>* first, Entry<K>* last)

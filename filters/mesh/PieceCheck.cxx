@@ -150,7 +150,6 @@ template<std::size_t Corners>
 std::vector<Index> twinsInPiece(
   std::size_t vertexCount, const Simplices<Corners>& cells, const ParallelFor& parallelFor)
 {
-  VertexBuckets<Index> cellsAt(vertexCount);
   const auto visit = [&](std::size_t begin, std::size_t end, const auto& use)
   {
     for (std::size_t c = begin; c < end; ++c)
@@ -158,7 +157,7 @@ std::vector<Index> twinsInPiece(
       use(*std::min_element(cells[c].begin(), cells[c].end()), static_cast<Index>(c));
     }
   };
-  cellsAt.fill(cells.size(), visit, parallelFor);
+  const VertexBuckets<Index> cellsAt(vertexCount, cells.size(), visit, parallelFor);
   std::vector<Index> twins;
   std::size_t lowest = vertexCount; // vertex with twins
   std::mutex mutex;

@@ -204,15 +204,15 @@ EdgeTable buildEdgeTable(const SimplexMesh& mesh)
     table.rankOfVertex[order[rank]] = static_cast<Index>(rank);
   }
   const auto& ranks = table.rankOfVertex;
-  VertexBuckets<Side> sides(order.size());
-  forEachSide(
-    mesh, [&](std::size_t, Index a, Index b) { sides.count(std::min(ranks[a], ranks[b])); });
-  sides.start();
-  forEachSide(mesh,
-    [&](std::size_t place, Index a, Index b)
+  VertexBuckets<Side> sides(order.size(),
+    [&](const auto& use)
     {
-      const auto [low, high] = std::minmax(ranks[a], ranks[b]);
-      sides.add(low, { high, static_cast<std::uint32_t>(place) });
+      forEachSide(mesh,
+        [&](std::size_t place, Index a, Index b)
+        {
+          const auto [low, high] = std::minmax(ranks[a], ranks[b]);
+          use(low, { high, static_cast<std::uint32_t>(place) });
+        });
     });
 
   EdgeNumberer numberer(mesh, order, table);

@@ -166,7 +166,6 @@ template<class Source>
 std::vector<std::size_t> metOnce(
   std::size_t vertexCount, const Source& source, const ParallelFor& parallelFor)
 {
-  VertexBuckets<Index> cellsAt(vertexCount);
   const auto visit = [&](std::size_t begin, std::size_t end, const auto& use)
   {
     for (std::size_t c = begin; c < end; ++c)
@@ -175,7 +174,7 @@ std::vector<std::size_t> metOnce(
       forSmallest(source.cells[c], source.among, [&](Index vertex) { use(vertex, cell); });
     }
   };
-  cellsAt.fill(source.cells.size(), visit, parallelFor);
+  const VertexBuckets<Index> cellsAt(vertexCount, source.cells.size(), visit, parallelFor);
   auto places = collect<std::size_t>(parallelFor, vertexCount, fineGrain,
     [&](std::size_t begin, std::size_t end, std::vector<std::size_t>& found)
     {

@@ -105,21 +105,18 @@ bool MarkClosure::spread()
 
 void MarkClosure::listCells()
 {
-  cellsAt_.emplace(table_.edges.size());
-  const auto forEachSide = [&](const auto& use)
-  {
-    std::uint32_t cell = 0;
-    const auto useAll = [&](const auto& edges)
+  cellsAt_.emplace(table_.edges.size(),
+    [&](const auto& use)
     {
-      std::for_each(edges.begin(), edges.end(), [&](Index edge) { use(edge, cell); });
-      ++cell;
-    };
-    std::for_each(table_.ofTetrahedra.begin(), table_.ofTetrahedra.end(), useAll);
-    std::for_each(table_.ofTriangles.begin(), table_.ofTriangles.end(), useAll);
-  };
-  forEachSide([&](Index edge, std::uint32_t) { cellsAt_->count(edge); });
-  cellsAt_->start();
-  forEachSide([&](Index edge, std::uint32_t cell) { cellsAt_->add(edge, cell); });
+      std::uint32_t cell = 0;
+      const auto useAll = [&](const auto& edges)
+      {
+        std::for_each(edges.begin(), edges.end(), [&](Index edge) { use(edge, cell); });
+        ++cell;
+      };
+      std::for_each(table_.ofTetrahedra.begin(), table_.ofTetrahedra.end(), useAll);
+      std::for_each(table_.ofTriangles.begin(), table_.ofTriangles.end(), useAll);
+    });
 }
 
 void MarkClosure::lookAtCell(std::uint32_t cell)
