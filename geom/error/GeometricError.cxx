@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <iterator>
 #include <utility>
 
 namespace cadrefine
@@ -277,37 +276,6 @@ std::vector<FacetError> geometricErrors(const ClassifiedSurface& surface,
     errors.insert(errors.end(), ofPart.begin(), ofPart.end());
   }
   return errors;
-}
-
-FacetError geometricError(const BoundaryProjector& projector, const ErrorFacet& facet, int depth)
-{
-  ClassifiedSurface surface;
-  surface.kind = projector.kind();
-  const int corners = cornersOf(surface.kind);
-  for (int k = 0; k < corners; ++k)
-  {
-    SurfacePoint& p = surface.points.emplace_back(
-      SurfacePoint{ facet.corners.points[k], facet.corners.entities[k] });
-    if (facet.offCAD[k])
-    {
-      const ClosestPoint where = projector.nearestOn(p.entity, p.point);
-      p.place = where.point;
-      p.placeEntity = where.entity;
-    }
-  }
-  for (Index k = 0; k < edgesOf(surface.kind); ++k)
-  {
-    surface.edges.push_back({ { k, (k + 1) % corners }, facet.edges[k] });
-  }
-  surface.facets.push_back({ { 0, 1, 2 }, { 0, 1, 2 } });
-  const auto project = [&](const std::vector<BoundaryEdge>& edges)
-  {
-    std::vector<ClosestPoint> midpoints;
-    std::transform(edges.begin(), edges.end(), std::back_inserter(midpoints),
-      [&](const BoundaryEdge& edge) { return projector.projectMidpoint(edge); });
-    return midpoints;
-  };
-  return errorsOf(surface, project(surface.allEdges()), depth, project)[0];
 }
 
 } // namespace cadrefine

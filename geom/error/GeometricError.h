@@ -92,7 +92,4 @@ struct ErrorFacet
   std::array<bool, 3> offCAD{}; ///< Corners that are classified, but have not reached the CAD.
 };
 
-/// The error of a facet alone.
-FacetError geometricError(const BoundaryProjector& projector, const ErrorFacet& facet, int depth);
-
 } // namespace cadrefine

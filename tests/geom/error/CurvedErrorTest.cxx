@@ -2,6 +2,7 @@
 
 #include <cadrefine/error/CurvedError.h>
 
+#include "FacetAlone.h"
 #include "TestShapes.h"
 
 #include <gtest/gtest.h>
@@ -120,7 +121,8 @@ TEST(CurvedError, ofAStraightFacetIsThatOfFirstOrder)
   const FacetError coarse = curvedError(projector, facet, 2);
   EXPECT_NEAR(coarse.lastLevel, coarse.measure - curvedError(projector, facet, 1).measure, 1e-14);
   EXPECT_NEAR(extrapolatedMeasure(coarse), volume, 0.03 * volume);
-  EXPECT_NEAR(geometricError(projector, facet.straight, 6).measure, volume, 0.002 * volume);
+  EXPECT_NEAR(
+    cadtest::geometricError(projector, facet.straight, 6).measure, volume, 0.002 * volume);
   // Of the points at sixteenths of the parameters, (5, 5, 6) / 16 is nearest to the centre.
   EXPECT_NEAR(curvedError(projector, facet, 3).largestDistance, 2 - 2 * std::sqrt(86.0) / 16, 1e-9);
   EXPECT_NEAR(curvedError(projector, facet, 3).chordError, 2 - std::sqrt(2.0), 1e-9);

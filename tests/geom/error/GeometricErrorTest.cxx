@@ -1,7 +1,6 @@
 // Error of polygons and polyhedra inscribed in shapes of known area and volume.
 
-#include <cadrefine/error/GeometricError.h>
-
+#include "FacetAlone.h"
 #include "MeshChecks.h"
 #include "TestMeshes.h"
 #include "TestShapes.h"
@@ -39,7 +38,7 @@ FacetError errorOf(const BoundaryProjector& projector, const SimplexMesh& surfac
   FacetError sum;
   for (const auto& cell : surface.triangles)
   {
-    const FacetError part = geometricError(projector,
+    const FacetError part = cadtest::geometricError(projector,
       facetOf(
         projector, { surface.points[cell[0]], surface.points[cell[1]], surface.points[cell[2]] }),
       depth);
@@ -73,7 +72,7 @@ TEST_P(Chord, errorAtDepthFourIsTheSegmentsAreaToOnePercent)
 {
   const double angle = GetParam();
   const double area = radius * radius * (angle - std::sin(angle)) / 2;
-  EXPECT_NEAR(geometricError(projector, facet(), 4).measure, area, 0.01 * area);
+  EXPECT_NEAR(cadtest::geometricError(projector, facet(), 4).measure, area, 0.01 * area);
 }
 
 TEST_P(Chord, theLastLevelIsWhatItsDepthAdds)
@@ -83,7 +82,7 @@ TEST_P(Chord, theLastLevelIsWhatItsDepthAdds)
   double before = 0;
   for (int depth = 1; depth <= 5; ++depth)
   {
-    const FacetError error = geometricError(projector, facet(), depth);
+    const FacetError error = cadtest::geometricError(projector, facet(), depth);
     EXPECT_NEAR(error.lastLevel, error.measure - before, 1e-14 * area);
     EXPECT_NEAR(extrapolatedMeasure(error), area, 0.06 * std::pow(0.1, depth - 1) * area) << depth;
     before = error.measure;
@@ -97,7 +96,7 @@ TEST_P(Chord, errorConvergesLikeFourToTheDepth)
   double before = area;
   for (int depth = 1; depth <= 5; ++depth)
   {
-    const double missing = area - geometricError(projector, facet(), depth).measure;
+    const double missing = area - cadtest::geometricError(projector, facet(), depth).measure;
     EXPECT_GT(before / missing, 3.6);
     EXPECT_LT(before / missing, 4.4);
     before = missing;
@@ -106,14 +105,14 @@ TEST_P(Chord, errorConvergesLikeFourToTheDepth)
 
 TEST_P(Chord, distanceIsTheSagitta)
 {
-  EXPECT_NEAR(geometricError(projector, facet(), 3).largestDistance,
+  EXPECT_NEAR(cadtest::geometricError(projector, facet(), 3).largestDistance,
     radius * (1 - std::cos(GetParam() / 2)), 1e-9);
 }
 
 TEST_P(Chord, firstEstimateIsTheTriangleOverTheChord)
 {
   const double angle = GetParam();
-  EXPECT_NEAR(geometricError(projector, facet(), 1).measure,
+  EXPECT_NEAR(cadtest::geometricError(projector, facet(), 1).measure,
     radius * std::sin(angle / 2) * radius * (1 - std::cos(angle / 2)), 1e-9);
 }
 
@@ -190,7 +189,7 @@ TEST(SphereError, ofFacetsThatShareEdgesIsThatOfEachAlone)
     for (std::size_t f = 0; f < errors.size(); ++f)
     {
       const auto& [a, b, c] = mesh.triangles[f];
-      const FacetError alone = geometricError(
+      const FacetError alone = cadtest::geometricError(
         projector, facetOf(projector, { mesh.points[a], mesh.points[b], mesh.points[c] }), 3);
       EXPECT_EQ(errors[f].measure, alone.measure);
       EXPECT_EQ(errors[f].lastLevel, alone.lastLevel);
@@ -248,7 +247,7 @@ TEST(CylinderError, isTheVolumeDeficitOfAnInscribedPrism)
   double farthest = 0;
   for (const auto& [a, b, c] : side.triangles)
   {
-    const FacetError error = geometricError(
+    const FacetError error = cadtest::geometricError(
       projector, prismFacet(projector, { side.points[a], side.points[b], side.points[c] }), 4);
     volume += error.measure;
     farthest = std::max(farthest, error.largestDistance);
@@ -262,7 +261,7 @@ TEST(PlaneError, isZero)
 {
   const auto model = cadtest::modelOf(cadtest::rectangle(1, 1));
   const BoundaryProjector projector(*model, BoundaryKind::Triangles);
-  const FacetError error = geometricError(
+  const FacetError error = cadtest::geometricError(
     projector, facetOf(projector, { { { 0.1, 0.1, 0 }, { 0.8, 0.2, 0 }, { 0.3, 0.9, 0 } } }), 3);
   EXPECT_LT(error.measure, 1e-15);
   EXPECT_LT(error.largestDistance, 1e-15);
@@ -274,11 +273,11 @@ TEST(StraightEdges, haveNoError)
   const auto model = cadtest::modelOf(cadtest::sphere(1));
   const BoundaryProjector projector(*model, BoundaryKind::Triangles);
   ErrorFacet facet = facetOf(projector, { { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } });
-  const double whole = geometricError(projector, facet, 1).measure;
+  const double whole = cadtest::geometricError(projector, facet, 1).measure;
   facet.edges = {};
-  EXPECT_EQ(geometricError(projector, facet, 1).measure, 0);
+  EXPECT_EQ(cadtest::geometricError(projector, facet, 1).measure, 0);
   facet.edges[0] = { EdgeClass::Smooth, -1 };
-  const double one = geometricError(projector, facet, 1).measure;
+  const double one = cadtest::geometricError(projector, facet, 1).measure;
   EXPECT_GT(one, 0);
   EXPECT_LT(one, whole);
 }
