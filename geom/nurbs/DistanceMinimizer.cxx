@@ -8,6 +8,30 @@ namespace cadrefine
 namespace
 {
 
+/// When minimizeDistance accepts a step, and when it stops. Lengths are relative.
+struct Tolerances
+{
+  /// Metric of a parameter to that of both: less where a side of the patch has shrunk to a point,
+  /// so that one parameter moves nothing.
+  static constexpr double leastMetric = 1e-14;
+  /// Eigenvalue of the Hessian to the metric, 1 near the patch: far above rounding.
+  static constexpr double leastEigenvalue = 1e-9;
+  /// The same once the Hessian was made definite: its steps are at most a thousand times as long as
+  /// those of steepest descent.
+  static constexpr double shiftedEigenvalue = 1e-3;
+  /// Squared length of a step to that of `scale`: it changes no digit.
+  static constexpr double noStep = 1e-32;
+  /// The same: by quadratic convergence what is left after it does not matter, 1e-14 of the scale.
+  static constexpr double lastStep = 1e-14;
+  /// What of half the squared distance is rounding, of points on the patch (some ten operations
+  /// with coordinates as large as those of q) and of the square: so much it may seem to grow.
+  static constexpr double rounding = 1e-14;
+  /// Fall of half the squared distance to that of its tangent (L. Armijo 1966).
+  static constexpr double leastFall = 1e-4;
+  /// Of a step: if 2e-9 of it is too far, only rounding hides the fall.
+  static constexpr int maximumHalvings = 29;
+};
+
 /// Minimiser of a x^2 / 2 + b x over [low, high], a > 0.
 double minimizeOverInterval(double a, double b, double low, double high)
 {
@@ -22,6 +46,14 @@ struct DistanceModel
   double lengthS = 0; // |dS/ds|^2
   double lengthT = 0;
   double lengthST = 0;
+};
+
+/// A point of the patch.
+struct Iterate
+{
+  double s;
+  double t;
+  DistanceModel model;
 };
 
 DistanceModel distanceModel(const PatchView& patch, const Point3& q, double s, double t)
@@ -52,12 +84,12 @@ DistanceModel distanceModel(const PatchView& patch, const Point3& q, double s, d
 bool makePositiveDefinite(DistanceModel& m)
 {
   QuadraticModel& h = m.quadratic;
-  const double floor = 1e-14 * (m.lengthS + m.lengthT) + 1e-150; // its square is not 0
+  const double floor =
+    Tolerances::leastMetric * (m.lengthS + m.lengthT) + 1e-150; // its square is not 0
   const double metricS = std::max(m.lengthS, floor);
   const double metricT = std::max(m.lengthT, floor);
-  constexpr double smallest = 1e-9; // of an eigenvalue, relative to the metric
-  const double aboveS = h.ss - smallest * metricS;
-  const double aboveT = h.tt - smallest * metricT;
+  const double aboveS = h.ss - Tolerances::leastEigenvalue * metricS;
+  const double aboveT = h.tt - Tolerances::leastEigenvalue * metricT;
   if (aboveS > 0 && aboveT > 0 && aboveS * aboveT > h.st * h.st)
   {
     return false;
@@ -66,7 +98,7 @@ bool makePositiveDefinite(DistanceModel& m)
   const double tt = h.tt / metricT;
   const double st = h.st / std::sqrt(metricS * metricT);
   const double least = 0.5 * (ss + tt) - std::sqrt(0.25 * (ss - tt) * (ss - tt) + st * st);
-  const double shift = std::max(1e-3, std::abs(least)) - least;
+  const double shift = std::max(Tolerances::shiftedEigenvalue, std::abs(least)) - least;
   h.ss += shift * metricS;
   h.tt += shift * metricT;
   return true;
@@ -74,8 +106,9 @@ bool makePositiveDefinite(DistanceModel& m)
 
 /// Least value over the box of the tangent plane to half the squared distance: a lower bound of
 /// that where it is convex, also after rounding.
-double tangentBound(const DistanceModel& m, const ParameterRectangle& box, double s, double t)
+double tangentBound(const Iterate& here, const ParameterRectangle& box)
 {
+  const auto& [s, t, m] = here;
   const double gradientS = m.quadratic.gradientS;
   const double gradientT = m.quadratic.gradientT;
   const double fallS = gradientS * ((gradientS > 0 ? box.s0 : box.s1) - s);
@@ -88,6 +121,32 @@ double squaredLength(const DistanceModel& m, const Point2& step)
 {
   return m.lengthS * step[0] * step[0] + 2.0 * m.lengthST * step[0] * step[1] +
          m.lengthT * step[1] * step[1];
+}
+
+Point2 pointAlong(
+  const Iterate& here, const Point2& move, double part, const ParameterRectangle& box)
+{
+  return { std::clamp(here.s + part * move[0], box.s0, box.s1),
+    std::clamp(here.t + part * move[1], box.t0, box.t1) };
+}
+
+/// Goes the step, or the first of its half, quarter and so on after which the distance has fallen
+/// enough. Returns whether it has.
+bool goAlong(const Point2& move, double slope, const PatchView& patch, const Point3& q,
+  const ParameterRectangle& box, double rounding, Iterate& here)
+{
+  double part = 1.0;
+  for (int halving = 0; halving <= Tolerances::maximumHalvings; ++halving, part *= 0.5)
+  {
+    const auto [s, t] = pointAlong(here, move, part, box);
+    const DistanceModel there = distanceModel(patch, q, s, t);
+    if (there.half <= here.model.half + Tolerances::leastFall * part * slope + rounding)
+    {
+      here = { s, t, there };
+      return true;
+    }
+  }
+  return false;
 }
 
 } // namespace
@@ -128,60 +187,38 @@ DistanceMinimizer minimizeDistance(const PatchView& patch, const Point3& q,
   const ParameterRectangle& box, double startS, double startT, double scale, double squaredLimit)
 {
   constexpr int maximumSteps = 50;
-  double s = startS;
-  double t = startT;
   const double coordinate = norm(q);
-  DistanceModel here = distanceModel(patch, q, s, t);
+  Iterate here = { startS, startT, distanceModel(patch, q, startS, startT) };
   for (int step = 0; step < maximumSteps; ++step)
   {
-    if (2.0 * tangentBound(here, box, s, t) > squaredLimit)
+    if (2.0 * tangentBound(here, box) > squaredLimit)
     {
-      return { s, t, std::numeric_limits<double>::infinity() };
+      return { here.s, here.t, std::numeric_limits<double>::infinity() };
     }
-    const bool modified = makePositiveDefinite(here);
-    const ParameterRectangle reach = { box.s0 - s, box.s1 - s, box.t0 - t, box.t1 - t };
-    const Point2 move = minimizeOverBox(here.quadratic, reach);
-    const double slope = here.quadratic.gradientS * move[0] + here.quadratic.gradientT * move[1];
-    const double length = squaredLength(here, move);
-    if (!(slope < 0.0) || length <= 1e-32 * scale * scale)
+    const bool modified = makePositiveDefinite(here.model);
+    const auto& [s, t, m] = here;
+    const Point2 move =
+      minimizeOverBox(m.quadratic, { box.s0 - s, box.s1 - s, box.t0 - t, box.t1 - t });
+    const double slope = m.quadratic.gradientS * move[0] + m.quadratic.gradientT * move[1];
+    const double length = squaredLength(m, move);
+    if (!(slope < 0.0) || length <= Tolerances::noStep * scale * scale)
     {
       break;
     }
-    const auto moved = [&](double part) -> Point2
+    const double rounding = Tolerances::rounding * (m.half + std::sqrt(m.half) * coordinate);
+    if (!modified && length <= Tolerances::lastStep * scale * scale)
     {
-      return { std::clamp(s + part * move[0], box.s0, box.s1),
-        std::clamp(t + part * move[1], box.t0, box.t1) };
-    };
-    // What of half the squared distance is rounding, of points on the patch (some ten operations
-    // with coordinates as large as those of q) and of the square: so much it may seem to grow.
-    const double rounding = 1e-14 * (here.half + std::sqrt(here.half) * coordinate);
-    if (!modified && length <= 1e-14 * scale * scale)
-    {
-      // Quadratic convergence: what is left after this step does not matter.
-      const Point2 last = moved(1.0);
+      const Point2 last = pointAlong(here, move, 1.0, box);
       const double left = squaredNorm(evaluateLocal(patch, last[0], last[1]) - q);
-      return 0.5 * left <= here.half + rounding ? DistanceMinimizer{ last[0], last[1], left }
-                                                : DistanceMinimizer{ s, t, 2.0 * here.half };
+      return 0.5 * left <= m.half + rounding ? DistanceMinimizer{ last[0], last[1], left }
+                                             : DistanceMinimizer{ s, t, 2.0 * m.half };
     }
-    bool fell = false;
-    for (double part = 1.0; part > 1e-9 && !fell; part *= 0.5)
-    {
-      const Point2 next = moved(part);
-      DistanceModel there = distanceModel(patch, q, next[0], next[1]);
-      fell = there.half <= here.half + 1e-4 * part * slope + rounding;
-      if (fell)
-      {
-        s = next[0];
-        t = next[1];
-        here = there;
-      }
-    }
-    if (!fell)
+    if (!goAlong(move, slope, patch, q, box, rounding, here))
     {
       break;
     }
   }
-  return { s, t, 2.0 * here.half };
+  return { here.s, here.t, 2.0 * here.model.half };
 }
 
 } // namespace cadrefine
