@@ -3,10 +3,9 @@
 #include "comm/CollectiveErrors.h"
 #include "comm/Threads.h"
 #include "mesh/MeshPlane.h"
-#include "motion/UntanglingPatch.h"
+#include "motion/Untangling.h"
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 
 namespace cadrefine
@@ -25,283 +24,278 @@ constexpr int sweepsARound = 5;
 /// Cells that lost more of their mean ratio are smoothed.
 constexpr double worthwhile = 0.9;
 
-unsigned char larger(unsigned char a, unsigned char b)
+/// A mesh on its way onto the CAD.
+struct Motion
 {
-  return std::max(a, b);
-}
+  RankExchange& exchange;
+  DistributedMesh& distributed;
+  const Classification& classification;
+  const MoveSettings& settings;
+  const ParallelFor parallelFor;
+  const Vector3 plane;
+  const std::vector<Point3> start; ///< Points of the unmoved mesh.
+  Moves moves; ///< Targets: of all vertices; of those that have none, where they are.
+  std::vector<unsigned char> slid; ///< Vertices on the CAD whose target has changed.
 
-/// The steps of moveOntoCAD.
-class VertexMover
-{
-public:
-  VertexMover(RankExchange& exchange, DistributedMesh& mesh, Moves moves,
-    Classification& classification, const MoveSettings& settings)
-    : exchange_(exchange), mesh_(mesh), classification_(classification), settings_(settings),
-      parallelFor_(forOnThreads(exchange)), start_(mesh.mesh().points), moves_(std::move(moves)),
-      plane_(mesh.mesh().dimension == 2 ? planeNormal(exchange, mesh.mesh()) : Vector3{}),
-      slid_(start_.size(), 0)
-  {
-    for (std::size_t v = 0; v < start_.size(); ++v)
-    {
-      if (moves_.fractions[v] > 0)
-      {
-        aimed_.push_back(static_cast<Index>(v));
-      }
-    }
-    if (settings.mendCells)
-    {
-      findInvalidCells();
-    }
-  }
-
-  void run()
-  {
-    const Progress& progress = exchange_.progress();
-    progress.say(0, "moving vertices onto the CAD");
-    const MoveGuard guard(mesh(), moves_, start_, plane_, parallelFor_);
-    settle(guard, aimed_);
-    std::int64_t left = findLeft();
-    int idle = 0;
-    for (int round = 0; left > 0 && idle < patience && round < maximumRounds; ++round)
-    {
-      progress.say(
-        (1.0 + round) / (2.0 + maximumRounds), "untangling cells at " + std::to_string(left) +
-                                                 " vertices, round " + std::to_string(round + 1));
-      tryAgain(round);
-      const std::int64_t before = left;
-      left = findLeft();
-      idle = left < before ? 0 : idle + 1;
-      agreeOnFailure(exchange_, [&] { retarget(); });
-    }
-    if (left > 0 || settings_.smoothCells)
-    {
-      progress.say(1, "smoothing cells");
-      smooth(guard);
-    }
-    record();
-  }
-
-private:
-  SimplexMesh& mesh() { return mesh_.mesh(); }
-
-  bool isInvalid(Index cell) const
-  {
-    const SimplexMesh& mesh = mesh_.mesh();
-    if (mesh.dimension == 3)
-    {
-      return !stateOf(mesh.tetrahedra[cell], mesh.points).valid;
-    }
-    return plane_ != Vector3{} && !stateOf(mesh.triangles[cell], mesh.points, plane_).valid;
-  }
-
-  void findInvalidCells()
-  {
-    const std::size_t count =
-      mesh().dimension == 3 ? mesh().tetrahedra.size() : mesh().triangles.size();
-    for (std::size_t c = 0; c < count; ++c)
-    {
-      if (isInvalid(static_cast<Index>(c)))
-      {
-        invalid_.push_back(static_cast<Index>(c));
-      }
-    }
-  }
-
-  /// Halves the moves of these vertices until every cell of every rank accepts them, then makes
-  /// them.
-  void settle(const MoveGuard& guard, const std::vector<Index>& moving)
-  {
-    while (exchange_.any(guard.halveUnaccepted(moves_)))
-    {
-      combineShared(exchange_, mesh_.shared, moves_.fractions,
-        [](double a, double b) { return std::min(a, b); });
-    }
-    for (const Index vertex : moving)
-    {
-      mesh().points[vertex] = moves_.position(mesh(), vertex);
-    }
-    for (const Index vertex : moving)
-    {
-      moves_.fractions[vertex] = 0;
-      moves_.whole[vertex] = 0;
-    }
-  }
-
-  bool isStuck(Index vertex) const { return mesh_.mesh().points[vertex] != moves_.targets[vertex]; }
-
-  /// The vertices that are not at their targets, and the invalid cells; the number of both over all
-  /// ranks.
-  std::int64_t findLeft()
-  {
-    stuck_.clear();
-    std::copy_if(aimed_.begin(), aimed_.end(), std::back_inserter(stuck_),
-      [&](Index vertex) { return isStuck(vertex); });
-    const auto owned = std::count_if(stuck_.begin(), stuck_.end(),
-      [&](Index vertex) { return mesh_.shared.owner(vertex) == exchange_.rank(); });
-    invalid_.erase(std::remove_if(invalid_.begin(), invalid_.end(),
-                     [&](Index cell) { return !isInvalid(cell); }),
-      invalid_.end());
-    return exchange_.sum(owned + static_cast<std::ptrdiff_t>(invalid_.size()));
-  }
-
+  SimplexMesh& mesh() const { return distributed.mesh(); }
+  bool isStuck(Index vertex) const { return mesh().points[vertex] != moves.targets[vertex]; }
   bool isInterior(std::size_t vertex) const
   {
-    return !settings_.fixed[vertex] && !classification_.entities[vertex];
+    return !settings.fixed[vertex] && !classification.entities[vertex];
   }
-
-  bool canSlide(std::size_t vertex) const { return classification_.entities[vertex].dimension > 0; }
-
-  /// Flags all vertices that share a cell with a flagged one, `rings` times.
-  void grow(std::vector<unsigned char>& flags, int rings)
-  {
-    for (int ring = 0; ring < rings; ++ring)
-    {
-      flagVertices(mesh(), cellsAt(mesh(), flags, parallelFor_), flags);
-      combineShared(exchange_, mesh_.shared, flags, larger);
-    }
-  }
-
-  /// Where the vertices of the region, so many rings round the flagged ones, are to go for the sake
-  /// of the cells there, with all vertices where they are wanted. Keeps the cells of the region.
-  std::vector<VertexPlace> optimise(
-    std::vector<unsigned char> region, const std::vector<Point3>& wanted, int rings, bool sliding)
-  {
-    combineShared(exchange_, mesh_.shared, region, larger);
-    grow(region, rings);
-    region_ = cellsAt(mesh(), region, parallelFor_);
-    for (std::size_t v = 0; v < region.size(); ++v)
-    {
-      const auto mayMove = [&]
-      {
-        const bool stays = wanted[v] != moves_.targets[v]; // stopped, and not to try again
-        return !stays && (isInterior(v) || (sliding && canSlide(v)));
-      };
-      region[v] = region[v] && mayMove();
-    }
-    const MovingVertices vertices{ region, classification_.entities, wanted, start_, region_ };
-    return UntanglingPatch(exchange_, mesh_, vertices, plane_)
-      .optimise(settings_.projector, sweepsARound);
-  }
-
-  void tryAgain(int round)
-  {
-    std::vector<unsigned char> left(start_.size(), 0);
-    flagVertices(mesh(), invalid_, left);
-    for (const Index vertex : stuck_)
-    {
-      left[vertex] = 1;
-    }
-    moveTo(optimise(std::move(left), moves_.targets, 1 + round / roundsARing,
-             round >= roundsBeforeSliding),
-      stuck_);
-  }
-
-  /// Vertices that slid and then stopped: to the nearest point of their entity.
-  void retarget()
-  {
-    for (const Index vertex : stuck_)
-    {
-      if (slid_[vertex])
-      {
-        const EntityId entity = classification_.entities[vertex];
-        const ClosestPoint where = settings_.projector.nearestOn(entity, mesh().points[vertex]);
-        Point3& target = moves_.targets[vertex];
-        target = where.entity == entity ? where.point : target;
-      }
-    }
-  }
-
-  /// Moves vertices of the region to these places, and `others` to their targets.
-  void moveTo(const std::vector<VertexPlace>& places, const std::vector<Index>& others)
-  {
-    std::vector<Index> moving;
-    std::vector<Index> settled; // they stay where they come to
-    for (const auto& [vertex, point] : places)
-    {
-      if (point == mesh().points[vertex])
-      {
-        continue;
-      }
-      moving.push_back(vertex);
-      slid_[vertex] = slid_[vertex] || (!isInterior(vertex) && point != moves_.targets[vertex]);
-      const bool onCAD = !isInterior(vertex) && !isStuck(vertex);
-      if (onCAD || isInterior(vertex))
-      {
-        settled.push_back(vertex);
-      }
-      moves_.add(vertex, point);
-      moves_.whole[vertex] = onCAD;
-    }
-    for (const Index vertex : others)
-    {
-      if (moves_.fractions[vertex] == 0)
-      {
-        moving.push_back(vertex);
-        moves_.add(vertex, moves_.targets[vertex]);
-      }
-    }
-    settle(MoveGuard(mesh(), moves_, start_, plane_, region_, parallelFor_), moving);
-    for (const Index vertex : settled)
-    {
-      moves_.targets[vertex] = mesh().points[vertex];
-    }
-  }
-
-  /// Interior vertices round cells that lost much move to where these are better. A mesh of
-  /// triangles in space has none: there, vertices slide.
-  void smooth(const MoveGuard& guard)
-  {
-    const auto spoilt = guard.verticesOfSpoiltCells(worthwhile);
-    if (!exchange_.any(!spoilt.empty()))
-    {
-      return;
-    }
-    std::vector<unsigned char> flags(start_.size(), 0);
-    for (const Index vertex : spoilt)
-    {
-      flags[vertex] = 1;
-    }
-    const bool isSurface = mesh().dimension == 2 && plane_ == Vector3{};
-    moveTo(optimise(std::move(flags), mesh().points, 1, isSurface), {});
-  }
-
-  void record()
-  {
-    for (std::size_t v = 0; v < slid_.size(); ++v)
-    {
-      if (slid_[v])
-      {
-        classification_.set(static_cast<Index>(v),
-          settings_.projector.nearestOn(classification_.entities[v], moves_.targets[v]));
-      }
-    }
-    for (const Index vertex : aimed_)
-    {
-      classification_.distances[vertex] = distance(mesh().points[vertex], moves_.targets[vertex]);
-    }
-  }
-
-  RankExchange& exchange_;
-  DistributedMesh& mesh_;
-  Classification& classification_;
-  const MoveSettings& settings_;
-  const ParallelFor parallelFor_;
-  const std::vector<Point3> start_;
-  Moves moves_; ///< Targets: of all vertices; of those that have none, where they are.
-  const Vector3 plane_;
-  std::vector<Index> aimed_;        ///< Vertices that are to reach a target.
-  std::vector<Index> stuck_;        ///< Those of them that have not.
-  std::vector<Index> invalid_;      ///< Cells of this rank that are to be mended.
-  std::vector<Index> region_;       ///< Cells of this rank where something moves.
-  std::vector<unsigned char> slid_; ///< Vertices on the CAD whose target has changed.
+  bool canSlide(std::size_t vertex) const { return classification.entities[vertex].dimension > 0; }
 };
+
+std::vector<Index> movingVertices(const Moves& moves)
+{
+  std::vector<Index> moving;
+  for (std::size_t v = 0; v < moves.fractions.size(); ++v)
+  {
+    if (moves.fractions[v] > 0)
+    {
+      moving.push_back(static_cast<Index>(v));
+    }
+  }
+  return moving;
+}
+
+/// A mesh of triangles in space has no invalid cells.
+bool isInvalid(const SimplexMesh& mesh, const Vector3& plane, std::size_t cell)
+{
+  if (mesh.dimension == 3)
+  {
+    return !stateOf(mesh.tetrahedra[cell], mesh.points).valid;
+  }
+  return plane != Vector3{} && !stateOf(mesh.triangles[cell], mesh.points, plane).valid;
+}
+
+std::vector<Index> invalidCells(const SimplexMesh& mesh, const Vector3& plane)
+{
+  std::vector<Index> invalid;
+  const std::size_t count = mesh.dimension == 3 ? mesh.tetrahedra.size() : mesh.triangles.size();
+  for (std::size_t c = 0; c < count; ++c)
+  {
+    if (isInvalid(mesh, plane, c))
+    {
+      invalid.push_back(static_cast<Index>(c));
+    }
+  }
+  return invalid;
+}
+
+/// Halves the moves of these vertices until every cell of every rank accepts them, then makes them.
+void settle(Motion& motion, const MoveGuard& guard, const std::vector<Index>& moving)
+{
+  Moves& moves = motion.moves;
+  while (motion.exchange.any(guard.halveUnaccepted(moves)))
+  {
+    combineShared(motion.exchange, motion.distributed.shared, moves.fractions,
+      [](double a, double b) { return std::min(a, b); });
+  }
+  for (const Index vertex : moving)
+  {
+    motion.mesh().points[vertex] = moves.position(motion.mesh(), vertex);
+  }
+  for (const Index vertex : moving)
+  {
+    moves.fractions[vertex] = 0;
+    moves.whole[vertex] = 0;
+  }
+}
+
+/// What is not as it should be.
+struct Left
+{
+  std::vector<Index> stuck;   ///< Vertices that are not at their targets.
+  std::vector<Index> invalid; ///< Cells of this rank.
+};
+
+/// Drops what has come right. Returns how much is left over all ranks.
+std::int64_t dropDone(const Motion& motion, Left& left)
+{
+  const auto drop = [](std::vector<Index>& list, const auto& isDone)
+  { list.erase(std::remove_if(list.begin(), list.end(), isDone), list.end()); };
+  drop(left.stuck, [&](Index vertex) { return !motion.isStuck(vertex); });
+  drop(left.invalid, [&](Index cell) { return !isInvalid(motion.mesh(), motion.plane, cell); });
+  const auto owned = std::count_if(left.stuck.begin(), left.stuck.end(),
+    [&](Index vertex)
+    { return motion.distributed.shared.owner(vertex) == motion.exchange.rank(); });
+  return motion.exchange.sum(owned + static_cast<std::ptrdiff_t>(left.invalid.size()));
+}
+
+/// Cells where something moves, and the places where their vertices are to go.
+struct Region
+{
+  std::vector<Index> cells;
+  std::vector<VertexPlace> places;
+};
+
+/// The cells up to so many rings round the flagged vertices, which are to go to where these cells
+/// are valid and well shaped once all vertices are where they are wanted.
+Region untangleRound(const Motion& motion, std::vector<unsigned char> flags,
+  const std::vector<Point3>& wanted, int rings, bool sliding)
+{
+  const auto larger = [](unsigned char a, unsigned char b) { return std::max(a, b); };
+  combineShared(motion.exchange, motion.distributed.shared, flags, larger);
+  for (int ring = 0; ring < rings; ++ring)
+  {
+    flagVertices(motion.mesh(), cellsAt(motion.mesh(), flags, motion.parallelFor), flags);
+    combineShared(motion.exchange, motion.distributed.shared, flags, larger);
+  }
+  const std::vector<Index> cells = cellsAt(motion.mesh(), flags, motion.parallelFor);
+  for (std::size_t v = 0; v < flags.size(); ++v)
+  {
+    const bool stays = wanted[v] != motion.moves.targets[v]; // stopped, and not to try again
+    flags[v] = flags[v] && !stays && (motion.isInterior(v) || (sliding && motion.canSlide(v)));
+  }
+  const MovingVertices vertices{ std::move(flags), motion.classification.entities, wanted,
+    motion.start, cells };
+  return { cells, untangle(motion.exchange, motion.distributed, vertices, motion.plane,
+                    motion.settings.projector, sweepsARound) };
+}
+
+/// Moves vertices of the region to their places there, and `others` to their targets.
+void moveTo(Motion& motion, const Region& region, const std::vector<Index>& others)
+{
+  Moves& moves = motion.moves;
+  const std::vector<Point3>& points = motion.mesh().points;
+  std::vector<Index> moving;
+  std::vector<Index> settled; // they stay where they come to
+  for (const auto& [vertex, point] : region.places)
+  {
+    if (point == points[vertex])
+    {
+      continue;
+    }
+    moving.push_back(vertex);
+    const bool isInterior = motion.isInterior(vertex);
+    const bool slides = !isInterior && !motion.isStuck(vertex);
+    if (isInterior || slides)
+    {
+      settled.push_back(vertex);
+    }
+    motion.slid[vertex] = motion.slid[vertex] || (!isInterior && point != moves.targets[vertex]);
+    moves.add(vertex, point);
+    moves.whole[vertex] = slides;
+  }
+  for (const Index vertex : others)
+  {
+    if (moves.fractions[vertex] == 0)
+    {
+      moving.push_back(vertex);
+      moves.add(vertex, moves.targets[vertex]);
+    }
+  }
+  settle(motion,
+    MoveGuard(motion.mesh(), moves, motion.start, motion.plane, region.cells, motion.parallelFor),
+    moving);
+  for (const Index vertex : settled)
+  {
+    moves.targets[vertex] = points[vertex];
+  }
+}
+
+/// One more round: what is left goes on, and what is round it makes way.
+void tryAgain(Motion& motion, const Left& left, int round)
+{
+  std::vector<unsigned char> flags(motion.start.size(), 0);
+  flagVertices(motion.mesh(), left.invalid, flags);
+  for (const Index vertex : left.stuck)
+  {
+    flags[vertex] = 1;
+  }
+  const Region region = untangleRound(motion, std::move(flags), motion.moves.targets,
+    1 + round / roundsARing, round >= roundsBeforeSliding);
+  moveTo(motion, region, left.stuck);
+}
+
+/// Vertices that slid and then stopped: to the nearest point of their entity.
+void retarget(Motion& motion, const std::vector<Index>& stuck)
+{
+  for (const Index vertex : stuck)
+  {
+    if (motion.slid[vertex])
+    {
+      const EntityId entity = motion.classification.entities[vertex];
+      const ClosestPoint where =
+        motion.settings.projector.nearestOn(entity, motion.mesh().points[vertex]);
+      Point3& target = motion.moves.targets[vertex];
+      target = where.entity == entity ? where.point : target;
+    }
+  }
+}
+
+/// Interior vertices round cells that lost much move to where these are better. A mesh of triangles
+/// in space has none: there, vertices slide.
+void smooth(Motion& motion, const MoveGuard& guard)
+{
+  const auto spoilt = guard.verticesOfSpoiltCells(worthwhile);
+  if (!motion.exchange.any(!spoilt.empty()))
+  {
+    return;
+  }
+  std::vector<unsigned char> flags(motion.start.size(), 0);
+  for (const Index vertex : spoilt)
+  {
+    flags[vertex] = 1;
+  }
+  const bool isSurface = motion.mesh().dimension == 2 && motion.plane == Vector3{};
+  moveTo(motion, untangleRound(motion, std::move(flags), motion.mesh().points, 1, isSurface), {});
+}
+
+/// Writes where vertices slid to, and how far those that were to move are from their targets.
+void record(const Motion& motion, const std::vector<Index>& aimed, Classification& classification)
+{
+  const Moves& moves = motion.moves;
+  for (std::size_t v = 0; v < motion.slid.size(); ++v)
+  {
+    if (motion.slid[v])
+    {
+      classification.set(static_cast<Index>(v),
+        motion.settings.projector.nearestOn(classification.entities[v], moves.targets[v]));
+    }
+  }
+  for (const Index vertex : aimed)
+  {
+    classification.distances[vertex] =
+      distance(motion.mesh().points[vertex], moves.targets[vertex]);
+  }
+}
 
 } // namespace
 
 void moveOntoCAD(RankExchange& exchange, DistributedMesh& mesh, Moves moves,
   Classification& classification, const MoveSettings& settings)
 {
-  VertexMover(exchange, mesh, std::move(moves), classification, settings).run();
+  const Progress& progress = exchange.progress();
+  progress.say(0, "moving vertices onto the CAD");
+  const Vector3 plane = mesh.mesh().dimension == 2 ? planeNormal(exchange, mesh.mesh()) : Vector3{};
+  const std::vector<Index> aimed = movingVertices(moves);
+  Left left{ aimed, settings.mendCells ? invalidCells(mesh.mesh(), plane) : std::vector<Index>{} };
+  Motion motion{ exchange, mesh, classification, settings, forOnThreads(exchange), plane,
+    mesh.mesh().points, std::move(moves),
+    std::vector<unsigned char>(mesh.mesh().points.size(), 0) };
+
+  const MoveGuard guard(mesh.mesh(), motion.moves, motion.start, plane, motion.parallelFor);
+  settle(motion, guard, aimed);
+  std::int64_t count = dropDone(motion, left);
+  int idle = 0;
+  for (int round = 0; count > 0 && idle < patience && round < maximumRounds; ++round)
+  {
+    progress.say(
+      (1.0 + round) / (2.0 + maximumRounds), "untangling cells at " + std::to_string(count) +
+                                               " vertices, round " + std::to_string(round + 1));
+    tryAgain(motion, left, round);
+    const std::int64_t before = std::exchange(count, dropDone(motion, left));
+    idle = count < before ? 0 : idle + 1;
+    agreeOnFailure(exchange, [&] { retarget(motion, left.stuck); });
+  }
+  if (count > 0 || settings.smoothCells)
+  {
+    progress.say(1, "smoothing cells");
+    smooth(motion, guard);
+  }
+  record(motion, aimed, classification);
 }
 
 } // namespace cadrefine

@@ -45,7 +45,7 @@ struct MoveSettings
 /// Collective. Where nothing stops: one look at each cell, one reduction, and one exchange of 8
 /// bytes a shared vertex. A halving costs as much, but for cells whose vertices move only. A round:
 /// a look at all cells for each ring and one more, and a few sweeps over those of the region (see
-/// UntanglingPatch).
+/// untangle).
 void moveOntoCAD(RankExchange& exchange, DistributedMesh& mesh, Moves moves,
   Classification& classification, const MoveSettings& settings);
 
