@@ -21,6 +21,14 @@ double largestOverMean(const std::vector<std::int64_t>& counts, std::int64_t tot
                    : 1.0;
 }
 
+/// A run of queries that goes from a rank that has too many to one that has too few.
+struct Transfer
+{
+  int from = 0;
+  int to = 0;
+  std::size_t count = 0;
+};
+
 /// All transfers: surplus and need are matched in the order of the ranks.
 std::vector<Transfer> matchTransfers(
   const std::vector<std::int64_t>& counts, const std::vector<std::int64_t>& quotas)
@@ -77,11 +85,14 @@ WorkPlan planLoadBalance(RankExchange& exchange, std::size_t queries)
   WorkPlan plan;
   plan.balance = { total, largestOverMean(counts, total), largestOverMean(quotas, total) };
   plan.kept = static_cast<std::size_t>(std::min(counts[exchange.rank()], quotas[exchange.rank()]));
-  for (const Transfer& transfer : matchTransfers(counts, quotas))
+  for (const auto& [from, to, count] : matchTransfers(counts, quotas))
   {
-    if (transfer.from == exchange.rank() || transfer.to == exchange.rank())
+    const bool isMine = from == exchange.rank();
+    if (isMine || to == exchange.rank())
     {
-      plan.transfers.push_back(transfer);
+      plan.ranks.push_back(isMine ? to : from);
+      plan.sent.push_back(isMine ? count : 0);
+      plan.received.push_back(isMine ? 0 : count);
     }
   }
   return plan;

@@ -29,26 +29,42 @@ void recordBalance(RunStatistics& statistics, const std::string& work, const Wor
 /// number is gathered from every rank.
 double findImbalance(RankExchange& exchange, std::int64_t share);
 
-/// A run of queries that goes from a rank that has too many to one that has too few.
-struct Transfer
-{
-  int from = 0;
-  int to = 0;
-  std::size_t count = 0;
-};
-
+/// Which queries of this rank go where: the first ones stay, runs of the others go to ranks that
+/// have too few.
 struct WorkPlan
 {
   WorkBalance balance;
-  std::size_t kept = 0; ///< This rank answers its first ones itself.
-  std::vector<Transfer>
-    transfers; ///< Those from and to this rank, in the order of `from` and `to`.
+  std::size_t kept = 0;
+  std::vector<int> ranks;            ///< Those that queries go to, or come from.
+  std::vector<std::size_t> sent;     ///< Number of queries for each of them.
+  std::vector<std::size_t> received; ///< Number from each of them.
 };
 
 /// What each rank answers: total / ranks queries, up to one more. Ranks with too many send their
 /// last ones; fewer than 2 x ranks transfers in all. Collective; one number is gathered from every
 /// rank.
 WorkPlan planLoadBalance(RankExchange& exchange, std::size_t queries);
+
+/// Sends what comes after the first `kept` items, in runs of these lengths, to these ranks, and
+/// puts what they send in its place. Collective.
+template<class Item>
+void exchangeTail(RankExchange& exchange, const std::vector<int>& ranks,
+  const std::vector<std::size_t>& lengths, std::size_t kept, std::vector<Item>& items)
+{
+  std::vector<std::vector<Item>> outgoing;
+  auto next = items.begin() + static_cast<std::ptrdiff_t>(kept);
+  for (const std::size_t length : lengths)
+  {
+    const auto end = next + static_cast<std::ptrdiff_t>(length);
+    outgoing.emplace_back(next, end);
+    next = end;
+  }
+  items.resize(kept);
+  for (const auto& run : exchange.exchange(ranks, outgoing))
+  {
+    items.insert(items.end(), run.begin(), run.end());
+  }
+}
 
 template<class Answer>
 struct Answers
@@ -69,24 +85,7 @@ Answers<Answer> mapBalanced(RankExchange& exchange, std::vector<Query> queries,
 {
   const ParallelFor parallelFor = forOnThreads(exchange);
   const WorkPlan plan = planLoadBalance(exchange, queries.size());
-  std::vector<int> others;
-  std::vector<std::vector<Query>> outgoing;
-  auto next = queries.begin() + static_cast<std::ptrdiff_t>(plan.kept);
-  for (const Transfer& transfer : plan.transfers)
-  {
-    const bool mine = transfer.from == exchange.rank();
-    others.push_back(mine ? transfer.to : transfer.from);
-    const auto end = next + static_cast<std::ptrdiff_t>(mine ? transfer.count : 0);
-    outgoing.emplace_back(next, end);
-    next = end;
-  }
-  queries.resize(plan.kept);
-  const auto incoming = exchange.exchange(others, outgoing);
-  for (const auto& transfer : incoming)
-  {
-    queries.insert(queries.end(), transfer.begin(), transfer.end());
-  }
-
+  exchangeTail(exchange, plan.ranks, plan.sent, plan.kept, queries);
   Answers<Answer> result;
   result.balance = plan.balance;
   agreeOnFailure(exchange,
@@ -100,19 +99,7 @@ Answers<Answer> mapBalanced(RankExchange& exchange, std::vector<Query> queries,
           std::transform(first + begin, first + end, result.values.data() + begin, function);
         });
     });
-  std::vector<std::vector<Answer>> returned;
-  auto answer = result.values.begin() + static_cast<std::ptrdiff_t>(plan.kept);
-  for (const auto& transfer : incoming)
-  {
-    const auto end = answer + static_cast<std::ptrdiff_t>(transfer.size());
-    returned.emplace_back(answer, end);
-    answer = end;
-  }
-  result.values.resize(plan.kept);
-  for (const auto& transfer : exchange.exchange(others, returned))
-  {
-    result.values.insert(result.values.end(), transfer.begin(), transfer.end());
-  }
+  exchangeTail(exchange, plan.ranks, plan.received, plan.kept, result.values);
   return result;
 }
 
