@@ -1,5 +1,7 @@
 #include <cadrefine/cad/extraction/ShapeTessellation.h>
 
+#include <cadrefine/cad/import/OccGuard.h>
+
 #include <BRepAdaptor_Curve.hxx>
 #include <BRepBuilderAPI_Copy.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
@@ -150,20 +152,35 @@ Tessellation tessellateEdge(const TopoDS_Edge& edge, const TopoDS_Face& face, do
   return result;
 }
 
-} // namespace
-
-Tessellation tessellate(const ShapeIndex& index, EntityId entity, int face, double deflection)
+Tessellation tessellateShape(const ShapeIndex& index, const DrawnEntity& drawn, double deflection)
 {
-  const TopoDS_Face shown = face < 0 ? TopoDS_Face() : index.faces()[face];
-  switch (entity.dimension)
+  const TopoDS_Face face = drawn.face < 0 ? TopoDS_Face() : index.faces()[drawn.face];
+  switch (drawn.entity.dimension)
   {
     case 2:
-      return tessellateFace(shown, deflection);
+      return tessellateFace(face, deflection);
     case 1:
-      return tessellateEdge(index.edges()[entity.index], shown, deflection);
+      return tessellateEdge(index.edges()[drawn.entity.index], face, deflection);
     default:
       return {};
   }
+}
+
+} // namespace
+
+Tessellation tessellate(
+  const ShapeIndex& index, const LengthScale& scale, const DrawnEntity& drawn, double deflection)
+{
+  return guardOcc("drawing the CAD model",
+    [&]
+    {
+      Tessellation drawing = tessellateShape(index, drawn, scale.back()(deflection));
+      for (Point3& point : drawing.points)
+      {
+        point = scale(point);
+      }
+      return drawing;
+    });
 }
 
 } // namespace cadrefine

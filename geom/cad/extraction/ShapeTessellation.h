@@ -3,13 +3,23 @@
 
 #include <cadrefine/cad/extraction/ShapeIndex.h>
 #include <cadrefine/cad/model/CADModel.h>
+#include <cadrefine/cad/model/LengthUnit.h>
 
 namespace cadrefine
 {
 
-/// Triangles of a face, the polyline of an edge, nothing of a vertex; with the normals of `face`,
-/// which is the entity, or holds the edge, or is -1: without. Works on a copy of a face's topology,
-/// so the shape itself stays as it is.
-Tessellation tessellate(const ShapeIndex& index, EntityId entity, int face, double deflection);
+/// An entity, and the face whose normals its drawing has: itself, or one that holds the edge; -1:
+/// without.
+struct DrawnEntity
+{
+  EntityId entity;
+  int face = -1;
+};
+
+/// Triangles of a face, the polyline of an edge, nothing of a vertex. `deflection` and the drawing
+/// are in the unit that `scale` leads to from that of the shape. Works on a copy of a face's
+/// topology, so the shape itself stays as it is. Throws Error where Open CASCADE fails.
+Tessellation tessellate(
+  const ShapeIndex& index, const LengthScale& scale, const DrawnEntity& drawn, double deflection);
 
 } // namespace cadrefine

@@ -79,11 +79,6 @@ bool endsAt(const NurbsEdge& edge, int vertex)
   return edge.firstVertex == vertex || edge.lastVertex == vertex;
 }
 
-Point3 scaled(const Point3& p, const LengthScale& scale)
-{
-  return { scale(p[0]), scale(p[1]), scale(p[2]) };
-}
-
 /// Parameters stay as they are.
 NurbsModel scaled(NurbsModel model, const LengthScale& scale)
 {
@@ -120,7 +115,7 @@ NurbsModel scaled(NurbsModel model, const LengthScale& scale)
   }
   for (NurbsVertex& vertex : model.vertices)
   {
-    vertex.point = scaled(vertex.point, scale);
+    vertex.point = scale(vertex.point);
     vertex.tolerance = scale(vertex.tolerance);
   }
   return model;
@@ -382,19 +377,8 @@ Tessellation CADModel::tessellate(EntityId entity, double deflection) const
   {
     throw Error("the deflection of a tessellation must be positive");
   }
-  return guardOcc("drawing the CAD model",
-    [&]
-    {
-      const LengthScale& scale = implementation_->scale;
-      const LengthScale back{ scale.to, scale.from };
-      Tessellation drawing = cadrefine::tessellate(
-        implementation_->index, entity, firstFaceAt(nurbs(), entity), back(deflection));
-      for (Point3& point : drawing.points)
-      {
-        point = scaled(point, scale);
-      }
-      return drawing;
-    });
+  return cadrefine::tessellate(implementation_->index, implementation_->scale,
+    { entity, firstFaceAt(nurbs(), entity) }, deflection);
 }
 
 } // namespace cadrefine

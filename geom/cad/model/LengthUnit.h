@@ -1,6 +1,8 @@
 // Units of length, by their short names: "mm", "in".
 #pragma once
 
+#include <cadrefine/base/Vector3.h>
+
 #include <array>
 #include <string>
 
@@ -35,6 +37,11 @@ struct LengthScale
   double to = 1;   ///< Of the one that they are wanted in.
 
   double operator()(double length) const { return length * from / to; }
+  Point3 operator()(const Point3& p) const
+  {
+    return { (*this)(p[0]), (*this)(p[1]), (*this)(p[2]) };
+  }
+  LengthScale back() const { return { to, from }; }
 };
 
 } // namespace cadrefine
