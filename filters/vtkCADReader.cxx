@@ -43,7 +43,7 @@ constexpr const char* OwnUnit = "File's own";
 
 using Lines = std::vector<std::string>;
 
-/// Of findThreads, for the process that reads, in which vtkSMPTools does not work.
+/// Of findThreads, for the program that reads, which has no vtkSMPTools.
 int RunThreads(int threads)
 {
   return threads > 0 ? threads : vtkSMPTools::GetEstimatedNumberOfThreads();
@@ -72,7 +72,7 @@ void AgreeOnFailureOf(cadrefine::RankExchange& exchange, const char* file, const
     });
 }
 
-/// The lines of all ranks, the same on any number of them.
+/// The lines of all ranks, each once: the same on any number of them.
 Lines LinesOfAll(cadrefine::RankExchange& exchange, const Lines& mine)
 {
   std::vector<char> text;
@@ -92,6 +92,7 @@ Lines LinesOfAll(cadrefine::RankExchange& exchange, const Lines& mine)
     }
   }
   std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
   return all;
 }
 

@@ -17,6 +17,7 @@
 #include <vtkSMPTools.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <functional>
 #include <map>
 #include <set>
@@ -324,9 +325,10 @@ TEST_F(Faults, validity)
     { "reading the mesh", "checking cells" });
 }
 
-/// Rank 0 reads in a process of its own, then all draw, each in one.
+/// Rank 0 reads by a program of its own, then all draw, each by one.
 TEST_F(Faults, reading)
 {
+  setenv("CADREFINE_READER", CADREFINE_FAULTY_READER, 1);
   failEverywhere(
     [this]
     {
@@ -336,6 +338,7 @@ TEST_F(Faults, reading)
       return cadtest::execute(reader);
     },
     { "reading the CAD file", "drawing the CAD" });
+  unsetenv("CADREFINE_READER");
   EXPECT_TRUE(exchange.any(places.count(Place::OtherProcess) > 0));
 }
 

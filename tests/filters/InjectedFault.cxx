@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdlib>
+#include <fcntl.h>
 #include <link.h>
 #include <new>
 #include <stdexcept>
+#include <string>
 #include <sys/mman.h>
 #include <thread>
 #include <unistd.h>
@@ -17,30 +19,54 @@ namespace
 
 using Place = cadtest::InjectedFault::Place;
 
-/// Seen by processes that are forked, too.
+/// Seen by programs that are started, too.
 struct Shared
 {
+  std::atomic<bool> counting{ false };
   std::atomic<std::int64_t> allocations{ 0 };
   std::atomic<Place> place{ Place::Nowhere };
+  std::int64_t faulty = cadtest::InjectedFault::none;
+  cadtest::FaultKind kind = cadtest::FaultKind::Memory;
+  pid_t maker = 0;
 };
+
+constexpr const char* variable = "CADREFINE_TEST_FAULT"; ///< Holds the descriptor of that memory.
+
+Shared* map(int file)
+{
+  void* const mapped = mmap(nullptr, sizeof(Shared), PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+  if (mapped == MAP_FAILED)
+  {
+    std::abort();
+  }
+  return static_cast<Shared*>(mapped);
+}
+
+Shared* makeShared()
+{
+  constexpr int free = 100; // far from those that programs are given
+  const int file = fcntl(memfd_create("fault", MFD_CLOEXEC), F_DUPFD, free);
+  if (ftruncate(file, sizeof(Shared)) != 0)
+  {
+    std::abort();
+  }
+  setenv(variable, std::to_string(file).c_str(), 1);
+  return new (map(file)) Shared;
+}
+
+Shared* memory = nullptr;
 
 Shared& shared()
 {
-  static Shared* const memory =
-    new (mmap(nullptr, sizeof(Shared), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0))
-      Shared;
+  memory = memory ? memory : makeShared();
   return *memory;
 }
 
-std::atomic<bool> counting{ false };
-std::int64_t faulty = cadtest::InjectedFault::none;
-cadtest::FaultKind faultKind = cadtest::FaultKind::Memory;
 std::thread::id maker;
-pid_t process = 0;
 
 Place placeHere()
 {
-  return getpid() != process                   ? Place::OtherProcess
+  return getpid() != shared().maker            ? Place::OtherProcess
          : std::this_thread::get_id() != maker ? Place::OtherThread
                                                : Place::OwnThread;
 }
@@ -92,15 +118,15 @@ Addresses libraryWith(const void* address)
 
 bool mustFail(const void* caller)
 {
-  return counting.load(std::memory_order_relaxed) &&
+  return memory && memory->counting.load(std::memory_order_relaxed) &&
          counted.have(reinterpret_cast<std::uintptr_t>(caller)) &&
-         shared().allocations.fetch_add(1) == faulty;
+         memory->allocations.fetch_add(1) == memory->faulty;
 }
 
 [[noreturn]] void strike()
 {
   shared().place = placeHere();
-  switch (faultKind)
+  switch (shared().kind)
   {
     case cadtest::FaultKind::Exception:
       throw std::runtime_error("injected exception");
@@ -117,12 +143,12 @@ void* allocate(std::size_t size, const void* caller)
   {
     strike();
   }
-  void* const memory = std::malloc(std::max(size, std::size_t{ 1 }));
-  if (!memory)
+  void* const allocated = std::malloc(std::max(size, std::size_t{ 1 }));
+  if (!allocated)
   {
     throw std::bad_alloc();
   }
-  return memory;
+  return allocated;
 }
 
 } // namespace
@@ -140,18 +166,27 @@ const char* traceOf(FaultKind kind)
 InjectedFault::InjectedFault(const void* inside, FaultKind kind, std::int64_t number)
 {
   counted = libraryWith(inside);
-  faultKind = kind;
-  faulty = number;
   maker = std::this_thread::get_id();
-  process = getpid();
+  shared().kind = kind;
+  shared().faulty = number;
+  shared().maker = getpid();
   shared().allocations = 0;
   shared().place = Place::Nowhere;
-  counting = true;
+  shared().counting = true;
 }
 
 InjectedFault::~InjectedFault()
 {
-  counting = false;
+  shared().counting = false;
+}
+
+void InjectedFault::join(const void* inside)
+{
+  if (const char* const file = std::getenv(variable))
+  {
+    counted = libraryWith(inside);
+    memory = map(std::atoi(file));
+  }
 }
 
 std::int64_t InjectedFault::allocations()
@@ -176,22 +211,22 @@ void* operator new[](std::size_t size)
   return allocate(size, __builtin_return_address(0));
 }
 
-void operator delete(void* memory) noexcept
+void operator delete(void* allocated) noexcept
 {
-  std::free(memory);
+  std::free(allocated);
 }
 
-void operator delete(void* memory, std::size_t) noexcept
+void operator delete(void* allocated, std::size_t) noexcept
 {
-  std::free(memory);
+  std::free(allocated);
 }
 
-void operator delete[](void* memory) noexcept
+void operator delete[](void* allocated) noexcept
 {
-  std::free(memory);
+  std::free(allocated);
 }
 
-void operator delete[](void* memory, std::size_t) noexcept
+void operator delete[](void* allocated, std::size_t) noexcept
 {
-  std::free(memory);
+  std::free(allocated);
 }

@@ -18,8 +18,8 @@ enum class FaultKind
 const char* traceOf(FaultKind kind);
 
 /// Counts the allocations by operator new that one library makes while this lives, on all threads
-/// and in processes that are forked, and makes one of them throw. Those of other libraries are left
-/// alone: VTK does not mend its objects after one. One at a time.
+/// and in programs that are started and call join(), and makes one of them throw. Those of other
+/// libraries are left alone: VTK does not mend its objects after one. One at a time.
 class InjectedFault
 {
 public:
@@ -31,6 +31,9 @@ public:
   ~InjectedFault();
   InjectedFault(const InjectedFault&) = delete;
   InjectedFault& operator=(const InjectedFault&) = delete;
+
+  /// In a program that is started: counts those that the library around `inside` makes here, too.
+  static void join(const void* inside);
 
   /// Since construction of the last one.
   static std::int64_t allocations();

@@ -15,6 +15,7 @@ target_include_directories(badcad PUBLIC badcad cad)
 target_include_directories(badcad SYSTEM PUBLIC ${OpenCASCADE_INCLUDE_DIR})
 target_link_libraries(badcad PUBLIC CADRefineCad ${data_exchange} TKXSBase TKPrim TKTopAlgo TKBRep GTest::gtest
   PRIVATE CADRefineWarnings)
+add_dependencies(badcad cadrefine-read-cad)
 
 add_executable(badcad_table badcad/BadCADTable.cxx)
 target_link_libraries(badcad_table PRIVATE badcad CADRefineWarnings)

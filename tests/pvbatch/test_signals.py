@@ -38,9 +38,9 @@ class Signals(unittest.TestCase):
         place = self.path(output)
         with open(place, "w", encoding="utf-8") as file:
             file.write(OLD)
-        process = subprocess.Popen(self.command(ranks, place, *options, case=case), text=True,
-                                   env={**os.environ, **driver.ENVIRONMENT}, stdout=subprocess.PIPE,
-                                   stderr=subprocess.PIPE, stdin=subprocess.DEVNULL)
+        environment = {**os.environ, **driver.ENVIRONMENT, "TEST_FOLDER": self.folder}
+        process = subprocess.Popen(self.command(ranks, place, *options, case=case), text=True, env=environment,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL)
         self.addCleanup(process.kill)
         return process, place
 
@@ -59,16 +59,18 @@ class Signals(unittest.TestCase):
         return lines[0]
 
     def left_over(self):
-        """Processes, of any rank, that have this test's folder among their arguments."""
+        """Processes, of any rank, that have this test's folder among their arguments or variables."""
         found = []
         for process in filter(str.isdigit, os.listdir("/proc")):
             try:
                 with open(f"/proc/{process}/cmdline", encoding="utf-8", errors="replace") as file:
-                    words = file.read().split("\0")
+                    command = file.read()
+                with open(f"/proc/{process}/environ", encoding="utf-8", errors="replace") as file:
+                    variables = file.read()
             except OSError:
                 continue  # It has ended meanwhile.
-            if any(self.folder in word for word in words):
-                found.append((int(process), os.path.basename(words[0])))
+            if self.folder in command + variables:
+                found.append((int(process), os.path.basename(command.split("\0")[0])))
         return sorted(found)
 
     def ranks(self):

@@ -1,5 +1,5 @@
-// For builds with --coverage, included before IsolatedRun.cxx: its child processes leave through
-// _exit, which writes no counters.
+// For builds with --coverage, included before RunServer.cxx: the program that reads CAD files
+// leaves through _exit, which writes no counters.
 #pragma once
 
 #include <unistd.h>

@@ -1,10 +1,12 @@
 // Linked into a test program, it makes floating point exceptions of ours failures of the test that
-// they come from (see FloatingPointTraps.h, and FloatingPointPause.h for tests that mean them).
+// they come from (see FloatingPointTraps.h, and FloatingPointPause.h for tests that mean them). CAD
+// files are then read by a program that ends at one.
 
 #include "FloatingPointTraps.h"
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <memory>
 
 namespace cadtest
@@ -18,6 +20,7 @@ class FloatingPointListener : public testing::EmptyTestEventListener
 public:
   void OnTestProgramStart(const testing::UnitTest& /*program*/) override
   {
+    setenv("CADREFINE_READER", CADREFINE_TEST_READER, 1);
     traps_ = std::make_unique<FloatingPointTraps>("/libCADRefine");
   }
 

@@ -8,7 +8,7 @@ namespace cadtest
 {
 
 /// Notes invalid operations, divisions by zero and overflows while it lives, on this thread, and on
-/// threads and in processes that are started from it meanwhile. Work goes on as without. One lives
+/// threads and in processes that are forked meanwhile. Work goes on as without. One lives
 /// at a time.
 ///
 /// Noted are instructions of the program and of shared libraries whose path holds `ours`, and those

@@ -1,7 +1,7 @@
 // 1. See that the file is there, can be read and begins as its kind of file does.
-// 2. In a process of its own (Open CASCADE crashes or loops on many damaged files): read it, sew
+// 2. In a program of its own (Open CASCADE crashes or loops on many damaged files): read it, sew
 //    and heal what it holds, leave out what becomes no NURBS, and turn it into the model's bytes.
-// 3. Where that process dies in an optional step, or over one face or edge, do it again without.
+// 3. Where that dies in an optional step, or over one face or edge, do it again without.
 // 4. Build the model from the bytes: so it is the same on every rank.
 
 #include <cadrefine/cad/import/CADFile.h>
@@ -11,9 +11,9 @@
 #include <cadrefine/cad/healing/GapSearch.h>
 #include <cadrefine/cad/healing/ShapePreparation.h>
 #include <cadrefine/cad/import/FileCheck.h>
-#include <cadrefine/cad/import/OccGuard.h>
 #include <cadrefine/cad/import/OwnThreads.h>
 #include <cadrefine/cad/import/ReadAttempts.h>
+#include <cadrefine/cad/import/ReadJobs.h>
 #include <cadrefine/cad/import/ShapeReaders.h>
 #include <cadrefine/cad/model/CADModelBuilder.h>
 #include <cadrefine/cad/model/ModelBytes.h>
@@ -146,7 +146,7 @@ void convertTo(const std::string& unit, const std::string& path, ModelContent& c
   for (Gap& gap : report.gaps)
   {
     gap.width = scale(gap.width);
-    gap.point = { scale(gap.point[0]), scale(gap.point[1]), scale(gap.point[2]) };
+    gap.point = scale(gap.point);
   }
   content.size = scale(content.size);
 }
@@ -198,20 +198,26 @@ RunLimits limitsFor(const std::string& path)
 
 } // namespace
 
+std::vector<char> readJob(const std::string& path, ByteReader& input)
+{
+  const ReadOptions options = takeOptions(input);
+  const auto format = input.number<CADFormat>();
+  const std::string unit = input.text();
+  return encodeModel(readContent(path, format, unit, options));
+}
+
 std::vector<char> readCADBytes(const std::string& path, const std::string& unit, int threads)
 {
   if (!unit.empty())
   {
     wantedLength(unit); // before a long file is read
   }
-  const CADFormat format = checkFile(path);
+  ByteWriter input;
+  input.number(checkFile(path));
+  input.text(unit);
   try
   {
-    return runAttempts(path, limitsFor(path), threads,
-      [&](const ReadOptions& options) {
-        return guardOcc(
-          path, [&] { return encodeModel(readContent(path, format, unit, options)); });
-      });
+    return runAttempts("read", path, limitsFor(path), threads, input.bytes);
   }
   catch (const RunFailure& failure)
   {

@@ -1,26 +1,26 @@
-// 1. Fork. The child silences itself, limits its time and memory, works, and writes one letter
-//    (+ done, - an Error, x another exception, m out of memory), the length and the bytes (or the
-//    error's text) to a pipe.
-// 2. The child counts its steps, and notes its place, in memory that the parent sees.
-// 3. The parent reads the pipe until the answer is whole, and kills a child that stands still or
-//    takes too long for a step. An answer cut short tells that the child died.
-// The child leaves through _exit: it runs no handlers and flushes no buffers of the parent.
+// 1. Start the program, with a pipe for its answer and memory that both see: the limits, the input
+//    of its job, and the steps and the place that it notes.
+// 2. Read the pipe until the answer is whole, and kill a process that stands still or takes too
+//    long for a step. An answer cut short tells that it died.
+// posix_spawn, since this process may have threads, MPI and a window, whose state a fork would copy
+// and not keep whole.
 
 #include <cadrefine/cad/import/IsolatedRun.h>
 
+#include <cadrefine/cad/import/ReaderPath.h>
+#include <cadrefine/cad/import/RunProtocol.h>
+
 #include <algorithm>
-#include <atomic>
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
 #include <ctime>
-#include <exception>
 #include <fcntl.h>
-#include <fstream>
 #include <new>
 #include <poll.h>
+#include <spawn.h>
 #include <sys/mman.h>
-#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -30,29 +30,62 @@ namespace cadrefine
 namespace
 {
 
-constexpr char done = '+';
-constexpr char failed = '-';
-constexpr char excepted = 'x';
-constexpr char outOfMemory = 'm';
-constexpr std::size_t headSize = 1 + sizeof(std::uint64_t);
-
-/// What the parent sees of its child.
-struct RunState
+/// Closed at the end.
+class Descriptor
 {
-  std::atomic<std::uint64_t> steps{ 0 };
-  std::atomic<RunPlace> place{ RunPlace() };
-};
-static_assert(std::atomic<RunPlace>::is_always_lock_free, "it is shared between processes");
+public:
+  /// Takes what a system call has returned, out of the way of the program's descriptors.
+  explicit Descriptor(int given)
+    : number_(given < 0 ? given : fcntl(given, F_DUPFD_CLOEXEC, stateDescriptor + 1))
+  {
+    closeOne(given);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  ~Descriptor() { this->close(); }
 
-/// A RunState that this process and the children that it forks share.
+  void close()
+  {
+    closeOne(number_);
+    number_ = -1;
+  }
+
+  /// Negative where the system gave none.
+  int get() const { return number_; }
+
+private:
+  static void closeOne(int number)
+  {
+    if (number >= 0)
+    {
+      ::close(number);
+    }
+  }
+
+  int number_;
+};
+
+/// A RunState with its input, in memory that a process can be given.
 class SharedState
 {
 public:
-  SharedState()
-    : memory_(
-        mmap(nullptr, sizeof(RunState), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0))
+  SharedState(const RunLimits& limits, const std::vector<char>& input)
+    : file_(memfd_create("cadrefine", MFD_CLOEXEC)), size_(sizeof(RunState) + input.size())
   {
-    state_ = memory_ == MAP_FAILED ? nullptr : new (memory_) RunState;
+    if (file_.get() < 0 || ftruncate(file_.get(), static_cast<off_t>(size_)) != 0)
+    {
+      return;
+    }
+    void* const memory = mmap(nullptr, size_, PROT_READ | PROT_WRITE, MAP_SHARED, file_.get(), 0);
+    if (memory == MAP_FAILED)
+    {
+      return;
+    }
+    state_ = new (memory) RunState;
+    state_->limits = limits;
+    state_->parent = getpid();
+    state_->inputSize = input.size();
+    std::copy(input.begin(), input.end(), static_cast<char*>(memory) + sizeof(RunState));
   }
   SharedState(const SharedState&) = delete;
   SharedState& operator=(const SharedState&) = delete;
@@ -60,113 +93,47 @@ public:
   {
     if (state_ != nullptr)
     {
-      munmap(memory_, sizeof(RunState));
+      munmap(state_, size_);
     }
   }
 
   /// Null where the system gives no such memory.
-  RunState* get() const { return state_; }
+  const RunState* get() const { return state_; }
+  int descriptor() const { return file_.get(); }
 
 private:
-  void* memory_;
+  Descriptor file_;
+  std::size_t size_;
   RunState* state_ = nullptr;
 };
 
-/// Of the child; null in other processes.
-RunState* runState = nullptr;
-
-void writeAll(int descriptor, const char* data, std::size_t size)
+/// Started with these descriptors as its own, silent, and with signals as a new program has them.
+/// Returns the error, 0 for none.
+int startProgram(pid_t& process, const std::array<std::string, 3>& command, int answer, int state)
 {
-  while (size > 0)
-  {
-    const ssize_t written = write(descriptor, data, size);
-    if (written < 0 && errno != EINTR)
-    {
-      _exit(1);
-    }
-    data += written > 0 ? written : 0;
-    size -= written > 0 ? static_cast<std::size_t>(written) : 0;
-  }
-}
-
-void answer(int descriptor, char kind, const char* data, std::size_t size)
-{
-  char head[headSize] = { kind };
-  const std::uint64_t length = size;
-  std::memcpy(head + 1, &length, sizeof(length));
-  writeAll(descriptor, head, headSize);
-  writeAll(descriptor, data, size);
-}
-
-/// Address space of this process, in bytes; 0 where the system does not tell.
-std::uint64_t addressSpace()
-{
-  std::uint64_t pages = 0;
-  std::ifstream("/proc/self/statm") >> pages;
-  return pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
-}
-
-void limitMemory(std::uint64_t megabytes)
-{
-  rlimit memory{};
-  const std::uint64_t now = addressSpace();
-  if (megabytes > 0 && now > 0 && getrlimit(RLIMIT_AS, &memory) == 0)
-  {
-    const rlim_t most = now + (megabytes << 20U);
-    memory.rlim_cur = memory.rlim_max == RLIM_INFINITY ? most : std::min(most, memory.rlim_max);
-    setrlimit(RLIMIT_AS, &memory);
-  }
-}
-
-void setUpChild(const RunLimits& limits)
-{
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
-  for (const int signal : { SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGXCPU, SIGTERM })
-  {
-    std::signal(signal, SIG_DFL);
-  }
-  const rlimit noCore{ 0, 0 };
-  setrlimit(RLIMIT_CORE, &noCore);
-  const auto seconds = static_cast<rlim_t>(limits.cpuSeconds);
-  const rlimit time{ seconds, seconds + 1 };
-  setrlimit(RLIMIT_CPU, &time);
-  limitMemory(limits.megabytes);
-  const int nowhere = open("/dev/null", O_WRONLY);
-  dup2(nowhere, STDOUT_FILENO);
-  dup2(nowhere, STDERR_FILENO);
-}
-
-void answerText(int descriptor, char kind, const std::string& text)
-{
-  answer(descriptor, kind, text.data(), text.size());
-}
-
-[[noreturn]] void runChild(
-  int descriptor, const RunLimits& limits, const std::function<std::vector<char>()>& work)
-{
-  setUpChild(limits);
-  try
-  {
-    const std::vector<char> result = work();
-    answer(descriptor, done, result.data(), result.size());
-  }
-  catch (const Error& error)
-  {
-    answerText(descriptor, failed, error.what());
-  }
-  catch (const std::bad_alloc&)
-  {
-    answer(descriptor, outOfMemory, nullptr, 0);
-  }
-  catch (const std::exception& error)
-  {
-    answerText(descriptor, excepted, error.what());
-  }
-  catch (...)
-  {
-    _exit(1);
-  }
-  _exit(0);
+  posix_spawn_file_actions_t files;
+  posix_spawn_file_actions_init(&files);
+  posix_spawn_file_actions_adddup2(&files, answer, answerDescriptor);
+  posix_spawn_file_actions_adddup2(&files, state, stateDescriptor);
+  posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_adddup2(&files, STDOUT_FILENO, STDERR_FILENO);
+  sigset_t none;
+  sigset_t all;
+  sigemptyset(&none);
+  sigfillset(&all);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+  posix_spawnattr_setsigmask(&attributes, &none);
+  posix_spawnattr_setsigdefault(&attributes, &all);
+  std::array<char*, 4> arguments{};
+  std::transform(command.begin(), command.end(), arguments.begin(),
+    [](const std::string& word) { return const_cast<char*>(word.c_str()); });
+  const int error =
+    posix_spawn(&process, command[0].c_str(), &files, &attributes, arguments.data(), environ);
+  posix_spawnattr_destroy(&attributes);
+  posix_spawn_file_actions_destroy(&files);
+  return error;
 }
 
 /// Seconds of computing of a process that has not been waited for.
@@ -222,20 +189,20 @@ private:
 bool isComplete(const std::vector<char>& bytes)
 {
   std::uint64_t length = 0;
-  if (bytes.size() >= headSize)
+  if (bytes.size() >= answerHeadSize)
   {
     std::memcpy(&length, bytes.data() + 1, sizeof(length));
   }
-  return bytes.size() >= headSize && bytes.size() - headSize == length;
+  return bytes.size() >= answerHeadSize && bytes.size() - answerHeadSize == length;
 }
 
 struct Received
 {
   std::vector<char> bytes;
-  std::string cause; ///< Why the child was killed; "" where it was not.
+  std::string cause; ///< Why the process was killed; "" where it was not.
 };
 
-Received readAll(int descriptor, pid_t child, Watch watch)
+Received readAll(int descriptor, pid_t process, Watch watch)
 {
   constexpr int oneSecond = 1000;
   Received received;
@@ -253,7 +220,7 @@ Received readAll(int descriptor, pid_t child, Watch watch)
       received.cause = received.cause.empty() ? watch.look() : received.cause;
       if (!received.cause.empty())
       {
-        kill(child, SIGKILL);
+        kill(process, SIGKILL);
       }
       continue;
     }
@@ -268,23 +235,44 @@ Received readAll(int descriptor, pid_t child, Watch watch)
   return received;
 }
 
-/// How a child has ended that gave no answer.
+/// How a process has ended that gave no answer.
 struct End
 {
   int signal = 0;        ///< 0: of its own.
   double cpuSeconds = 0; ///< Of computing.
 };
 
-End awaitEnd(pid_t child)
+/// A process that was started, and is killed where nobody awaits its end.
+class Child
 {
-  int status = 0;
-  rusage usage{};
-  while (wait4(child, &status, 0, &usage) < 0 && errno == EINTR)
+public:
+  explicit Child(pid_t process) : process_(process) {}
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
+  ~Child()
   {
+    if (process_ > 0)
+    {
+      kill(process_, SIGKILL);
+      awaitEnd();
+    }
   }
-  const auto seconds = static_cast<double>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec);
-  return { WIFSIGNALED(status) ? WTERMSIG(status) : 0, seconds };
-}
+
+  End awaitEnd()
+  {
+    int status = 0;
+    rusage usage{};
+    while (wait4(process_, &status, 0, &usage) < 0 && errno == EINTR)
+    {
+    }
+    process_ = 0;
+    const auto seconds = static_cast<double>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec);
+    return { WIFSIGNALED(status) ? WTERMSIG(status) : 0, seconds };
+  }
+
+private:
+  pid_t process_;
+};
 
 bool wasKilledByOthers(const End& end, const RunLimits& limits)
 {
@@ -302,14 +290,20 @@ std::string causeOf(const End& end, const RunLimits& limits)
                         : "Open CASCADE fails on it";
 }
 
-/// Why a run gave no answer: `cause`, if its child was killed for one.
+[[noreturn]] void throwCannotBeRead(const std::string& context, const std::string& reason)
+{
+  throw Error(context + ": cannot be read: " + reason);
+}
+
+/// Why a run gave no answer: `cause`, if its process was killed for one.
 std::string causeOf(
   const std::string& cause, const End& end, const RunLimits& limits, const std::string& context)
 {
   if (cause.empty() && wasKilledByOthers(end, limits))
   {
-    throw Error(context + ": cannot be read: the process that reads it was killed (signal " +
-                std::to_string(end.signal) + "), as systems do that run out of memory");
+    throwCannotBeRead(context, "the process that reads it was killed (signal " +
+                                 std::to_string(end.signal) +
+                                 "), as systems do that run out of memory");
   }
   return cause.empty() ? causeOf(end, limits) : cause;
 }
@@ -318,14 +312,14 @@ std::string causeOf(
 std::vector<char> openAnswer(const std::vector<char>& answer, const std::string& context,
   const RunLimits& limits, RunPlace place)
 {
-  const auto payload = answer.begin() + headSize;
-  switch (answer.front())
+  const auto payload = answer.begin() + answerHeadSize;
+  switch (static_cast<AnswerKind>(answer.front()))
   {
-    case done:
+    case AnswerKind::Done:
       return { payload, answer.end() };
-    case failed:
+    case AnswerKind::Failed:
       throw Error(std::string(payload, answer.end()));
-    case outOfMemory:
+    case AnswerKind::OutOfMemory:
       throw RunFailure(context,
         "reading it takes more than " + std::to_string(limits.megabytes) + " MiB of memory", place);
     default:
@@ -335,54 +329,40 @@ std::vector<char> openAnswer(const std::vector<char>& answer, const std::string&
 
 } // namespace
 
-void noteProgress()
+std::vector<char> runIsolated(const std::string& job, const std::string& context,
+  const RunLimits& limits, const std::vector<char>& input)
 {
-  if (runState != nullptr)
-  {
-    ++runState->steps;
-  }
-}
-
-void noteStep(int step, int item)
-{
-  if (runState != nullptr)
-  {
-    runState->place = { step, item };
-    ++runState->steps;
-  }
-}
-
-std::vector<char> runIsolated(const std::string& context, const RunLimits& limits,
-  const std::function<std::vector<char>()>& work)
-{
-  const SharedState state;
-  int ends[2];
+  const SharedState state(limits, input);
+  int ends[2] = { -1, -1 };
   if (state.get() == nullptr || pipe2(ends, O_CLOEXEC) != 0)
   {
-    throw Error(context + ": cannot be read: " + std::strerror(errno));
+    throwCannotBeRead(context, std::strerror(errno));
   }
-  const pid_t child = fork();
-  if (child == 0)
+  const Descriptor from(ends[0]);
+  Descriptor to(ends[1]);
+  const std::string program = readerPath();
+  pid_t process = 0;
+  const int error = startProgram(process, { program, job, context }, to.get(), state.descriptor());
+  if (error != 0)
   {
-    close(ends[0]);
-    runState = state.get();
-    runChild(ends[1], limits, work);
+    throwCannotBeRead(context, "the program " + program + ": " + std::strerror(error) +
+                                 " (CADREFINE_READER can name its place)");
   }
-  const int forkError = errno;
-  close(ends[1]);
-  const Received received =
-    child < 0 ? Received() : readAll(ends[0], child, Watch(child, limits, *state.get()));
-  close(ends[0]);
-  if (child < 0)
+  Child child(process);
+  to.close();
+  const Received received = readAll(from.get(), process, Watch(process, limits, *state.get()));
+  const End end = child.awaitEnd();
+  if (!state.get()->started)
   {
-    throw Error(context + ": cannot be read: " + std::strerror(forkError));
+    throwCannotBeRead(
+      context, "the program " + program + " does not start, or is of another CADRefine");
   }
-  const End end = awaitEnd(child);
+  const RunPlace place = state.get()->place;
   if (!isComplete(received.bytes))
   {
-    throw RunFailure(context, causeOf(received.cause, end, limits, context), state.get()->place);
+    throw RunFailure(context, causeOf(received.cause, end, limits, context), place);
   }
-  return openAnswer(received.bytes, context, limits, state.get()->place);
+  return openAnswer(received.bytes, context, limits, place);
 }
 
 } // namespace cadrefine

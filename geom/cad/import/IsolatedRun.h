@@ -1,10 +1,11 @@
-// Work that may crash or never end, in a process of its own. Private to geom/cad.
+// Work that may crash or never end, done by a program of its own. Private to geom/cad.
 #pragma once
 
 #include <cadrefine/base/Error.h>
+#include <cadrefine/cad/model/ByteRecords.h>
 
 #include <cstdint>
-#include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -13,9 +14,10 @@ namespace cadrefine
 
 struct RunLimits
 {
-  int cpuSeconds = 0;          ///< Of computing, in all.
-  std::uint64_t megabytes = 0; ///< Of address space, beside what this process has; 0: no limit.
-  int idleSeconds = 20;        ///< On the clock, without computing anything.
+  int cpuSeconds = 0; ///< Of computing, in all.
+  std::uint64_t megabytes =
+    0;                  ///< Of address space, beside what the program starts with; 0: no limit.
+  int idleSeconds = 20; ///< On the clock, without computing anything.
   /// From one noteProgress() to the next, of computing and on the clock (on several threads the
   /// former runs faster); 0: no limit.
   int stepSeconds = 0;
@@ -46,16 +48,23 @@ private:
   RunPlace place_;
 };
 
-/// What `work` returns, done in a child process that shares nothing with this one and prints
-/// nothing. An Error of the child is thrown here. Where it crashes, throws anything else or takes
-/// more time or memory than the limits allow, throws RunFailure, whose text begins with `context`;
-/// where the system makes no child, or kills it, Error. The child does not outlive the thread that
-/// calls.
-std::vector<char> runIsolated(const std::string& context, const RunLimits& limits,
-  const std::function<std::vector<char>()>& work);
+/// What the job of this name returns for `input`, in a process that prints nothing, of the program
+/// that reads CAD files (ReaderPath.h). An Error of the job is thrown here. Where it crashes,
+/// throws anything else or takes more time or memory than the limits allow, throws RunFailure,
+/// whose text begins with `context`; where the program cannot be started, or the system kills it,
+/// Error. The process does not outlive the thread that calls. Cost: starting the program, 0.05 s.
+std::vector<char> runIsolated(const std::string& job, const std::string& context,
+  const RunLimits& limits, const std::vector<char>& input);
 
-/// To be called by `work` where a part of it is done, about once for each entity: what follows may
-/// take RunLimits::stepSeconds. Does nothing outside of runIsolated. Cost: one addition.
+/// A job of the program, by its name; it is given the context and the input of runIsolated.
+using RunJobs =
+  std::map<std::string, std::vector<char> (*)(const std::string& context, ByteReader& input)>;
+
+/// The main function of the program: does the job that runIsolated started it for.
+int serveRun(int argc, char** argv, const RunJobs& jobs);
+
+/// To be called by a job where a part of it is done, about once for each entity: what follows may
+/// take RunLimits::stepSeconds. Does nothing outside of serveRun. Cost: one addition.
 void noteProgress();
 
 /// The same where another part of the work begins, so that a failure tells its place.

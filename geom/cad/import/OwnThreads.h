@@ -6,9 +6,8 @@
 namespace cadrefine
 {
 
-/// Loops on so many threads, which are started for each loop: a pool that a forked process has from
-/// its parent has lost its threads. All calls are made; where some throw, the exception of the
-/// lowest range is thrown when all have ended.
+/// Loops on so many threads, which are started for each loop. All calls are made; where some throw,
+/// the exception of the lowest range is thrown when all have ended.
 ParallelFor forOnOwnThreads(int threads);
 
 } // namespace cadrefine

@@ -38,7 +38,7 @@ bool leaveOut(const RunFailure& failure, ReadOptions& options)
   }
 }
 
-/// The thread sanitizer ends processes that start threads after a fork.
+/// The thread sanitizer does not see the locks of Open CASCADE, which is built without it.
 int allowedThreads([[maybe_unused]] int wanted)
 {
 #ifdef __SANITIZE_THREAD__
@@ -58,10 +58,43 @@ RunLimits limitsOn(int threads, RunLimits limits)
   return limits;
 }
 
+template<typename Key>
+void write(ByteWriter& writer, const std::map<Key, std::string>& reasons)
+{
+  writer.list(reasons,
+    [&](const auto& entry)
+    {
+      writer.number(entry.first);
+      writer.text(entry.second);
+    });
+}
+
+template<typename Key>
+void read(ByteReader& reader, std::map<Key, std::string>& reasons)
+{
+  for (auto count = reader.number<std::uint64_t>(); count > 0; --count)
+  {
+    const auto key = reader.number<Key>();
+    reasons[key] = reader.text();
+  }
+}
+
+std::vector<char> withOptions(const ReadOptions& options, const std::vector<char>& input)
+{
+  ByteWriter writer;
+  write(writer, options.withoutSteps);
+  write(writer, options.withoutConversions);
+  write(writer, options.withoutDrawings);
+  writer.number(options.threads);
+  writer.text(options.failureOnThreads);
+  writer.bytes.insert(writer.bytes.end(), input.begin(), input.end());
+  return std::move(writer.bytes);
+}
+
 } // namespace
 
-std::vector<char> runAttempts(const std::string& context, const RunLimits& limits, int threads,
-  const std::function<std::vector<char>(const ReadOptions&)>& work)
+std::vector<char> runAttempts(const std::string& job, const std::string& context,
+  const RunLimits& limits, int threads, const std::vector<char>& input)
 {
   constexpr int mostAttempts = 20;
   ReadOptions options;
@@ -70,7 +103,8 @@ std::vector<char> runAttempts(const std::string& context, const RunLimits& limit
   {
     try
     {
-      return runIsolated(context, limitsOn(options.threads, limits), [&] { return work(options); });
+      return runIsolated(
+        job, context, limitsOn(options.threads, limits), withOptions(options, input));
     }
     catch (const RunFailure& failure)
     {
@@ -80,6 +114,17 @@ std::vector<char> runAttempts(const std::string& context, const RunLimits& limit
       }
     }
   }
+}
+
+ReadOptions takeOptions(ByteReader& input)
+{
+  ReadOptions options;
+  read(input, options.withoutSteps);
+  read(input, options.withoutConversions);
+  read(input, options.withoutDrawings);
+  options.threads = input.number<int>();
+  options.failureOnThreads = input.text();
+  return options;
 }
 
 } // namespace cadrefine

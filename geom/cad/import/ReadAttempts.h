@@ -4,17 +4,20 @@
 #include <cadrefine/cad/import/IsolatedRun.h>
 #include <cadrefine/cad/import/ReadSteps.h>
 
-#include <functional>
 #include <string>
 #include <vector>
 
 namespace cadrefine
 {
 
-/// What `work` returns, done by runIsolated, on `threads` threads. Where it dies in an optional
-/// step, or over one face or edge, it is done again without; where it dies on several threads,
-/// again on one, which tells over what. Throws RunFailure where it dies of anything else.
-std::vector<char> runAttempts(const std::string& context, const RunLimits& limits, int threads,
-  const std::function<std::vector<char>(const ReadOptions&)>& work);
+/// What the job returns for the options of this attempt and `input`, done by runIsolated, on
+/// `threads` threads. Where it dies in an optional step, or over one face or edge, it is done again
+/// without; where it dies on several threads, again on one, which tells over what. Throws
+/// RunFailure where it dies of anything else.
+std::vector<char> runAttempts(const std::string& job, const std::string& context,
+  const RunLimits& limits, int threads, const std::vector<char>& input);
+
+/// What stands before the input of a job that runAttempts does.
+ReadOptions takeOptions(ByteReader& input);
 
 } // namespace cadrefine

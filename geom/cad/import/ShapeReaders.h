@@ -21,7 +21,7 @@ struct ReadShape
 };
 
 /// Each throws Error where the file as a whole cannot be read. Open CASCADE prints, and keeps
-/// settings in global variables: to be run in a process of its own (IsolatedRun.h).
+/// settings in global variables: for the program that reads CAD files (IsolatedRun.h).
 ReadShape readIges(const std::string& path, OptionalSteps& steps);
 ReadShape readStep(const std::string& path, OptionalSteps& steps);
 ReadShape readBrep(const std::string& path, OptionalSteps& steps);

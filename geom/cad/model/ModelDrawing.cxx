@@ -1,9 +1,12 @@
 #include <cadrefine/cad/model/ModelDrawing.h>
 
-#include <cadrefine/cad/import/OccGuard.h>
+#include <cadrefine/cad/extraction/ShapeIndex.h>
+#include <cadrefine/cad/extraction/ShapeTessellation.h>
 #include <cadrefine/cad/import/OwnThreads.h>
 #include <cadrefine/cad/import/ReadAttempts.h>
+#include <cadrefine/cad/import/ReadJobs.h>
 #include <cadrefine/cad/model/ByteRecords.h>
+#include <cadrefine/cad/model/ModelBytes.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,28 +21,8 @@ bool isFinite(const Point3& p)
   return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
 }
 
-/// Why the entity cannot be drawn; empty: `drawing` is it.
-std::string drawEntity(
-  const CADModel& model, EntityId entity, double deflection, Tessellation& drawing)
-{
-  try
-  {
-    Tessellation made = model.tessellate(entity, deflection);
-    if (!std::all_of(made.points.begin(), made.points.end(), isFinite))
-    {
-      return "a point is not finite";
-    }
-    drawing = std::move(made);
-    return "";
-  }
-  catch (const Error& error)
-  {
-    return error.what();
-  }
-}
-
 /// The items of ReadStep::Drawing.
-std::vector<EntityId> drawnEntities(const CADModel& model, const DrawingShare& share)
+std::vector<DrawnEntity> drawnEntities(const CADModel& model, const DrawingShare& share)
 {
   std::vector<bool> edges(model.count(1));
   for (int e = 0; e < model.count(1); ++e)
@@ -54,105 +37,92 @@ std::vector<EntityId> drawnEntities(const CADModel& model, const DrawingShare& s
       edges[atVertex.front()] = true;
     }
   }
-  std::vector<EntityId> entities;
+  std::vector<DrawnEntity> entities;
   for (int e = 0; e < model.count(1); ++e)
   {
     if (edges[e])
     {
-      entities.push_back({ 1, e });
+      entities.push_back({ { 1, e }, firstFaceAt(model.nurbs(), { 1, e }) });
     }
   }
   for (int f = share.rank; f < model.count(2); f += share.size)
   {
-    entities.push_back({ 2, f });
+    entities.push_back({ { 2, f }, f });
   }
   return entities;
 }
 
-/// Adds lines for those entities of the share that have a fault.
-void addUndrawn(const DrawingShare& share, const std::vector<EntityId>& entities,
-  const std::vector<std::string>& faults, std::vector<std::string>& lines)
+/// What became of one item.
+struct DrawnItem
 {
-  for (std::size_t i = 0; i < entities.size(); ++i)
+  Tessellation drawing; ///< Empty where there is a fault.
+  std::string fault;
+};
+
+DrawnItem drawItem(
+  const ShapeIndex& index, const LengthScale& scale, const DrawnEntity& drawn, double deflection)
+{
+  try
   {
-    const EntityId entity = entities[i];
-    if (!faults[i].empty() && share.has(entity.index))
-    {
-      lines.push_back((entity.dimension == 1 ? "edge " : "face ") + std::to_string(entity.index) +
-                      " is not drawn: " + faults[i]);
-    }
+    Tessellation drawing = tessellate(index, scale, drawn, deflection);
+    const bool finite = std::all_of(drawing.points.begin(), drawing.points.end(), isFinite);
+    return finite ? DrawnItem{ std::move(drawing), "" } : DrawnItem{ {}, "a point is not finite" };
+  }
+  catch (const Error& error)
+  {
+    return { {}, error.what() };
   }
 }
 
-ModelDrawing drawShare(
-  const CADModel& model, double deflection, const DrawingShare& share, const ReadOptions& options)
+std::vector<DrawnItem> drawItems(const ModelContent& content,
+  const std::vector<DrawnEntity>& entities, double deflection, const ReadOptions& options)
 {
-  const std::vector<EntityId> entities = drawnEntities(model, share);
-  ModelDrawing drawing;
-  drawing.edges.resize(model.count(1));
-  drawing.faces.resize(model.count(2));
-  std::vector<std::string> faults(entities.size());
+  const ShapeIndex index(content.shape);
+  std::vector<DrawnItem> items(entities.size());
   forEachIndex(forOnOwnThreads(options.threads), entities.size(), 1,
     [&](std::size_t i)
     {
-      const EntityId entity = entities[i];
       const int item = static_cast<int>(i);
       options.noteItem(ReadStep::Drawing, item);
       const auto leftOut = options.withoutDrawings.find(item);
-      faults[i] = leftOut != options.withoutDrawings.end()
-                    ? leftOut->second
-                    : drawEntity(model, entity, deflection,
-                        (entity.dimension == 1 ? drawing.edges : drawing.faces)[entity.index]);
+      items[i] = leftOut != options.withoutDrawings.end()
+                   ? DrawnItem{ {}, leftOut->second }
+                   : drawItem(index, content.scale, entities[i], deflection);
     });
   noteStep(static_cast<int>(ReadStep::Other));
-  drawing.undrawn = options.notes();
-  addUndrawn(share, entities, faults, drawing.undrawn);
-  return drawing;
+  return items;
 }
 
-void write(ByteWriter& writer, const std::vector<Tessellation>& drawings)
+void write(ByteWriter& writer, const DrawnItem& item)
 {
-  writer.list(drawings,
-    [&](const Tessellation& drawing)
-    {
-      writer.array(drawing.points);
-      writer.array(drawing.normals);
-      writer.array(drawing.triangles);
-      writer.array(drawing.line);
-    });
+  writer.array(item.drawing.points);
+  writer.array(item.drawing.normals);
+  writer.array(item.drawing.triangles);
+  writer.array(item.drawing.line);
+  writer.text(item.fault);
 }
 
-std::vector<Tessellation> readTessellations(ByteReader& reader)
+DrawnItem readItem(ByteReader& reader)
 {
-  return reader.list(
-    [&]
-    {
-      Tessellation drawing;
-      drawing.points = reader.array<Point3>();
-      drawing.normals = reader.array<Vector3>();
-      drawing.triangles = reader.array<std::array<int, 3>>();
-      drawing.line = reader.array<int>();
-      return drawing;
-    });
+  DrawnItem item;
+  item.drawing.points = reader.array<Point3>();
+  item.drawing.normals = reader.array<Vector3>();
+  item.drawing.triangles = reader.array<std::array<int, 3>>();
+  item.drawing.line = reader.array<int>();
+  item.fault = reader.text();
+  return item;
 }
 
-std::vector<char> encode(const ModelDrawing& drawing)
+/// Puts what became of an entity into its place.
+void take(DrawnItem item, EntityId entity, ModelDrawing& drawing)
 {
-  ByteWriter writer;
-  write(writer, drawing.edges);
-  write(writer, drawing.faces);
-  writer.list(drawing.undrawn, [&](const std::string& line) { writer.text(line); });
-  return std::move(writer.bytes);
-}
-
-ModelDrawing decode(const std::vector<char>& bytes)
-{
-  ByteReader reader(bytes.data(), bytes.data() + bytes.size());
-  ModelDrawing drawing;
-  drawing.edges = readTessellations(reader);
-  drawing.faces = readTessellations(reader);
-  drawing.undrawn = reader.list([&] { return reader.text(); });
-  return drawing;
+  const bool isEdge = entity.dimension == 1;
+  if (!item.fault.empty())
+  {
+    drawing.undrawn.push_back(
+      (isEdge ? "edge " : "face ") + std::to_string(entity.index) + " is not drawn: " + item.fault);
+  }
+  (isEdge ? drawing.edges : drawing.faces)[entity.index] = std::move(item.drawing);
 }
 
 /// By the size of the model's bytes. Far more than drawing takes: a terrain's one face, 7 s for
@@ -170,6 +140,19 @@ RunLimits limitsFor(std::size_t bytes)
 
 } // namespace
 
+std::vector<char> drawJob(const std::string& /*context*/, ByteReader& input)
+{
+  const ReadOptions options = takeOptions(input);
+  const auto deflection = input.number<double>();
+  const auto entities = input.array<DrawnEntity>();
+  const ModelContent content = decodeModel(input.array<char>());
+  ByteWriter writer;
+  writer.list(drawItems(content, entities, deflection, options),
+    [&](const DrawnItem& item) { write(writer, item); });
+  writer.list(options.notes(), [&](const std::string& line) { writer.text(line); });
+  return std::move(writer.bytes);
+}
+
 ModelDrawing drawModel(
   const CADModel& model, double deflection, const DrawingShare& share, int threads)
 {
@@ -177,13 +160,25 @@ ModelDrawing drawModel(
   {
     throw Error("the deflection of a drawing must be positive");
   }
-  const std::string context = "drawing the CAD model";
-  return decode(runAttempts(context, limitsFor(model.toBytes().size()), threads,
-    [&](const ReadOptions& options)
-    {
-      return guardOcc(
-        context, [&] { return encode(drawShare(model, deflection, share, options)); });
-    }));
+  const std::vector<DrawnEntity> entities = drawnEntities(model, share);
+  const std::vector<char> bytes = model.toBytes();
+  ByteWriter input;
+  input.number(deflection);
+  input.array(entities);
+  input.array(bytes);
+  const std::vector<char> answer =
+    runAttempts("draw", "drawing the CAD model", limitsFor(bytes.size()), threads, input.bytes);
+  ByteReader reader(answer.data(), answer.data() + answer.size());
+  std::vector<DrawnItem> items = reader.list([&] { return readItem(reader); });
+  ModelDrawing drawing;
+  drawing.edges.resize(model.count(1));
+  drawing.faces.resize(model.count(2));
+  drawing.undrawn = reader.list([&] { return reader.text(); });
+  for (std::size_t i = 0; i < entities.size(); ++i)
+  {
+    take(std::move(items[i]), entities[i].entity, drawing);
+  }
+  return drawing;
 }
 
 } // namespace cadrefine

@@ -24,12 +24,12 @@ struct ModelDrawing
   /// one of a vertex of the share, which has its normal.
   std::vector<Tessellation> edges;
   std::vector<Tessellation> faces; ///< The same, those of the share.
-  /// A line for each of the share that cannot be drawn, and one where a failure on several threads
-  /// did not come again on one.
+  /// A line for each of these that cannot be drawn, and one where a failure on several threads did
+  /// not come again on one.
   std::vector<std::string> undrawn;
 };
 
-/// Draws edges and faces, to `deflection` (a length), in a child process (fork) with so many
+/// Draws edges and faces, to `deflection` (a length), by the program cadrefine-read-cad on so many
 /// threads: what makes Open CASCADE crash, or takes it far too long, is left out. The same on any
 /// number of threads. Throws Error where nothing can be drawn.
 ModelDrawing drawModel(

@@ -1,95 +1,122 @@
-// What happens in the child process comes back as bytes or as an Error.
+// What happens in the program that reads comes back as bytes or as an Error. The jobs are those of
+// TestReader.cxx.
 
 #include <cadrefine/cad/import/IsolatedRun.h>
 
 #include <cadrefine/base/Error.h>
-#include <cadrefine/cad/import/OwnThreads.h>
 #include <cadrefine/cad/import/ReadAttempts.h>
+#include <cadrefine/cad/import/ReaderPath.h>
 
 #include <gtest/gtest.h>
 
 #include <csignal>
 #include <cstdlib>
-#include <ctime>
-#include <iostream>
-#include <stdexcept>
-#include <unistd.h>
+#include <string>
+#include <thread>
+#include <vector>
 
 namespace
 {
 
-using cadrefine::runIsolated;
 using cadrefine::RunLimits;
+using Bytes = std::vector<char>;
 
-std::string errorOf(const RunLimits& limits, const std::function<std::vector<char>()>& work)
+/// While it lives, another program reads.
+class OtherReader
 {
-  try
+public:
+  explicit OtherReader(const std::string& path) : before_(cadrefine::readerPath())
   {
-    runIsolated("file", limits, work);
+    setenv("CADREFINE_READER", path.c_str(), 1);
   }
-  catch (const cadrefine::Error& error)
-  {
-    return error.what();
-  }
-  return "";
+  ~OtherReader() { setenv("CADREFINE_READER", before_.c_str(), 1); }
+  OtherReader(const OtherReader&) = delete;
+  OtherReader& operator=(const OtherReader&) = delete;
+
+private:
+  std::string before_;
+};
+
+template<typename... Numbers>
+Bytes inputOf(Numbers... numbers)
+{
+  cadrefine::ByteWriter writer;
+  (writer.number(numbers), ...);
+  return writer.bytes;
 }
 
-TEST(IsolatedRun, bringsBackManyBytes)
+class IsolatedRun : public testing::Test
 {
-  std::vector<char> bytes(3000001);
+protected:
+  OtherReader reader{ CADREFINE_TEST_READER };
+
+  static Bytes run(
+    const std::string& job, const RunLimits& limits = { 60 }, const Bytes& input = {})
+  {
+    return cadrefine::runIsolated(job, "file", limits, input);
+  }
+
+  static std::string errorOf(
+    const std::string& job, const RunLimits& limits = { 60 }, const Bytes& input = {})
+  {
+    try
+    {
+      run(job, limits, input);
+    }
+    catch (const cadrefine::Error& error)
+    {
+      return error.what();
+    }
+    return "";
+  }
+
+  static void expectError(const std::string& error, const std::string& part)
+  {
+    EXPECT_NE(error.find(part), std::string::npos) << error;
+  }
+};
+
+TEST_F(IsolatedRun, bringsBackManyBytes)
+{
+  Bytes bytes(3000001);
   for (std::size_t i = 0; i < bytes.size(); ++i)
   {
     bytes[i] = static_cast<char>(i % 251);
   }
-  EXPECT_EQ(runIsolated("file", { 60 }, [&] { return bytes; }), bytes);
-  EXPECT_TRUE(runIsolated("file", { 60 }, [] { return std::vector<char>(); }).empty());
+  cadrefine::ByteWriter input;
+  input.array(bytes);
+  EXPECT_EQ(run("echo", { 60 }, input.bytes), bytes);
+  EXPECT_TRUE(run("echo", { 60 }, inputOf(std::uint64_t{ 0 })).empty());
 }
 
-TEST(IsolatedRun, keepsItsOutputToItself)
+TEST_F(IsolatedRun, keepsItsOutputToItself)
 {
   testing::internal::CaptureStdout();
-  runIsolated("file", { 60 },
-    []
-    {
-      std::cout << "chatter" << std::endl;
-      return std::vector<char>(1);
-    });
+  testing::internal::CaptureStderr();
+  run("chatter");
   EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
-TEST(IsolatedRun, passesErrorsOn)
+TEST_F(IsolatedRun, passesErrorsOn)
 {
-  EXPECT_EQ(
-    errorOf({ 60 }, []() -> std::vector<char> { throw cadrefine::Error("reason"); }), "reason");
-  EXPECT_EQ(
-    errorOf({ 60 }, []() -> std::vector<char> { throw std::runtime_error("why"); }), "file: why");
-  EXPECT_NE(errorOf({ 60 }, []() -> std::vector<char> { throw 1; }), "");
+  EXPECT_EQ(errorOf("throw error"), "reason");
+  EXPECT_EQ(errorOf("throw exception"), "file: why");
+  EXPECT_NE(errorOf("throw number"), "");
 }
 
-TEST(IsolatedRun, survivesACrash)
+TEST_F(IsolatedRun, survivesACrash)
 {
-  const std::string error = errorOf({ 60 },
-    []
-    {
-      std::raise(SIGSEGV);
-      return std::vector<char>();
-    });
+  const std::string error = errorOf("crash", { 60 }, inputOf(0, -1));
   EXPECT_EQ(error.find("file: "), 0u) << error;
-  EXPECT_NE(error.find("signal 11"), std::string::npos) << error;
+  expectError(error, "signal 11");
 }
 
-TEST(IsolatedRun, tellsWhereItDied)
+TEST_F(IsolatedRun, tellsWhereItDied)
 {
   try
   {
-    runIsolated("file", { 60 },
-      []
-      {
-        cadrefine::noteStep(3, 17);
-        cadrefine::noteProgress();
-        std::raise(SIGSEGV);
-        return std::vector<char>();
-      });
+    run("crash", { 60 }, inputOf(3, 17));
     FAIL();
   }
   catch (const cadrefine::RunFailure& failure)
@@ -100,127 +127,130 @@ TEST(IsolatedRun, tellsWhereItDied)
   }
 }
 
-TEST(IsolatedRun, tellsThatItWasKilled)
+TEST_F(IsolatedRun, tellsThatItWasKilled)
 {
   for (const int signal : { SIGKILL, SIGTERM })
   {
-    const std::string error = errorOf({ 60 },
-      [signal]
-      {
-        kill(getpid(), signal);
-        return std::vector<char>();
-      });
+    const std::string error = errorOf("kill itself", { 60 }, inputOf(signal));
     EXPECT_EQ(error.find("file: cannot be read: the process that reads it was killed"), 0u)
       << error;
   }
 }
 
-TEST(IsolatedRun, endsWhatTakesTooMuchMemory)
+/// A terminal sends them to the parent as well, which decides.
+TEST_F(IsolatedRun, leavesTheSignalsOfTheTerminalToItsParent)
+{
+  EXPECT_EQ(errorOf("kill itself", { 60 }, inputOf(SIGINT)), "");
+  EXPECT_EQ(errorOf("kill itself", { 60 }, inputOf(SIGHUP)), "");
+}
+
+TEST_F(IsolatedRun, hasNoneOfTheSignalsThatItsParentIgnoresOrBlocks)
+{
+  sigset_t blocked;
+  sigset_t before;
+  sigemptyset(&blocked);
+  sigaddset(&blocked, SIGTERM);
+  pthread_sigmask(SIG_BLOCK, &blocked, &before);
+  const auto handler = std::signal(SIGTERM, SIG_IGN);
+  expectError(errorOf("kill itself", { 60 }, inputOf(SIGTERM)), "was killed");
+  std::signal(SIGTERM, handler);
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+}
+
+TEST_F(IsolatedRun, endsWhatTakesTooMuchMemory)
 {
 #ifdef __SANITIZE_ADDRESS__
   GTEST_SKIP() << "the address sanitizer's allocator ends the process where memory runs out";
 #endif
-  const auto fill = []
-  {
-    const std::vector<std::vector<char>> blocks(300, std::vector<char>(1 << 20, 'x'));
-    return blocks.back();
-  };
-  const std::string error = errorOf({ 60, 100 }, fill);
-  EXPECT_NE(error.find("more than 100 MiB of memory"), std::string::npos) << error;
-  EXPECT_EQ(errorOf({ 60, 1000 }, fill), "");
+  expectError(errorOf("fill memory", { 60, 100 }), "more than 100 MiB of memory");
+  EXPECT_EQ(errorOf("fill memory", { 60, 1000 }), "");
 }
 
-TEST(IsolatedRun, endsWhatStandsStill)
+TEST_F(IsolatedRun, endsWhatStandsStill)
 {
-  const std::string error = errorOf({ 60, 0, 1 },
-    []
-    {
-      pause();
-      return std::vector<char>();
-    });
-  EXPECT_NE(error.find("stands still"), std::string::npos) << error;
-}
-
-/// Computes for so many seconds, and tells so all the time or never.
-std::vector<char> compute(double seconds, bool withNotes)
-{
-  while (static_cast<double>(std::clock()) < seconds * CLOCKS_PER_SEC)
-  {
-    if (withNotes)
-    {
-      cadrefine::noteProgress();
-    }
-  }
-  return {};
+  expectError(errorOf("stand still", { 60, 0, 1 }), "stands still");
 }
 
 constexpr double forEver = 1e9;
 
-TEST(IsolatedRun, endsWhatNeverEnds)
+TEST_F(IsolatedRun, endsWhatNeverEnds)
 {
-  const std::string error = errorOf({ 1 }, [] { return compute(forEver, false); });
-  EXPECT_NE(error.find("did not finish within 1 s"), std::string::npos) << error;
+  expectError(errorOf("compute", { 1 }, inputOf(forEver, false)), "did not finish within 1 s");
 }
 
-TEST(IsolatedRun, endsAStepThatNeverEnds)
+TEST_F(IsolatedRun, endsAStepThatNeverEnds)
 {
-  const std::string error = errorOf({ 60, 0, 20, 1 }, [] { return compute(forEver, false); });
-  EXPECT_NE(error.find("one step did not finish within 1 s"), std::string::npos) << error;
+  expectError(errorOf("compute", { 60, 0, 20, 1 }, inputOf(forEver, false)),
+    "one step did not finish within 1 s");
 }
 
-TEST(IsolatedRun, givesEachStepItsTime)
+TEST_F(IsolatedRun, givesEachStepItsTime)
 {
-  EXPECT_EQ(errorOf({ 60, 0, 20, 1 }, [] { return compute(2.5, true); }), "");
-  const std::string error = errorOf({ 2, 0, 20, 1 }, [] { return compute(forEver, true); });
-  EXPECT_NE(error.find("did not finish within 2 s"), std::string::npos) << error;
+  EXPECT_EQ(errorOf("compute", { 60, 0, 20, 1 }, inputOf(2.5, true)), "");
+  expectError(
+    errorOf("compute", { 2, 0, 20, 1 }, inputOf(forEver, true)), "did not finish within 2 s");
 }
 
-TEST(ReadAttempts, leaveOutTheItemThatCrashesAmongThreads)
+/// As many at a time as there are threads that call.
+TEST_F(IsolatedRun, runsOnSeveralThreads)
 {
-  const auto work = [](const cadrefine::ReadOptions& options)
+  std::vector<std::string> errors(4);
+  std::vector<std::thread> threads;
+  threads.reserve(errors.size());
+  for (std::string& error : errors)
   {
-    std::vector<char> result(8, 'x');
-    cadrefine::forEachIndex(cadrefine::forOnOwnThreads(options.threads), result.size(), 1,
-      [&](std::size_t i)
-      {
-        const int item = static_cast<int>(i);
-        options.noteItem(cadrefine::ReadStep::Drawing, item);
-        const bool leftOut = options.withoutDrawings.count(item) > 0;
-        if (item == 3 && !leftOut)
-        {
-          std::abort();
-        }
-        result[i] = leftOut ? '-' : 'x';
-      });
-    return result;
-  };
-  const std::vector<char> result = cadrefine::runAttempts("file", { 60 }, 2, work);
-  EXPECT_EQ(std::string(result.begin(), result.end()), "xxx-xxxx");
-}
-
-/// The notes of an attempt, which fails on several threads, or over item 0.
-std::string notesOf(bool alsoOnOne)
-{
-  const auto work = [&](const cadrefine::ReadOptions& options)
+    threads.emplace_back([&error] { error = errorOf("throw exception"); });
+  }
+  for (std::thread& thread : threads)
   {
-    options.noteItem(cadrefine::ReadStep::Conversion, 0);
-    if (options.threads > 1 || (alsoOnOne && options.withoutConversions.empty()))
-    {
-      throw std::bad_alloc();
-    }
-    const std::string note = options.notes().empty() ? "none" : options.notes().front();
-    return std::vector<char>(note.begin(), note.end());
-  };
-  const std::vector<char> note = cadrefine::runAttempts("file", { 60, 1000 }, 2, work);
-  return { note.begin(), note.end() };
+    thread.join();
+  }
+  EXPECT_EQ(errors, std::vector<std::string>(4, "file: why"));
 }
 
-TEST(ReadAttempts, tellOfAFailureThatOnlyThreadsHave)
+TEST_F(IsolatedRun, namesAProgramThatIsNotThere)
 {
-  const std::string note = notesOf(false);
-  EXPECT_NE(note.find("on several it failed"), std::string::npos) << note;
-  EXPECT_NE(note.find("memory"), std::string::npos) << note;
-  EXPECT_EQ(notesOf(true), "none") << "the item is left out, which is told";
+  const OtherReader other("/no/such/program");
+  EXPECT_EQ(errorOf("echo"), "file: cannot be read: the program /no/such/program: No such file or "
+                             "directory (CADREFINE_READER can name its place)");
+}
+
+TEST_F(IsolatedRun, namesAProgramThatIsAnother)
+{
+  const OtherReader other("/bin/true");
+  EXPECT_EQ(errorOf("echo"), "file: cannot be read: the program /bin/true does not start, or is of "
+                             "another CADRefine");
+}
+
+#ifdef __SSE2__
+TEST_F(IsolatedRun, endsInTestsAtFloatingPointExceptions)
+{
+  expectError(errorOf("divide by zero"), "signal 8");
+}
+#endif
+
+class ReadAttempts : public IsolatedRun
+{
+protected:
+  static std::string answerOf(const std::string& job, const RunLimits& limits, const Bytes& input)
+  {
+    const Bytes answer = cadrefine::runAttempts(job, "file", limits, 2, input);
+    return { answer.begin(), answer.end() };
+  }
+};
+
+TEST_F(ReadAttempts, leaveOutTheItemThatCrashesAmongThreads)
+{
+  EXPECT_EQ(answerOf("draw items", { 60 }, {}), "xxx-xxxx");
+}
+
+TEST_F(ReadAttempts, tellOfAFailureThatOnlyThreadsHave)
+{
+  const std::string note = answerOf("tell notes", { 60, 1000 }, inputOf(false));
+  expectError(note, "on several it failed");
+  expectError(note, "memory");
+  EXPECT_EQ(answerOf("tell notes", { 60, 1000 }, inputOf(true)), "none")
+    << "the item is left out, which is told";
 }
 
 } // namespace

@@ -1,0 +1,17 @@
+// What the program cadrefine-read-cad does. Private to geom/cad.
+#pragma once
+
+#include <cadrefine/cad/import/IsolatedRun.h>
+
+namespace cadrefine
+{
+
+std::vector<char> readJob(const std::string& path, ByteReader& input);    ///< Of readCADBytes.
+std::vector<char> drawJob(const std::string& context, ByteReader& input); ///< Of drawModel.
+
+inline RunJobs readJobs()
+{
+  return { { "read", readJob }, { "draw", drawJob } };
+}
+
+} // namespace cadrefine
