@@ -34,13 +34,13 @@ def files_in(folder):
 
 
 def loaded_libraries(*command, **environment):
-    """Paths of the shared libraries that the processes of a command load."""
+    """Paths of the shared libraries that the processes of a command load, and of the programs that they are."""
     with tempfile.TemporaryDirectory() as folder:
         run(*command, LD_DEBUG="files", LD_DEBUG_OUTPUT=os.path.join(folder, "process"), **environment)
         found = set()
         for path in glob.glob(os.path.join(folder, "*")):
             with open(path, encoding="utf-8", errors="replace") as file:
-                found.update(re.findall("calling init: (.*)", file.read()))
+                found.update(re.findall("(?:calling init|initialize program): (.*)", file.read()))
     return {os.path.realpath(path) for path in found}
 
 

@@ -47,7 +47,7 @@ class Debian(unittest.TestCase):
         runtime, development = files_in(self.unpack(self.runtime)), files_in(self.unpack(self.development))
         self.assertEqual(set(runtime) & set(development), set())
         for name in ("usr/bin/cadrefine", "usr/share/cadrefine/plugin/cadrefine.py", "usr/lib/libCADRefineFilters.so",
-                     "usr/share/doc/cadrefine/copyright"):
+                     "usr/lib/cadrefine/cadrefine-read-cad", "usr/share/doc/cadrefine/copyright"):
             self.assertIn(name, runtime)
         for name in ("usr/include/cadrefine/cad/model/CADModel.h", "usr/lib/cmake/CADRefine/CADRefineConfig.cmake"):
             self.assertIn(name, development)
@@ -61,7 +61,7 @@ class Debian(unittest.TestCase):
         libraries = loaded_libraries(
             os.path.join(root, "usr/bin/cadrefine"), "-np", "2", os.path.join(data, "naca0012_coarse.vtu"),
             os.path.join(data, "naca0012_sharp.igs"), "--steps", "1", "--report", report)
-        for name in ("CADRefine.so", "libCADRefineFilters.so"):
+        for name in ("CADRefine.so", "libCADRefineFilters.so", "cadrefine-read-cad"):
             self.assertTrue(any(path.startswith(root) and path.endswith(name) for path in libraries), name)
         with open(report, encoding="utf-8") as file:
             self.assertEqual(json.load(file)["ranks"], 2)

@@ -8,7 +8,7 @@ import unittest
 import installed
 import meshio
 import numpy as np
-from installed import Installation, run
+from installed import Installation, loaded_libraries, run
 
 EXAMPLES = os.path.join(installed.ROOT, "docs", "examples", "cxx")
 
@@ -39,6 +39,13 @@ class Examples(unittest.TestCase):
         x, y, z, distance = map(float, re.search(r"nearest point (\S+) (\S+) (\S+), distance ([^,]+)", output).groups())
         self.assertLess(np.linalg.norm([x, y - 0.7, z]), 1e-6)
         self.assertAlmostEqual(distance, 1, delta=1e-9 * 3.5)
+
+    def test_core_starts_the_installed_program_that_reads(self):
+        folder = build(self.installation, "reading", "-DWITH_FILTERS=OFF")
+        programs = loaded_libraries(os.path.join(folder, "closest_point"), self.installation.data("cylinder.brep"),
+                                    0, 0, 0)
+        self.assertEqual([path for path in programs if path.endswith("cadrefine-read-cad")],
+                         [os.path.realpath(self.installation.path("lib", "cadrefine", "cadrefine-read-cad"))])
 
     def test_bad_file_is_one_line(self):
         folder = build(self.installation, "geom", "-DWITH_FILTERS=OFF")

@@ -38,6 +38,7 @@ class GeomOnly(unittest.TestCase):
             self.addCleanup(installation.cleanup)
             files = files_in(installation.prefix)
             self.assertIn("lib/libCADRefineError.a", files)
+            self.assertIn("lib/cadrefine/cadrefine-read-cad", files)
             self.assertIn("include/cadrefine/cad/model/CADModel.h", files)
             self.assertFalse([file for file in files if "vtk" in file or "plugin" in file or file.endswith(".so")])
             os.mkdir(user)

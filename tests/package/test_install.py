@@ -38,10 +38,21 @@ class Install(unittest.TestCase):
             libraries = loaded_libraries(*start, *self.case(), "--steps", "1", "--report", report)
             self.assertEqual([path for path in libraries if path.endswith("CADRefine.so")],
                              [os.path.realpath(self.plugin)])
+            self.assertEqual([path for path in libraries if path.endswith("cadrefine-read-cad")],
+                             [os.path.realpath(self.installation.path("lib", "cadrefine", "cadrefine-read-cad"))])
             with open(report, encoding="utf-8") as file:
                 written = json.load(file)
             self.assertEqual(written["ranks"], ranks)
             self.assertGreater(written["steps"][1]["cells"], written["steps"][0]["cells"])
+
+    def test_installation_can_be_moved(self):
+        command = self.installation.path("bin", "cadrefine")
+        moved = self.installation.scratch("moved")
+        shutil.copytree(self.installation.prefix, moved, symlinks=True)
+        libraries = loaded_libraries(command.replace(self.installation.prefix, moved), *self.case(), "--steps", "0")
+        for name in ("CADRefine.so", "libCADRefineFilters.so", "cadrefine-read-cad"):
+            found = [path for path in libraries if path.endswith("/" + name)]
+            self.assertEqual([path.startswith(os.path.realpath(moved)) for path in found], [True], found)
 
     def test_command_tells_where_things_are(self):
         command = self.installation.path("bin", "cadrefine")
