@@ -184,9 +184,29 @@ class Data(unittest.TestCase):
 
 
 def parameters(path):
-    """All numbers of the entities of an IGES file."""
-    text = "".join(line[:64] for line in lines_of(path) if line[72] == "P")
-    return np.array([float(value) for value in text.replace(";", ",").split(",") if value.strip()])
+    """The numbers of each entity of an IGES file, the parts of a plane in an order that does not depend on them."""
+    texts = {}
+    for line in lines_of(path):
+        if line[72] == "P":
+            texts[line[64:72]] = texts.get(line[64:72], "") + line[:64]
+    entities = ([float(value) for value in text.replace(";", ",").split(",") if value.strip()]
+                for text in texts.values())
+    return [plane(entity) if is_plane(entity) else entity for entity in entities]
+
+
+def is_plane(entity):
+    """A B-spline surface of four poles."""
+    return entity[:5] == [128, 1, 1, 1, 1]
+
+
+def plane(entity):
+    """Its flags, the lengths of its sides' parameters, weights and corners: of a fitted plane Open CASCADE 7.6 and 7.8
+    choose other directions and another origin."""
+    knots, weights, ends = entity[10:18], entity[18:22], entity[34:38]
+    assert ends == [knots[0], knots[3], knots[4], knots[7]] and knots[::2] == knots[1::2], entity
+    corners = sorted(zip(*[iter(entity[22:34])] * 3), key=lambda corner: [round(c, 5) for c in corner])
+    sides = sorted([knots[3] - knots[0], knots[7] - knots[4]])
+    return [*entity[:10], *sides, *weights, *(c for corner in corners for c in corner)]
 
 
 def entity_types(path):
@@ -210,20 +230,22 @@ class Aeroplane(unittest.TestCase):
         self.assertEqual(entity_types(made), entity_types(kept))
         self.assertEqual({line[:8].strip(): entity_types(kept).count(line) for line in ("     128", "     144")},
                          {"128": 962, "144": 136})
-        self.assertEqual(len(parameters(made)), len(parameters(kept)))
-        self.assertTrue(np.allclose(parameters(made), parameters(kept), rtol=0, atol=1e-6))
+        made, kept = parameters(made), parameters(kept)
+        self.assertEqual([len(entity) for entity in made], [len(entity) for entity in kept])
+        self.assertTrue(np.allclose(np.concatenate(made), np.concatenate(kept), rtol=0, atol=1e-6))
 
     def test_programs_make_the_mesh(self):
         solid, made = (os.path.join(self.folder, name) for name in ("aeroplane.brep", "aeroplane.vtu"))
         self.make(os.environ["CADREFINE_AEROPLANE"], "--plain", solid)
         self.make("/usr/bin/python3", "-B", driver.data("aeroplane_mesh.py"), "--boundary-triangles", solid, made)
         made, kept = meshio.read(made), meshio.read(driver.data("aeroplane_coarse.vtu"))
-        self.assertAlmostEqual(len(made.points) / len(kept.points), 1, delta=0.02)
+        same_gmsh = GMSH == MADE_BY
+        self.assertAlmostEqual(len(made.points) / len(kept.points), 1, delta=0.02 if same_gmsh else 0.05)
         tags = made.cell_data_dict["gmsh:physical"]["triangle"]
         around = made.points[np.unique(made.cells_dict["triangle"][tags == 1])]
         low, high = np.array([[0.05, -0.25, -0.2], [0.2, 0.25, 0.2]])
         nose = ((around >= low) & (around <= high)).all(axis=1).sum()
-        self.assertAlmostEqual(nose, 1269, delta=60)
+        self.assertAlmostEqual(nose, 1269, delta=60 if same_gmsh else 150)
         self.assertTrue(np.allclose(np.abs(around).max(axis=0), [2, 0.95, 0.45], rtol=0, atol=0.01))
 
 
