@@ -8,7 +8,6 @@
 
 #include <cadrefine/base/Error.h>
 #include <cadrefine/cad/import/CADFile.h>
-#include <cadrefine/cad/import/FileStamp.h>
 
 #include <vtkCompositeDataSet.h>
 #include <vtkDataAssembly.h>

@@ -233,6 +233,27 @@ ConvertedSurface approximate(const Handle(Geom_Surface) & surface, ParameterBox 
 
 } // namespace
 
+ParameterMap ParameterMap::ofAngles(std::vector<double> knots)
+{
+  ParameterMap map;
+  map.knots_ = std::move(knots);
+  return map;
+}
+
+double ParameterMap::operator()(double parameter) const
+{
+  if (isIdentity() || parameter <= knots_.front() || parameter >= knots_.back())
+  {
+    return parameter;
+  }
+  const auto upper = std::upper_bound(knots_.begin(), knots_.end(), parameter);
+  const double from = *(upper - 1);
+  const double width = *upper - from;
+  const double x = std::sin(0.5 * (parameter - from));
+  const double y = std::sin(0.5 * (width - (parameter - from)));
+  return from + width * x / (x + y);
+}
+
 Handle(Geom_Surface) untrimmed(Handle(Geom_Surface) surface)
 {
   while (const auto trimmed = Handle(Geom_RectangularTrimmedSurface)::DownCast(surface))

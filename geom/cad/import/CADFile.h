@@ -26,6 +26,10 @@ std::shared_ptr<const CADModel> readCADFile(
 std::vector<char> readCADBytes(
   const std::string& path, const std::string& unit = "", int threads = 1);
 
+/// Of the file that has the name now: when it was last written or put there, to the nanosecond, its
+/// size, and which file it is. "none" where there is no such file. Another stamp: another content.
+std::string fileStamp(const std::string& path);
+
 /// Where cadrefine-read-cad is, unless the environment variable CADREFINE_READER names another
 /// place. Returns the path, which must stay.
 const char* setLinkedReader(const char* path) noexcept;
