@@ -12,12 +12,9 @@ namespace cadrefine
 
 /// Edges held by several ranks; see SharedItems. An item is a place in the list of edges.
 using SharedEdges = SharedItems;
-/// Facets (triangles of a mesh of tetrahedra) held by several ranks.
-using SharedFacets = SharedItems;
 
-/// Finds the simplices, given by N local vertices each (edges: 2, facets: 3,
-/// tetrahedra: 4), that other ranks hold
-/// too. Collective.
+/// Finds the simplices, given by N local vertices each (edges: 2, facets: 3, tetrahedra: 4), that
+/// other ranks hold too. Collective.
 ///
 /// @param exchange the ranks.
 /// @param vertices the local vertices that several ranks hold.
@@ -53,13 +50,6 @@ inline SharedEdges findSharedEdges(RankExchange& exchange, const SharedVertices&
   const std::vector<GlobalId>& ids, const std::vector<std::array<Index, 2>>& edges)
 {
   return findSharedSimplices<2>(exchange, vertices, ids, edges);
-}
-
-/// findSharedSimplices for facets.
-inline SharedFacets findSharedFacets(RankExchange& exchange, const SharedVertices& vertices,
-  const std::vector<GlobalId>& ids, const std::vector<std::array<Index, 3>>& facets)
-{
-  return findSharedSimplices<3>(exchange, vertices, ids, facets);
 }
 
 } // namespace cadrefine

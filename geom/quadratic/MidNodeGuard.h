@@ -56,8 +56,6 @@ public:
   /// any. Work: isValid for the guarded cells with a node that has moved since the last sweep.
   bool stepBack(MidNodeMoves& moves);
 
-  std::size_t guardedCells() const { return cells_.size(); }
-
 private:
   template<class Cells, class Edges>
   std::vector<unsigned char> findInvalid(

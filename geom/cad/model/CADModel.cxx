@@ -74,11 +74,6 @@ Vector3 limitNormal(const BezierPatch& patch, double u, double v)
   return n;
 }
 
-bool endsAt(const NurbsEdge& edge, int vertex)
-{
-  return edge.firstVertex == vertex || edge.lastVertex == vertex;
-}
-
 /// Parameters stay as they are.
 NurbsModel scaled(NurbsModel model, const LengthScale& scale)
 {
@@ -348,26 +343,6 @@ Vector3 CADModel::tangent(int edge, double t) const
     tangent = normalized(evaluateDerivatives(segment, t + step * inward).t);
   }
   return tangent;
-}
-
-bool CADModel::inClosure(EntityId entity, EntityId of) const
-{
-  checkIndex(nurbs(), entity);
-  checkIndex(nurbs(), of);
-  if (entity == of || entity.dimension >= of.dimension)
-  {
-    return entity == of;
-  }
-  const NurbsModel& model = nurbs();
-  if (of.dimension == 1)
-  {
-    return endsAt(model.edges[of.index], entity.index);
-  }
-  const auto& edges = model.faces[of.index].edges;
-  return entity.dimension == 1
-           ? std::binary_search(edges.begin(), edges.end(), entity.index)
-           : std::any_of(edges.begin(), edges.end(),
-               [&](std::int32_t e) { return endsAt(model.edges[e], entity.index); });
 }
 
 Tessellation CADModel::tessellate(EntityId entity, double deflection) const

@@ -86,9 +86,6 @@ public:
   /// Unit tangent of an edge in the direction of growing t.
   Vector3 tangent(int edge, double t) const;
 
-  /// True where `entity` is `of` or bounds it, directly or through an edge.
-  bool inClosure(EntityId entity, EntityId of) const;
-
   /// Drawing of a face or an edge, to `deflection` (a length). A vertex has none. Depends on the
   /// entity and the deflection alone. Open CASCADE may crash on it, or never end: see drawModel.
   Tessellation tessellate(EntityId entity, double deflection) const;
