@@ -1,5 +1,4 @@
 #include "pipeline/Projection.h"
-#include "pipeline/FitReport.h"
 
 #include "comm/WorkSteps.h"
 #include "pipeline/FitReport.h"

@@ -295,7 +295,7 @@ protected:
     const auto whole = wholeMesh();
     const auto rankOfCell = cadtest::deal(GetParam().dealing, whole, exchange.size());
     const auto piece = cadtest::pieceOf(whole, rankOfCell, exchange.rank(), GetParam().ghosts);
-    const Steps pieces = runSteps(piece, worldController());
+    Steps pieces = runSteps(piece, worldController());
     const Steps serial = exchange.rank() == 0 ? runSteps(whole, nullptr) : Steps(pieces.size());
     for (std::size_t step = 0; step < pieces.size(); ++step)
     {

@@ -3,10 +3,21 @@
 
 #include <cadrefine/error/GeometricError.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace cadtest
 {
+
+/// The places of the midpoints, one after the other.
+inline std::vector<cadrefine::ClosestPoint> projectEdges(
+  const cadrefine::BoundaryProjector& projector, const std::vector<cadrefine::BoundaryEdge>& edges)
+{
+  std::vector<cadrefine::ClosestPoint> midpoints(edges.size());
+  std::transform(edges.begin(), edges.end(), midpoints.begin(),
+    [&](const cadrefine::BoundaryEdge& edge) { return projector.projectMidpoint(edge); });
+  return midpoints;
+}
 
 /// geometricErrors of a surface of this facet alone.
 inline cadrefine::FacetError geometricError(
@@ -34,14 +45,7 @@ inline cadrefine::FacetError geometricError(
   }
   surface.facets.push_back({ { 0, 1, 2 }, { 0, 1, 2 } });
   const auto project = [&](const std::vector<BoundaryEdge>& edges)
-  {
-    std::vector<ClosestPoint> midpoints;
-    for (const BoundaryEdge& edge : edges)
-    {
-      midpoints.push_back(projector.projectMidpoint(edge));
-    }
-    return midpoints;
-  };
+  { return projectEdges(projector, edges); };
   return geometricErrors(surface, project(surface.allEdges()), depth, 1, project)[0];
 }
 

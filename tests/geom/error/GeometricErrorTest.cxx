@@ -177,12 +177,7 @@ TEST(SphereError, ofFacetsThatShareEdgesIsThatOfEachAlone)
     const auto project = [&](const std::vector<BoundaryEdge>& edges)
     {
       projections += edges.size();
-      std::vector<ClosestPoint> midpoints;
-      for (const BoundaryEdge& edge : edges)
-      {
-        midpoints.push_back(projector.projectMidpoint(edge));
-      }
-      return midpoints;
+      return cadtest::projectEdges(projector, edges);
     };
     const auto errors = geometricErrors(surface, project(surface.allEdges()), 3, parts, project);
     ASSERT_EQ(errors.size(), 20u);
