@@ -31,7 +31,7 @@ struct Redistribution
 ///
 /// Every cell is sent once. vtkRedistributeDataSetFilter knows no weights, and loses cells in
 /// silence where libexpat has the corrections of 2024 (Debian 12: 2.5.0-1+deb12u2): VTK 9.2 sends
-/// data sets as XML that this library refuses.
+/// data sets as XML that this library refuses (that of ParaView 5.13 does not).
 ///
 /// Throws Error on all ranks where a part cannot be sent. Collective.
 Redistribution redistribute(RankExchange& exchange, const DistributedMesh& mesh, vtkPointSet* input,

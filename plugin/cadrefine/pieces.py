@@ -1,8 +1,8 @@
 """Writes VTK's XML files of unstructured grids, whole or a piece a rank, and tells where the disk is full.
 
 ParaView's own way cannot: where it is, vtkXMLUnstructuredGridWriter of VTK 9.2 frees pointers that it has never set,
-unless it has written appended data before. (Appended data themselves VTK 9.2 cannot read back where libexpat has the
-corrections of 2024.)
+unless it has written appended data before. Appended data themselves VTK 9.2 cannot read back where libexpat has the
+corrections of 2024; that of ParaView 5.13 can, so that this may go with Debian 12.
 """
 
 import errno
