@@ -53,13 +53,15 @@ class Output(unittest.TestCase):
         """Lines of a step whose events are (seconds, text, fraction)."""
         now, lines, algorithm = [100.0], [], Algorithm()
         terminal = Terminal(quiet, clock=lambda: now[0])
-        with unittest.mock.patch("builtins.print", lambda line, flush: lines.append(line)):
+        with (unittest.mock.patch("builtins.print", lines.append),
+              unittest.mock.patch("cadrefine.session.flush") as flush):
             with terminal.following(algorithm, **(following or {"title": "projecting"})):
                 for seconds, text, fraction in events:
                     now[0] = 100.0 + seconds
                     if algorithm.observers:
                         algorithm.progress(text, fraction)
         self.assertEqual(algorithm.observers, {})
+        self.assertEqual(flush.call_count, len(lines))  # Each goes out at once.
         return lines
 
     def test_news_of_long_steps(self):
