@@ -21,7 +21,7 @@ add_executable(badcad_table badcad/BadCADTable.cxx)
 target_link_libraries(badcad_table PRIVATE badcad CADRefineWarnings)
 
 # Files by the hundred are slow.
-set(programs "igesMadeByPrograms|splinesInStepAndBrep|brepMadeByPrograms|binaryBrep")
+set(programs "igesMadeByPrograms|splinesInStepAndBrep|brepMadeByPrograms|binaryBrep|cutOffInEachLine")
 set(mutations "endWell/.*/(naca0012_sharp|cylinder|DTMB[^/]*|screw|wing)[.]")
 cadrefine_geom_test(badcad_tests SOURCES badcad/BadCADTest.cxx LINKS badcad
   SLOW "${programs}|soundFacesAreNotLost|manyPatchesInOnePlace|${mutations}"
