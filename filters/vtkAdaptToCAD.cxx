@@ -72,7 +72,7 @@ cadrefine::PipelineResult vtkAdaptToCAD::Execute(
   cadrefine::AdaptationOptions options;
   options.startProjected = this->StartProjected;
   options.projection = cadrefine::makeProjectionOptions(
-    this->UseRegion ? this->Region : nullptr, this->MaximumDistance);
+    this->UseRegion ? this->Region : nullptr, this->MaximumDistance, this->GetFaces());
   options.recursionDepth = this->RecursionDepth;
   options.refinement = this->MakeOptions();
   options.refinement.maximumCells = this->MaximumCells;
@@ -81,6 +81,7 @@ cadrefine::PipelineResult vtkAdaptToCAD::Execute(
   options.maximumSteps = this->MaximumSteps;
   options.targetError = this->TargetError;
   options.quadraticCells = this->QuadraticCells;
+  options.boundaryCells = this->GetBoundaryCells();
 
   this->StepStatistics = "{}";
   cadrefine::AdaptationObserver observer;
@@ -90,7 +91,7 @@ cadrefine::PipelineResult vtkAdaptToCAD::Execute(
     observer.onStep = [&](const cadrefine::AdaptationStep& step)
     {
       this->StepStatistics = step.statistics;
-      this->ShowStep(exchange, step.mesh, step.mapping, step.table, step.fitReport);
+      this->ShowStep(exchange, step.mesh, step.mapping, step.selection, step.table, step.fitReport);
       this->InvokeEvent(StepEvent);
     };
   }

@@ -22,8 +22,8 @@ cadrefine::PipelineResult vtkCADGeometricError::Execute(
   cadrefine::MeshState state =
     cadrefine::readMesh(exchange, input, cadrefine::CellOrder::FirstOrSecond);
   cadrefine::readClassification(context, input, state);
-  cadrefine::measureMesh(context, state, this->RecursionDepth);
-  return cadrefine::resultOf(std::move(state));
+  cadrefine::measureMesh(context, state, this->RecursionDepth, this->GetFaces());
+  return this->MakeResult(context, std::move(state));
 }
 
 void vtkCADGeometricError::PrintSelf(ostream& os, vtkIndent indent)

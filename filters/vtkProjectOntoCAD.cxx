@@ -20,10 +20,11 @@ cadrefine::PipelineResult vtkProjectOntoCAD::Execute(
   cadrefine::RankExchange& exchange, vtkPointSet* input, const cadrefine::CADModel* model)
 {
   const cadrefine::ProjectionOptions options = cadrefine::makeProjectionOptions(
-    this->UseRegion ? this->Region : nullptr, this->MaximumDistance);
+    this->UseRegion ? this->Region : nullptr, this->MaximumDistance, this->GetFaces());
+  const cadrefine::PipelineContext context = this->MakeContext(exchange, *model);
   cadrefine::MeshState state = cadrefine::readMesh(exchange, input);
-  std::string report = cadrefine::projectMesh(this->MakeContext(exchange, *model), state, options);
-  cadrefine::PipelineResult result = cadrefine::resultOf(std::move(state));
+  std::string report = cadrefine::projectMesh(context, state, options);
+  cadrefine::PipelineResult result = this->MakeResult(context, std::move(state));
   result.mesh->GetPointData()->SetActiveScalars(cadrefine::arrays::entity);
   result.fitReport = std::move(report);
   return result;

@@ -24,6 +24,7 @@ cadrefine::PipelineResult vtkRefineWithCAD::Execute(
   cadrefine::checkProperty("Levels", this->Levels, 0, 20);
   cadrefine::RefinementOptions options = this->MakeOptions();
   options.levels = this->Levels;
+  options.onlyAtFaces = !this->GetFaces().empty();
   options.quadraticCells = this->QuadraticCells;
   const cadrefine::PipelineContext context = this->MakeContext(exchange, *model);
   cadrefine::MeshState state;
@@ -31,14 +32,15 @@ cadrefine::PipelineResult vtkRefineWithCAD::Execute(
     const cadrefine::RunStatistics::Stopwatch stopwatch(*this->Statistics, "seconds reading cells");
     state = cadrefine::readMesh(exchange, input);
   }
-  if (options.projectNewVertices || exchange.any(cadrefine::hasClassification(input)))
+  if (options.projectNewVertices || this->GetBoundaryCells() ||
+      exchange.any(cadrefine::hasClassification(input)))
   {
     cadrefine::readClassification(context, input, state);
   }
   cadrefine::refineMesh(context, state, options);
   cadrefine::removeMeasured(state.arrays.ofCells, state.arrays.ofMesh);
   const cadrefine::RunStatistics::Stopwatch stopwatch(*this->Statistics, "seconds writing cells");
-  return cadrefine::resultOf(std::move(state));
+  return this->MakeResult(context, std::move(state));
 }
 
 cadrefine::MarkingCriterion vtkRefineWithCAD::GetOwnCriterion() const

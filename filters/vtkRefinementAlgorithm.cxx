@@ -52,6 +52,7 @@ cadrefine::RefinementOptions vtkRefinementAlgorithm::MakeOptions() const
       add(MakeCriterion(array, THRESHOLD, limit, 0));
     }
   }
+  options.faces = this->GetFaces();
   options.cutFacets = this->CutFacets;
   options.projectNewVertices = this->ProjectNewVertices;
   options.balance = this->Balance;
@@ -64,6 +65,10 @@ std::vector<std::string> vtkRefinementAlgorithm::GetCellArraysRead() const
   for (const MarkingCriterion& criterion : this->MakeOptions().criteria)
   {
     names.push_back(criterion.array);
+  }
+  if (!this->GetFaces().empty())
+  {
+    names.push_back(cadrefine::arrays::chordError); // for the faces' own tolerances
   }
   return names;
 }

@@ -4,6 +4,7 @@
 #include "comm/RankExchange.h"
 #include "comm/RunStatistics.h"
 #include "mesh/InputCheck.h"
+#include "pipeline/BoundaryMesh.h"
 #include "pipeline/FitReport.h"
 #include "pipeline/GeometryCache.h"
 #include "pipeline/InputSplit.h"
@@ -19,6 +20,8 @@
 #include <vtkMultiProcessController.h>
 #include <vtkPointSet.h>
 #include <vtkTable.h>
+
+#include <utility>
 
 vtkCxxSetObjectMacro(vtkSimplexMeshAlgorithm, Controller, vtkMultiProcessController);
 
@@ -63,6 +66,36 @@ cadrefine::PipelineContext vtkSimplexMeshAlgorithm::MakeContext(
     [this](const std::string& warning) { vtkWarningMacro(<< warning); } };
 }
 
+void vtkSimplexMeshAlgorithm::AddFace(const char* face)
+{
+  if (face && *face)
+  {
+    this->Faces.emplace_back(face);
+    this->Modified();
+  }
+}
+
+void vtkSimplexMeshAlgorithm::ClearFaces()
+{
+  if (!this->Faces.empty())
+  {
+    this->Faces.clear();
+    this->Modified();
+  }
+}
+
+cadrefine::PipelineResult vtkSimplexMeshAlgorithm::MakeResult(
+  const cadrefine::PipelineContext& context, cadrefine::MeshState state) const
+{
+  if (!this->BoundaryCells)
+  {
+    return cadrefine::resultOf(std::move(state));
+  }
+  auto [mesh, selection] = cadrefine::makeDataSetWithBoundary(context, state);
+  state.mapping.convert(std::move(selection));
+  return { mesh, std::move(state.mapping) };
+}
+
 struct vtkSimplexMeshAlgorithm::Outputs
 {
   const cadrefine::InputSplit& parts;
@@ -71,14 +104,16 @@ struct vtkSimplexMeshAlgorithm::Outputs
 };
 
 void vtkSimplexMeshAlgorithm::Fill(cadrefine::RankExchange& exchange, vtkPointSet* mesh,
-  const cadrefine::FieldMapping& mapping, vtkTable* table, const std::string& fitReport)
+  const cadrefine::FieldMapping& mapping, const cadrefine::ArraySelection& selection,
+  vtkTable* table, const std::string& fitReport)
 {
   if (!fitReport.empty())
   {
     cadrefine::removeFit(this->Filled->parts.fields.ofMesh);
   }
   const cadrefine::RunStatistics::Stopwatch stopwatch(*this->Statistics, "seconds copying fields");
-  this->Filled->join.fill(exchange, mesh, mapping, vtkPointSet::GetData(this->Filled->ports));
+  this->Filled->join.fill(
+    exchange, mesh, mapping, selection, vtkPointSet::GetData(this->Filled->ports));
   this->FitReport = fitReport;
   if (table)
   {
@@ -87,9 +122,10 @@ void vtkSimplexMeshAlgorithm::Fill(cadrefine::RankExchange& exchange, vtkPointSe
 }
 
 void vtkSimplexMeshAlgorithm::ShowStep(cadrefine::RankExchange& exchange, vtkPointSet* mesh,
-  const cadrefine::FieldMapping& mapping, vtkTable* table, const std::string& fitReport)
+  const cadrefine::FieldMapping& mapping, const cadrefine::ArraySelection& selection,
+  vtkTable* table, const std::string& fitReport)
 {
-  this->Fill(exchange, mesh, mapping, table, fitReport);
+  this->Fill(exchange, mesh, mapping, selection, table, fitReport);
   exchange.agree(""); // so that all have it, or none goes on
 }
 
@@ -120,7 +156,7 @@ void vtkSimplexMeshAlgorithm::Run(
         return this->Execute(exchange, geometry, model.get());
       });
   this->Statistics->set("geometry reused", isReused);
-  this->Fill(exchange, result.mesh, result.mapping, result.table, result.fitReport);
+  this->Fill(exchange, result.mesh, result.mapping, {}, result.table, result.fitReport);
   this->Filled = nullptr;
 }
 
@@ -167,5 +203,11 @@ int vtkSimplexMeshAlgorithm::RequestData(
 void vtkSimplexMeshAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "Faces:";
+  for (const std::string& face : this->Faces)
+  {
+    os << " " << face;
+  }
+  os << "\n" << indent << "BoundaryCells: " << this->BoundaryCells << "\n";
   os << indent << "Controller: " << this->Controller << "\n";
 }

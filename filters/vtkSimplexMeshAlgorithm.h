@@ -39,6 +39,8 @@ class CADModel;
 class GeometryCache;
 class RankExchange;
 class RunStatistics;
+struct ArraySelection;
+struct MeshState;
 struct PipelineContext;
 struct PipelineResult;
 } // namespace cadrefine
@@ -53,6 +55,30 @@ public:
 
   /// The CAD model: the output of a vtkCADReader. For the filters that need it.
   void SetCADConnection(vtkAlgorithmOutput* cad) { this->SetInputConnection(1, cad); }
+
+  ///@{
+  /**
+   * Of the filters that have a CAD: the CAD faces (of a planar mesh, CAD edges) that they work on,
+   * none: all. Each is a name in the CAD file, a pattern of names as in a shell, or a number; "!"
+   * before it takes them away; "=" and a length after it is their chord tolerance (see
+   * vtkRefinementAlgorithm). What a filter does elsewhere, it says itself.
+   */
+  void AddFace(const char* face);
+  void ClearFaces();
+  const std::vector<std::string>& GetFaces() const { return this->Faces; }
+  ///@}
+
+  ///@{
+  /**
+   * Of the filters that put out the mesh and have a CAD: whether its boundary goes with it as cells
+   * of one dimension less, after those that it has. Cell arrays CADDimension, CADEntity, CADName
+   * and CADColor then tell the CAD face (in the plane, the edge) of each; other cell arrays are 0
+   * on cells that are added. See vtkCADBoundary for the boundary alone. Default off.
+   */
+  vtkSetMacro(BoundaryCells, bool);
+  vtkGetMacro(BoundaryCells, bool);
+  vtkBooleanMacro(BoundaryCells, bool);
+  ///@}
 
   ///@{
   /**
@@ -101,13 +127,20 @@ protected:
 
   /// Puts the mesh of a step on the way, made from the geometry by `mapping`, into the output while
   /// Execute is at work, with the fields and the table of the steps up to there; FitReport becomes
-  /// that of the step. Each mapping goes on where the one before ended. Collective.
+  /// that of the step. Each mapping goes on where the one before ended; `selection` leads from its
+  /// end to the mesh. Collective.
   void ShowStep(cadrefine::RankExchange& exchange, vtkPointSet* mesh,
-    const cadrefine::FieldMapping& mapping, vtkTable* table, const std::string& fitReport);
+    const cadrefine::FieldMapping& mapping, const cadrefine::ArraySelection& selection,
+    vtkTable* table, const std::string& fitReport);
 
   /// What the steps of cadrefine need: warnings become those of this filter.
   cadrefine::PipelineContext MakeContext(
     cadrefine::RankExchange& exchange, const cadrefine::CADModel& model);
+
+  /// The output of a run that ends with this mesh: with its boundary's cells if they are wanted.
+  /// Collective.
+  cadrefine::PipelineResult MakeResult(
+    const cadrefine::PipelineContext& context, cadrefine::MeshState state) const;
 
   std::unique_ptr<cadrefine::RunStatistics> Statistics; ///< Of this run, by this rank.
 
@@ -125,11 +158,14 @@ private:
   /// The outputs of a run, as they are filled.
   struct Outputs;
   void Fill(cadrefine::RankExchange& exchange, vtkPointSet* mesh,
-    const cadrefine::FieldMapping& mapping, vtkTable* table, const std::string& fitReport);
+    const cadrefine::FieldMapping& mapping, const cadrefine::ArraySelection& selection,
+    vtkTable* table, const std::string& fitReport);
 
   std::unique_ptr<cadrefine::GeometryCache> Cache;
   Outputs* Filled = nullptr; ///< While a run is at work.
   vtkMultiProcessController* Controller = nullptr;
+  std::vector<std::string> Faces;
+  bool BoundaryCells = false;
   std::string StatisticsText = "{}";
   std::string FitReport;
 };

@@ -10,8 +10,6 @@
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
-#include <vtkStringArray.h>
-#include <vtkUnsignedCharArray.h>
 
 namespace cadrefine
 {
@@ -41,12 +39,8 @@ public:
   explicit Drawing(const CADModel& model) : model_(model)
   {
     points_->SetDataTypeToDouble();
-    entities_->SetName(arrays::entity);
     normals_->SetName("Normals");
     normals_->SetNumberOfComponents(3);
-    names_->SetName("Name");
-    colours_->SetName("Color");
-    colours_->SetNumberOfComponents(3);
   }
 
   void addVertex(int entity, const std::vector<Tessellation>& edges)
@@ -54,7 +48,7 @@ public:
     const Tessellation drawing = drawVertex(model_.nurbs(), entity, edges);
     const vtkIdType id = addPoints({ 0, entity }, drawing);
     cells_->InsertNextCell(1, &id);
-    addCell({ 0, entity });
+    entities_.push_back({ 0, entity });
   }
 
   void addEdge(int entity, const Tessellation& drawing)
@@ -65,7 +59,7 @@ public:
     {
       cells_->InsertCellPoint(first + point);
     }
-    addCell({ 1, entity });
+    entities_.push_back({ 1, entity });
   }
 
   void addFace(int entity, const Tessellation& drawing)
@@ -74,7 +68,7 @@ public:
     for (const auto& triangle : drawing.triangles)
     {
       cells_->InsertNextCell({ first + triangle[0], first + triangle[1], first + triangle[2] });
-      addCell({ 2, entity });
+      entities_.push_back({ 2, entity });
     }
   }
 
@@ -85,7 +79,13 @@ public:
     (dimension == 0)   ? result->SetVerts(cells_)
     : (dimension == 1) ? result->SetLines(cells_)
                        : result->SetPolys(cells_);
-    result->GetCellData()->SetScalars(entities_);
+    vtkNew<vtkIntArray> indices;
+    indices->SetName(arrays::entity);
+    for (const EntityId entity : entities_)
+    {
+      indices->InsertNextValue(entity.index);
+    }
+    result->GetCellData()->SetScalars(indices);
     addAttributes(dimension, *result->GetCellData());
     if (model_.count(2) > 0)
     {
@@ -95,14 +95,6 @@ public:
   }
 
 private:
-  void addCell(EntityId entity)
-  {
-    entities_->InsertNextValue(entity.index);
-    const EntityAttributes& attributes = model_.attributes(entity);
-    names_->InsertNextValue(attributes.name);
-    colours_->InsertNextTypedTuple(colourOf(attributes).data());
-  }
-
   /// The same arrays on every rank, whatever it draws.
   void addAttributes(int dimension, vtkCellData& data) const
   {
@@ -117,11 +109,11 @@ private:
     }
     if (named)
     {
-      data.AddArray(names_);
+      writeNames(&data, "Name", model_, entities_);
     }
     if (coloured)
     {
-      data.AddArray(colours_);
+      writeColours(&data, "Color", model_, entities_);
     }
   }
 
@@ -145,10 +137,8 @@ private:
   const CADModel& model_;
   vtkNew<vtkPoints> points_;
   vtkNew<vtkCellArray> cells_;
-  vtkNew<vtkIntArray> entities_;
+  std::vector<EntityId> entities_; ///< Of the cells.
   vtkNew<vtkFloatArray> normals_;
-  vtkNew<vtkStringArray> names_;
-  vtkNew<vtkUnsignedCharArray> colours_;
 };
 
 } // namespace

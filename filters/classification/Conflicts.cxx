@@ -1,6 +1,7 @@
 #include "classification/Conflicts.h"
 
 #include <cadrefine/base/DisjointSets.h>
+#include <cadrefine/base/IndicesWhere.h>
 #include <cadrefine/classification/CADAdjacency.h>
 #include <cadrefine/classification/ClassificationTolerances.h>
 
@@ -260,15 +261,8 @@ private:
       beside[b] = beside[b] || flags[a];
     }
     combineShared(task_.exchange, task_.mesh.shared, beside, larger);
-    std::vector<Index> vertices;
-    for (std::size_t v = 0; v < beside.size(); ++v)
-    {
-      if (beside[v] && takesPart(v) && hits_[v].entity.dimension == 2)
-      {
-        vertices.push_back(static_cast<Index>(v));
-      }
-    }
-    return vertices;
+    return indicesWhere(beside.size(),
+      [&](std::size_t v) { return beside[v] && takesPart(v) && hits_[v].entity.dimension == 2; });
   }
 
   bool isCloseToCrease(Index v) const

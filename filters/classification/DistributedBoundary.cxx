@@ -165,6 +165,36 @@ FacetRecord makeRecord(const BoundaryProjector& projector, const ClassifiedFacet
   return record;
 }
 
+Point3 centroidOf(const SimplexMesh& mesh, const Facet& facet, int corners)
+{
+  Point3 sum{};
+  for (int k = 0; k < corners; ++k)
+  {
+    sum = sum + mesh.points[facet.vertices[k]];
+  }
+  return (1.0 / corners) * sum;
+}
+
+EntityId faceOf(const BoundaryProjector& projector, const Point3& centroid, int common)
+{
+  if (common >= 0)
+  {
+    return { 2, common };
+  }
+  const ClosestPoint nearest = projector.nearest(centroid, std::numeric_limits<double>::infinity());
+  return { 2, firstFaceAt(projector.model().nurbs(), nearest.entity) };
+}
+
+EntityId edgeOf(const CADModel& model, const ClosestPoint& middle)
+{
+  if (middle.entity && middle.entity.dimension == 0)
+  {
+    const auto& edges = model.nurbs().vertices[middle.entity.index].edges;
+    return edges.empty() ? EntityId{} : EntityId{ 1, edges.front() };
+  }
+  return middle.entity;
+}
+
 std::array<bool, 3> cornersOff(const Classification& classification, const Facet& facet)
 {
   std::array<bool, 3> off{};

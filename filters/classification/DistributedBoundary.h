@@ -60,6 +60,16 @@ ClassifiedFacet classifiedFacet(const SimplexMesh& mesh, const std::vector<Entit
 /// there (BoundaryProjector::isOnCAD).
 FacetRecord makeRecord(const BoundaryProjector& projector, const ClassifiedFacet& facet);
 
+/// Of the first `corners` vertices.
+Point3 centroidOf(const SimplexMesh& mesh, const Facet& facet, int corners);
+
+/// The CAD face of a triangle on the CAD with this centroid: `common`, that of its record, or where
+/// it spans several (-1) the nearest.
+EntityId faceOf(const BoundaryProjector& projector, const Point3& centroid, int common);
+
+/// The CAD edge of a segment whose middle has this place: of several that meet there the first.
+EntityId edgeOf(const CADModel& model, const ClosestPoint& middle);
+
 /// Which corners are classified, but have not reached the CAD.
 std::array<bool, 3> cornersOff(const Classification& classification, const Facet& facet);
 

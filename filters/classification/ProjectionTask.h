@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace cadrefine
@@ -20,6 +21,8 @@ struct ProjectionOptions
 {
   /// Only vertices inside xmin xmax ymin ymax zmin zmax.
   std::optional<std::array<double, 6>> region;
+  /// Only facets on these CAD faces (see selectEntities); none: on any.
+  std::vector<std::string> faces;
   /// Vertices farther from the CAD stay; without it, a vertex's longest boundary edge (points
   /// alone: no limit).
   std::optional<double> maximumDistance;

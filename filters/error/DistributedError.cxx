@@ -219,7 +219,7 @@ void Deviation::add(const Deviation& other)
 
 MeshError measureError(RankExchange& exchange, const DistributedMesh& mesh,
   ClassifiedBoundary& classified, const Classification& classification, int depth,
-  BoundaryCache& cache, bool remember)
+  const std::vector<unsigned char>& counted, BoundaryCache& cache, bool remember)
 {
   const SimplexMesh& piece = mesh.mesh();
   const DistributedBoundary& boundary = classified.boundary;
@@ -247,6 +247,10 @@ MeshError measureError(RankExchange& exchange, const DistributedMesh& mesh,
   std::vector<double> addends;
   for (std::size_t i = 0; i < facets.size(); ++i)
   {
+    if (!counted.empty() && !counted[facets[i]])
+    {
+      continue;
+    }
     const FacetError& error = answers.values[i];
     CellError& cell = result.ofCells[boundary.facets[facets[i]].cell];
     const double measure = isAutomatic ? extrapolatedMeasure(error) : error.measure;

@@ -81,7 +81,7 @@ bool inOwnType(vtkAbstractArray* from, vtkAbstractArray* to, const Work& work)
          vtkArrayDispatch::Dispatch2SameValueType::Execute(source, target, work);
 }
 
-/// The tuples of `array` at these places.
+/// The tuples of `array` at these places, which may be noTuple.
 template<class Place>
 vtkSmartPointer<vtkAbstractArray> gather(vtkAbstractArray* array, const std::vector<Place>& places)
 {
@@ -95,14 +95,19 @@ vtkSmartPointer<vtkAbstractArray> gather(vtkAbstractArray* array, const std::vec
     auto next = target.begin();
     for (std::size_t i = 0; i < count; ++i)
     {
-      next = std::copy_n(source.begin() + places[i] * components, components, next);
+      next = places[i] == noTuple
+               ? std::fill_n(next, components, 0)
+               : std::copy_n(source.begin() + places[i] * components, components, next);
     }
   };
   if (!inOwnType(array, result, copy))
   {
     for (std::size_t i = 0; i < count; ++i)
     {
-      result->SetTuple(static_cast<vtkIdType>(i), places[i], array);
+      if (places[i] != noTuple)
+      {
+        result->SetTuple(static_cast<vtkIdType>(i), places[i], array);
+      }
     }
   }
   return result;

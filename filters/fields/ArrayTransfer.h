@@ -44,6 +44,8 @@ MeshArrays arraysOf(vtkPointSet* input);
 
 /// Tuples to take, in this order; none: all of them as they are.
 using Places = std::optional<std::vector<vtkIdType>>;
+/// Place of a tuple that was not there: of zeros, or empty strings.
+constexpr vtkIdType noTuple = -1;
 
 struct ArraySelection
 {

@@ -8,9 +8,10 @@
 #include <vtkPointData.h>
 #include <vtkPointSet.h>
 #include <vtkSignedCharArray.h>
+#include <vtkStringArray.h>
 #include <vtkUnsignedCharArray.h>
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -127,33 +128,60 @@ Classification readClassification(
 void writeClassification(vtkPointSet* output, const Classification& classification)
 {
   const std::size_t count = classification.entities.size();
-  auto dimensions = makeArray<vtkSignedCharArray>(arrays::dimension, 1, count);
-  auto entities = makeArray<vtkIntArray>(arrays::entity, 1, count);
   auto parameters = makeArray<vtkDoubleArray>(arrays::parameters, 2, count);
   auto distances = makeArray<vtkDoubleArray>(arrays::distance, 1, count);
   for (std::size_t v = 0; v < count; ++v)
   {
     const auto point = static_cast<vtkIdType>(v);
-    dimensions->SetValue(point, classification.entities[v].dimension);
-    entities->SetValue(point, classification.entities[v].index);
     parameters->SetTypedTuple(point, classification.parameters[v].data());
     distances->SetValue(point, classification.distances[v]);
   }
   vtkPointData* pointData = output->GetPointData();
-  pointData->AddArray(dimensions);
-  pointData->AddArray(entities);
+  writeEntities(pointData, classification.entities);
   pointData->AddArray(parameters);
   pointData->AddArray(distances);
 }
 
-std::array<unsigned char, 3> colourOf(const EntityAttributes& attributes)
+void writeEntities(vtkFieldData* output, const std::vector<EntityId>& entities)
+{
+  auto dimensions = makeArray<vtkSignedCharArray>(arrays::dimension, 1, entities.size());
+  auto indices = makeArray<vtkIntArray>(arrays::entity, 1, entities.size());
+  for (std::size_t i = 0; i < entities.size(); ++i)
+  {
+    dimensions->SetValue(static_cast<vtkIdType>(i), entities[i].dimension);
+    indices->SetValue(static_cast<vtkIdType>(i), entities[i].index);
+  }
+  output->AddArray(dimensions);
+  output->AddArray(indices);
+}
+
+void writeNames(vtkFieldData* output, const char* array, const CADModel& model,
+  const std::vector<EntityId>& entities)
+{
+  auto names = makeArray<vtkStringArray>(array, 1, entities.size());
+  for (std::size_t i = 0; i < entities.size(); ++i)
+  {
+    names->SetValue(
+      static_cast<vtkIdType>(i), entities[i] ? model.attributes(entities[i]).name : "");
+  }
+  output->AddArray(names);
+}
+
+void writeColours(vtkFieldData* output, const char* array, const CADModel& model,
+  const std::vector<EntityId>& entities)
 {
   constexpr std::array<float, 3> white{ 1, 1, 1 };
-  std::array<unsigned char, 3> result;
-  const auto colour = attributes.colour.value_or(white);
-  std::transform(colour.begin(), colour.end(), result.begin(),
-    [](float part) { return static_cast<unsigned char>(std::lround(255 * part)); });
-  return result;
+  auto colours = makeArray<vtkUnsignedCharArray>(array, 3, entities.size());
+  for (std::size_t i = 0; i < entities.size(); ++i)
+  {
+    const auto colour = entities[i] ? model.attributes(entities[i]).colour.value_or(white) : white;
+    for (int k = 0; k < 3; ++k)
+    {
+      colours->SetTypedComponent(
+        static_cast<vtkIdType>(i), k, static_cast<unsigned char>(std::lround(255 * colour[k])));
+    }
+  }
+  output->AddArray(colours);
 }
 
 void writeConflicts(vtkPointData* output, const std::vector<unsigned char>& conflicts)

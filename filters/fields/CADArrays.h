@@ -4,11 +4,11 @@
 #include <cadrefine/cad/model/CADModel.h>
 #include <cadrefine/classification/Classification.h>
 
-#include <array>
 #include <vector>
 
 #include <vtkType.h>
 
+class vtkFieldData;
 class vtkPointData;
 class vtkPointSet;
 
@@ -46,8 +46,16 @@ bool hasClassification(vtkPointSet* input);
 /// Adds or replaces the point arrays; one entry for each point of `output`.
 void writeClassification(vtkPointSet* output, const Classification& classification);
 
-/// Red, green and blue; white for an entity without a colour.
-std::array<unsigned char, 3> colourOf(const EntityAttributes& attributes);
+/// Adds or replaces the arrays CADDimension and CADEntity.
+void writeEntities(vtkFieldData* output, const std::vector<EntityId>& entities);
+
+/// Adds or replaces an array with the names of these entities in the CAD file; empty without one.
+void writeNames(vtkFieldData* output, const char* array, const CADModel& model,
+  const std::vector<EntityId>& entities);
+
+/// The same with red, green and blue; white without a colour.
+void writeColours(vtkFieldData* output, const char* array, const CADModel& model,
+  const std::vector<EntityId>& entities);
 
 /// Adds or replaces the point array CADConflict; one entry for each point.
 void writeConflicts(vtkPointData* output, const std::vector<unsigned char>& conflicts);

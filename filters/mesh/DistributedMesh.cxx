@@ -4,6 +4,7 @@
 #include "comm/VertexNumbering.h"
 #include "mesh/PieceCheck.h"
 
+#include <cadrefine/base/IndicesWhere.h>
 #include <cadrefine/base/LargeMemory.h>
 #include <cadrefine/mesh/Facets.h>
 
@@ -93,15 +94,12 @@ std::vector<Index> candidates(RankExchange& exchange, const SimplexMesh& mesh)
 {
   constexpr std::size_t many = 4; // of this number of vertices, one
   const auto boxes = boxesNearby(exchange, mesh);
-  std::vector<Index> result;
-  for (std::size_t v = 0; v < mesh.points.size(); ++v)
+  const auto isNearby = [&](std::size_t v)
   {
-    if (std::any_of(boxes.begin(), boxes.end(),
-          [&](const MeshBounds& box) { return isIn(box, mesh.points[v]); }))
-    {
-      result.push_back(static_cast<Index>(v));
-    }
-  }
+    return std::any_of(
+      boxes.begin(), boxes.end(), [&](const MeshBounds& box) { return isIn(box, mesh.points[v]); });
+  };
+  std::vector<Index> result = indicesWhere(mesh.points.size(), isNearby);
   const ParallelFor parallelFor = forOnThreads(exchange);
   const bool others = mesh.dimension < 3 || mesh.cellCount() > mesh.tetrahedra.size();
   if (!exchange.any(others) && many * result.size() > mesh.points.size())
@@ -148,16 +146,26 @@ void numberCells(RankExchange& exchange, DistributedMesh& mesh)
   appendKeys(cells, cells.triangles, keys);
   appendKeys(cells, cells.tetrahedra, keys);
   const auto numbers = numberAtVertices(exchange, mesh.shared, cells.ids, keys).numbers;
-  auto next = numbers.begin();
-  const std::size_t counts[] = { cells.vertices.size(), cells.segments.size(),
-    cells.triangles.size(), cells.tetrahedra.size() };
   for (int d = 0; d < 4; ++d)
   {
-    const auto end = next + static_cast<std::ptrdiff_t>(counts[d]);
-    mesh.converted.cellIds[d].assign(next, end);
-    next = end;
+    mesh.converted.cellIds[d].assign(numbers.begin() + firstCellOfDimension(cells, d),
+      d < 3 ? numbers.begin() + firstCellOfDimension(cells, d + 1) : numbers.end());
   }
 }
+
+template<std::size_t Corners>
+std::vector<GlobalId> numberSimplices(
+  RankExchange& exchange, const DistributedMesh& mesh, const Simplices<Corners>& cells)
+{
+  std::vector<VertexKey<3>> keys;
+  appendKeys(mesh.mesh(), cells, keys);
+  return numberAtVertices(exchange, mesh.shared, mesh.mesh().ids, keys).numbers;
+}
+
+template std::vector<GlobalId> numberSimplices(
+  RankExchange&, const DistributedMesh&, const Simplices<2>&);
+template std::vector<GlobalId> numberSimplices(
+  RankExchange&, const DistributedMesh&, const Simplices<3>&);
 
 SharedVertices findShared(RankExchange& exchange, const SimplexMesh& mesh)
 {

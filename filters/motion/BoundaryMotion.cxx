@@ -5,6 +5,8 @@
 #include "mesh/MeshPlane.h"
 #include "motion/Untangling.h"
 
+#include <cadrefine/base/IndicesWhere.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -48,15 +50,8 @@ struct Motion
 
 std::vector<Index> movingVertices(const Moves& moves)
 {
-  std::vector<Index> moving;
-  for (std::size_t v = 0; v < moves.fractions.size(); ++v)
-  {
-    if (moves.fractions[v] > 0)
-    {
-      moving.push_back(static_cast<Index>(v));
-    }
-  }
-  return moving;
+  return indicesWhere(
+    moves.fractions.size(), [&](std::size_t v) { return moves.fractions[v] > 0; });
 }
 
 /// A mesh of triangles in space has no invalid cells.
@@ -71,16 +66,8 @@ bool isInvalid(const SimplexMesh& mesh, const Vector3& plane, std::size_t cell)
 
 std::vector<Index> invalidCells(const SimplexMesh& mesh, const Vector3& plane)
 {
-  std::vector<Index> invalid;
   const std::size_t count = mesh.dimension == 3 ? mesh.tetrahedra.size() : mesh.triangles.size();
-  for (std::size_t c = 0; c < count; ++c)
-  {
-    if (isInvalid(mesh, plane, c))
-    {
-      invalid.push_back(static_cast<Index>(c));
-    }
-  }
-  return invalid;
+  return indicesWhere(count, [&](std::size_t c) { return isInvalid(mesh, plane, c); });
 }
 
 /// Halves the moves of these vertices until every cell of every rank accepts them, then makes them.

@@ -2,6 +2,7 @@
 
 #include "comm/Threads.h"
 
+#include <cadrefine/base/IndicesWhere.h>
 #include <cadrefine/motion/PatchOptimiser.h>
 
 #include <algorithm>
@@ -185,15 +186,8 @@ void appendCells(const std::vector<std::vector<CellRecord>>& fromOthers, Patch& 
 
 SharedVertices findHolders(RankExchange& exchange, const Patch& patch)
 {
-  std::vector<Index> candidates;
-  for (std::size_t v = 0; v < patch.free.size(); ++v)
-  {
-    if (patch.free[v])
-    {
-      candidates.push_back(static_cast<Index>(v));
-    }
-  }
-  return findSharedVertices(exchange, patch.mesh.ids, candidates);
+  return findSharedVertices(exchange, patch.mesh.ids,
+    indicesWhere(patch.free.size(), [&](std::size_t v) { return patch.free[v] != 0; }));
 }
 
 /// A vertex's place, and whether it has had its turn.

@@ -36,9 +36,8 @@ struct VertexPlace
 ///      that both hold, 232 bytes a cell.
 ///   2. The holders of the vertices of these patches are found (see findSharedVertices).
 ///   3. The sweeps: each costs a reduction, and for every time that vertices wait for other ranks
-///   an
-///      exchange of 32 bytes a shared free vertex and one reduction; the chains are O(log n) long,
-///      as vertices take turns at random.
+///      an exchange of 32 bytes a shared free vertex and one reduction; the chains are O(log n)
+///      long, as vertices take turns at random.
 ///   4. One exchange of 32 bytes a shared vertex of the mesh.
 ///
 /// Collective.

@@ -1,7 +1,7 @@
 #include "pipeline/Adaptation.h"
 
-#include "comm/CollectiveErrors.h"
 #include "fields/CADArrays.h"
+#include "pipeline/BoundaryMesh.h"
 #include "pipeline/ConvergenceTable.h"
 #include "pipeline/ErrorMeasurement.h"
 #include "pipeline/InputSplit.h"
@@ -156,7 +156,7 @@ private:
   {
     const Progress::Part part(progress(), partOfMeasuring, 1);
     inPhase(phases::error, [&](const PipelineContext& context)
-      { measureMesh(context, state_, options_.recursionDepth); });
+      { measureMesh(context, state_, options_.recursionDepth, options_.projection.faces); });
     if (exchange_.rank() == 0)
     {
       table_.addStep(markedCells, state_.arrays.ofMesh);
@@ -186,7 +186,7 @@ private:
       [&](const PipelineContext& context) { outcome = refineMesh(context, state_, options); });
     if (outcome.refined)
     {
-      told_ = nullptr;
+      told_ = {};
     }
     return outcome;
   }
@@ -225,11 +225,12 @@ private:
     tell("quadratic");
   }
 
-  vtkSmartPointer<vtkPointSet> makeMesh() const
+  MeshWithBoundary makeMesh()
   {
-    auto mesh = makeDataSet(state_);
-    removeQualities(mesh->GetCellData());
-    return mesh;
+    MeshWithBoundary made = options_.boundaryCells ? makeDataSetWithBoundary(context_, state_)
+                                                   : MeshWithBoundary{ makeDataSet(state_), {} };
+    removeQualities(made.mesh->GetCellData());
+    return made;
   }
 
   /// Tells who wants to know of the step that has been made.
@@ -239,8 +240,10 @@ private:
     {
       return;
     }
-    agreeOnFailure(exchange_, [&] { told_ = makeMesh(); });
-    observer_.onStep({ told_, state_.mapping, table_.table(), fitReport_, statisticsOf(kind) });
+    told_ = makeMesh();
+    exchange_.agree(""); // so that all ranks have it, or none goes on
+    observer_.onStep({ told_.mesh, state_.mapping, told_.selection, table_.table(), fitReport_,
+      statisticsOf(kind) });
   }
 
   /// See AdaptationStep.
@@ -261,8 +264,9 @@ private:
 
   PipelineResult result()
   {
-    return { told_ ? told_ : makeMesh(), std::move(state_.mapping), table_.table(),
-      std::move(fitReport_) };
+    MeshWithBoundary last = told_.mesh ? std::move(told_) : makeMesh();
+    state_.mapping.convert(std::move(last.selection));
+    return { last.mesh, std::move(state_.mapping), table_.table(), std::move(fitReport_) };
   }
 
   const PipelineContext& context_;
@@ -275,7 +279,7 @@ private:
   std::int64_t steps_ = 0;
   std::map<std::string, RunStatistics> costs_; ///< Of the step, by phase.
   RunStatistics seconds_;                      ///< The same, of this rank.
-  vtkSmartPointer<vtkPointSet> told_;          ///< The mesh as it is, where it was told of.
+  MeshWithBoundary told_;                      ///< The mesh as it is, where it was told of.
   int toldSteps_ = 0;
 };
 

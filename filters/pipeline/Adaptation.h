@@ -26,14 +26,16 @@ struct AdaptationOptions
   int maximumSteps = 0;        ///< Of `refinement`.
   double targetError = 0;      ///< Global; 0: none.
   bool quadraticCells = false; ///< In the end make the cells quadratic, in a step of its own.
+  bool boundaryCells = false;  ///< See makeDataSetWithBoundary.
 };
 
 /// A step that has been made.
 struct AdaptationStep
 {
-  vtkPointSet* mesh;           ///< With its error.
-  const FieldMapping& mapping; ///< From the input to the mesh.
-  vtkTable* table;             ///< Up to this step.
+  vtkPointSet* mesh;               ///< With its error.
+  const FieldMapping& mapping;     ///< From the input.
+  const ArraySelection& selection; ///< From the end of the mapping to the mesh.
+  vtkTable* table;                 ///< Up to this step.
   const std::string& fitReport;
   /// A JSON object: "step", its number from 0; "kind": "projection", "input" (of a mesh that was
   /// projected already), "uniform", "longest-edge" or "quadratic"; "seconds" and "costs" (as

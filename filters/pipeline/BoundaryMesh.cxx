@@ -1,84 +1,22 @@
 #include "pipeline/BoundaryMesh.h"
 
-#include "classification/EdgeMidpoints.h"
-#include "comm/CollectiveErrors.h"
+#include "comm/SharedEdges.h"
 #include "fields/CADArrays.h"
 
 #include <cadrefine/base/Error.h>
-#include <cadrefine/nurbs/NurbsModel.h>
+#include <cadrefine/base/IndicesWhere.h>
 
 #include <vtkCellData.h>
-#include <vtkIntArray.h>
-#include <vtkNew.h>
-#include <vtkSignedCharArray.h>
-#include <vtkStringArray.h>
-#include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
-#include <initializer_list>
 #include <iterator>
-#include <limits>
+#include <numeric>
 #include <utility>
 
 namespace cadrefine
 {
 namespace
 {
-
-/// The face of a triangle on the CAD.
-EntityId faceOf(const BoundaryProjector& projector, const ClassifiedFacet& facet, int common)
-{
-  if (common >= 0)
-  {
-    return { 2, common };
-  }
-  const auto& p = facet.points;
-  const ClosestPoint nearest =
-    projector.nearest((1.0 / 3) * (p[0] + p[1] + p[2]), std::numeric_limits<double>::infinity());
-  return { 2, firstFaceAt(projector.model().nurbs(), nearest.entity) };
-}
-
-/// The CAD edge of a segment whose middle belongs there.
-EntityId edgeOf(const CADModel& model, const ClosestPoint& middle)
-{
-  if (middle.entity && middle.entity.dimension == 0)
-  {
-    const auto& edges = model.nurbs().vertices[middle.entity.index].edges;
-    return edges.empty() ? EntityId{} : EntityId{ 1, edges.front() };
-  }
-  return middle.entity;
-}
-
-/// For each facet the face or edge that it lies on.
-std::vector<EntityId> entitiesOf(const PipelineContext& context, MeshState& state)
-{
-  ClassifiedBoundary& classified = boundaryOf(context, state);
-  const DistributedBoundary& boundary = classified.boundary;
-  const SimplexMesh& mesh = state.mesh.mesh();
-  const bool triangles = boundary.kind == BoundaryKind::Triangles;
-  if (!triangles && !classified.midpoints)
-  {
-    findMidpoints(context.exchange, mesh, *state.classification, state.cache, classified);
-  }
-  std::vector<EntityId> entities(boundary.facets.size());
-  const auto find = [&](std::size_t f)
-  {
-    const FacetRecord& record = classified.classes.facets[f];
-    if (record.onCAD && triangles)
-    {
-      entities[f] = faceOf(classified.projector,
-        classifiedFacet(mesh, state.classification->entities, boundary.facets[f], boundary.kind),
-        record.face);
-    }
-    else if (record.onCAD)
-    {
-      entities[f] = edgeOf(context.model, (*classified.midpoints)[boundary.facetEdges[f][0]]);
-    }
-  };
-  agreeOnFailure(
-    context.exchange, [&] { forEachIndex(state.parallelFor, entities.size(), coarseGrain, find); });
-  return entities;
-}
 
 /// The vertices that facets use, ascending.
 std::vector<Index> verticesOf(const DistributedBoundary& boundary, std::size_t vertexCount)
@@ -91,15 +29,7 @@ std::vector<Index> verticesOf(const DistributedBoundary& boundary, std::size_t v
       used[facet.vertices[k]] = 1;
     }
   }
-  std::vector<Index> vertices;
-  for (std::size_t v = 0; v < vertexCount; ++v)
-  {
-    if (used[v])
-    {
-      vertices.push_back(static_cast<Index>(v));
-    }
-  }
-  return vertices;
+  return indicesWhere(vertexCount, [&](std::size_t v) { return used[v] != 0; });
 }
 
 SimplexMesh facetsAsCells(
@@ -129,44 +59,192 @@ SimplexMesh facetsAsCells(
   return result;
 }
 
-template<class Value>
-std::vector<Value> taken(const std::vector<Value>& values, const std::vector<Index>& places)
+template<class Value, class Place>
+std::vector<Value> taken(const std::vector<Value>& values, const std::vector<Place>& places)
 {
   std::vector<Value> result;
   result.reserve(places.size());
   std::transform(places.begin(), places.end(), std::back_inserter(result),
-    [&](Index place) { return values[place]; });
+    [&](Place place) { return values[place]; });
   return result;
 }
 
-void addEntities(const CADModel& model, const std::vector<EntityId>& entities, vtkCellData& ofCells)
+void checkForBoundary(const SimplexMesh& mesh)
 {
-  const auto count = static_cast<vtkIdType>(entities.size());
-  vtkNew<vtkSignedCharArray> dimensions;
-  dimensions->SetName(arrays::dimension);
-  vtkNew<vtkIntArray> indices;
-  indices->SetName(arrays::entity);
-  vtkNew<vtkStringArray> names;
-  names->SetName(arrays::name);
-  vtkNew<vtkUnsignedCharArray> colours;
-  colours->SetName(arrays::colour);
-  colours->SetNumberOfComponents(3);
-  for (const auto& array :
-    std::initializer_list<vtkAbstractArray*>{ dimensions, indices, names, colours })
+  if (mesh.dimension == 0)
   {
-    array->SetNumberOfTuples(count);
-    ofCells.AddArray(array);
+    throw Error("the mesh has no triangles or tetrahedra; points alone have no boundary");
   }
-  for (vtkIdType c = 0; c < count; ++c)
+}
+
+void writeAttributes(
+  const CADModel& model, const std::vector<EntityId>& entities, vtkCellData* ofCells)
+{
+  writeEntities(ofCells, entities);
+  writeNames(ofCells, arrays::name, model, entities);
+  writeColours(ofCells, arrays::colour, model, entities);
+}
+
+/// What is known of the sides of a rank's cells: its facets first, then its listed cells of their
+/// dimension.
+struct Sides
+{
+  std::vector<EntityId> entities;
+  std::vector<unsigned char> listed; ///< 1 where this rank or another lists it as a cell.
+};
+
+/// Facets know their entities, listed cells are to have those of their facets, whichever rank these
+/// are on. Collective.
+template<std::size_t N>
+Sides compareWithListed(RankExchange& exchange, const DistributedMesh& mesh,
+  const std::vector<Facet>& facets, const std::vector<EntityId>& ofFacets,
+  const Simplices<N>& listed)
+{
+  Simplices<N> keys(facets.size() + listed.size());
+  for (std::size_t f = 0; f < facets.size(); ++f)
   {
-    const EntityId entity = entities[c];
-    const EntityAttributes attributes = entity ? model.attributes(entity) : EntityAttributes();
-    dimensions->SetValue(c, entity.dimension);
-    indices->SetValue(c, entity.index);
-    names->SetValue(c, attributes.name);
-    colours->SetTypedTuple(c, colourOf(attributes).data());
+    std::copy_n(facets[f].vertices.begin(), N, keys[f].begin());
   }
-  ofCells.SetActiveScalars(arrays::entity);
+  std::copy(listed.begin(), listed.end(), keys.begin() + facets.size());
+  for (auto& key : keys)
+  {
+    std::sort(key.begin(), key.end());
+  }
+  Simplices<N> distinct = keys;
+  std::sort(distinct.begin(), distinct.end());
+  distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
+  std::vector<EntityId> entities(distinct.size());
+  std::vector<unsigned char> isListed(distinct.size(), 0);
+  std::vector<std::size_t> placeOf(keys.size());
+  for (std::size_t k = 0; k < keys.size(); ++k)
+  {
+    placeOf[k] = std::lower_bound(distinct.begin(), distinct.end(), keys[k]) - distinct.begin();
+    k < facets.size() ? void(entities[placeOf[k]] = ofFacets[k]) : void(isListed[placeOf[k]] = 1);
+  }
+  const SharedItems shared =
+    findSharedSimplices<N>(exchange, mesh.shared, mesh.mesh().ids, distinct);
+  const auto larger = [](auto a, auto b) { return std::max(a, b); };
+  combineShared(exchange, shared, entities, larger);
+  combineShared(exchange, shared, isListed, larger);
+  return { taken(entities, placeOf), taken(isListed, placeOf) };
+}
+
+/// Ids after those of all cells of the mesh.
+template<std::size_t N>
+std::vector<GlobalId> newIds(
+  RankExchange& exchange, const DistributedMesh& mesh, const Simplices<N>& cells)
+{
+  GlobalId first = 0;
+  for (const auto& ids : mesh.converted.cellIds)
+  {
+    first = std::accumulate(ids.begin(), ids.end(), first,
+      [](GlobalId bound, GlobalId id) { return std::max(bound, id + 1); });
+  }
+  first = exchange.max(first);
+  std::vector<GlobalId> ids = numberSimplices(exchange, mesh, cells);
+  std::transform(ids.begin(), ids.end(), ids.begin(), [&](GlobalId id) { return first + id; });
+  return ids;
+}
+
+template<class Value>
+void append(std::vector<Value>& to, const std::vector<Value>& values)
+{
+  to.insert(to.end(), values.begin(), values.end());
+}
+
+/// The edges of a cell, as an EdgeTable lists them.
+std::array<Index, 3> edgesOf(const EdgeTable& table, const std::array<Index, 3>& triangle)
+{
+  std::array<Index, 3> edges;
+  std::transform(std::begin(triangleEdges), std::end(triangleEdges), edges.begin(),
+    [&](const auto& ends) { return table.find(triangle[ends[0]], triangle[ends[1]]); });
+  return edges;
+}
+
+Index edgesOf(const EdgeTable& table, const std::array<Index, 2>& segment)
+{
+  return table.find(segment[0], segment[1]);
+}
+
+/// Where cells `count` to `count + added` of what is made have none in what it is made from.
+ArraySelection selectionWithout(vtkIdType count, vtkIdType added, vtkIdType cellCount)
+{
+  std::vector<vtkIdType> cells(cellCount + added, noTuple);
+  std::iota(cells.begin(), cells.begin() + count, 0);
+  std::iota(cells.begin() + count + added, cells.end(), count);
+  return { {}, std::move(cells) };
+}
+
+/// See makeDataSetWithBoundary. Added facets begin at their smallest id, as VTK has the sides of
+/// cells when it draws them: both are drawn alike, then, and colours are those of the cells.
+///
+/// `listed`: the mesh's cells of the facets' dimension; `edges`:
+/// theirs in the table of the mid nodes.
+template<std::size_t N, class Edges>
+MeshWithBoundary makeWithFacets(const PipelineContext& context, MeshState& state,
+  const std::vector<EntityId>& ofFacets, Simplices<N>& listed, std::vector<Edges> EdgeTable::*edges)
+{
+  ConvertedMesh& converted = state.mesh.converted;
+  const std::vector<Facet>& facets = state.boundary->boundary.facets;
+  const Sides sides = compareWithListed(context.exchange, state.mesh, facets, ofFacets, listed);
+  const std::vector<Index> unlisted =
+    indicesWhere(facets.size(), [&](std::size_t f) { return sides.listed[f] == 0; });
+  Simplices<N> added(unlisted.size());
+  for (std::size_t i = 0; i < unlisted.size(); ++i)
+  {
+    const auto corners = facets[unlisted[i]].vertices.begin();
+    const auto first = std::min_element(corners, corners + N,
+      [&](Index a, Index b) { return converted.mesh.ids[a] < converted.mesh.ids[b]; });
+    std::rotate_copy(corners, first, corners + N, added[i].begin());
+  }
+  constexpr int dimension = static_cast<int>(N) - 1;
+  const std::size_t listedCount = listed.size();
+  const vtkIdType firstListed = firstCellOfDimension(converted.mesh, dimension);
+  MeshWithBoundary result;
+  result.selection = selectionWithout(firstListed + static_cast<vtkIdType>(listedCount),
+    static_cast<vtkIdType>(added.size()), static_cast<vtkIdType>(converted.mesh.cellCount()));
+
+  std::vector<EntityId> entities(converted.mesh.cellCount() + added.size());
+  const auto next = std::copy(sides.entities.begin() + static_cast<std::ptrdiff_t>(facets.size()),
+    sides.entities.end(), entities.begin() + firstListed);
+  std::transform(unlisted.begin(), unlisted.end(), next, [&](Index f) { return ofFacets[f]; });
+  MeshArrays arrays = select(state.arrays, result.selection);
+  writeAttributes(context.model, entities, arrays.ofCells);
+
+  append(converted.cellIds[dimension], newIds(context.exchange, state.mesh, added));
+  append(listed, added);
+  if (converted.midNodes)
+  {
+    EdgeTable& table = converted.midNodes->table;
+    std::transform(added.begin(), added.end(), std::back_inserter(table.*edges),
+      [&](const auto& cell) { return edgesOf(table, cell); });
+  }
+  std::swap(state.arrays, arrays);
+  result.mesh = makeDataSet(state);
+  std::swap(state.arrays, arrays);
+  converted.cellIds[dimension].resize(listedCount);
+  listed.resize(listedCount);
+  if (converted.midNodes)
+  {
+    (converted.midNodes->table.*edges).resize(listedCount);
+  }
+  return result;
+}
+
+/// The same of a mesh of triangles in space.
+MeshWithBoundary makeWithFaces(
+  const PipelineContext& context, MeshState& state, const std::vector<EntityId>& ofFacets)
+{
+  const SimplexMesh& mesh = state.mesh.mesh();
+  std::vector<EntityId> entities(mesh.cellCount());
+  for (std::size_t f = 0; f < ofFacets.size(); ++f)
+  {
+    const Index triangle = state.boundary->boundary.facets[f].cell;
+    entities[firstCellOfDimension(mesh, 2) + triangle] = ofFacets[f];
+  }
+  MeshWithBoundary result{ makeDataSet(state), {} };
+  writeAttributes(context.model, entities, result.mesh->GetCellData());
+  return result;
 }
 
 } // namespace
@@ -174,11 +252,8 @@ void addEntities(const CADModel& model, const std::vector<EntityId>& entities, v
 MeshState boundaryMesh(const PipelineContext& context, MeshState state)
 {
   const SimplexMesh& mesh = state.mesh.mesh();
-  if (mesh.dimension == 0)
-  {
-    throw Error("the mesh has no triangles or tetrahedra; points alone have no boundary");
-  }
-  const std::vector<EntityId> entities = entitiesOf(context, state);
+  checkForBoundary(mesh);
+  const std::vector<EntityId> entities = entitiesOfFacets(context, state);
   const DistributedBoundary& boundary = state.boundary->boundary;
   const std::vector<Index> vertices = verticesOf(boundary, mesh.points.size());
 
@@ -204,8 +279,24 @@ MeshState boundaryMesh(const PipelineContext& context, MeshState state)
   result.arrays = select(state.arrays, selection);
   result.mapping = std::move(state.mapping);
   result.mapping.convert(std::move(selection));
-  addEntities(context.model, entities, *result.arrays.ofCells);
+  writeAttributes(context.model, entities, result.arrays.ofCells);
+  result.arrays.ofCells->SetActiveScalars(arrays::entity);
   return result;
+}
+
+MeshWithBoundary makeDataSetWithBoundary(const PipelineContext& context, MeshState& state)
+{
+  SimplexMesh& mesh = state.mesh.mesh();
+  checkForBoundary(mesh);
+  const std::vector<EntityId> ofFacets = entitiesOfFacets(context, state);
+  const DistributedBoundary& boundary = state.boundary->boundary;
+  if (boundary.ofSurface)
+  {
+    return makeWithFaces(context, state, ofFacets);
+  }
+  return boundary.kind == BoundaryKind::Triangles
+           ? makeWithFacets(context, state, ofFacets, mesh.triangles, &EdgeTable::ofTriangles)
+           : makeWithFacets(context, state, ofFacets, mesh.segments, &EdgeTable::ofSegments);
 }
 
 } // namespace cadrefine

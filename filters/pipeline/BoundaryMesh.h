@@ -1,4 +1,4 @@
-// What CAD Boundary makes of a mesh.
+// The boundary of a mesh as cells.
 #pragma once
 
 #include "pipeline/MeshState.h"
@@ -16,5 +16,24 @@ namespace cadrefine
 ///
 /// Collective. Work: that of classifying the boundary, and in the plane one projection a segment.
 MeshState boundaryMesh(const PipelineContext& context, MeshState state);
+
+/// A data set with cells that the mesh does not have.
+struct MeshWithBoundary
+{
+  vtkSmartPointer<vtkPointSet> mesh;
+  ArraySelection selection; ///< From the mesh to the data set.
+};
+
+/// The mesh as a data set (see makeDataSet), with the facets of its boundary (see findBoundary)
+/// that are not listed as cells already. The cell arrays of boundaryMesh tell the CAD face or edge
+/// of all facets, listed ones too; other cells have none: -1, no name, white. Of a mesh of
+/// triangles in space, whose facets are its cells, the arrays alone are added. Other cell arrays
+/// are 0 on added cells: no tag, no error. Ids of these come after those of the other cells, by
+/// those of their vertices. Of a mesh of second order they have mid nodes too. The mesh is
+/// classified, and stays as it is.
+///
+/// Collective. Work: that of boundaryMesh, of sorting the facets, and of makeDataSet; messages as
+/// findSharedSimplices.
+MeshWithBoundary makeDataSetWithBoundary(const PipelineContext& context, MeshState& state);
 
 } // namespace cadrefine

@@ -45,7 +45,8 @@ void addErrors(MeshState& state, const MeshError& error)
 
 } // namespace
 
-void measureMesh(const PipelineContext& context, MeshState& state, int recursionDepth)
+void measureMesh(const PipelineContext& context, MeshState& state, int recursionDepth,
+  const std::vector<std::string>& faces)
 {
   if (state.mesh.mesh().dimension == 0)
   {
@@ -53,8 +54,9 @@ void measureMesh(const PipelineContext& context, MeshState& state, int recursion
   }
   ClassifiedBoundary& boundary = boundaryOf(context, state);
   const Progress::Part part(context.exchange.progress(), 0.2, 1);
-  const MeshError error = measureError(context.exchange, state.mesh, boundary,
-    *state.classification, recursionDepth, state.cache, state.remembers);
+  const MeshError error =
+    measureError(context.exchange, state.mesh, boundary, *state.classification, recursionDepth,
+      facetsOn(context, state, faces), state.cache, state.remembers);
   recordBalance(context.statistics, "error", error.balance);
   addErrors(state, error);
 }

@@ -3,11 +3,16 @@
 
 #include "pipeline/MeshState.h"
 
+#include <string>
+#include <vector>
+
 namespace cadrefine
 {
 
-/// Measures the error of a classified mesh (see measureError): cell arrays and field data.
-/// Collective. Throws Error for points alone.
-void measureMesh(const PipelineContext& context, MeshState& state, int recursionDepth);
+/// Measures the error of a classified mesh (see measureError) on these CAD faces (see
+/// selectEntities; none: on all): cell arrays and field data. Collective. Throws Error for points
+/// alone.
+void measureMesh(const PipelineContext& context, MeshState& state, int recursionDepth,
+  const std::vector<std::string>& faces);
 
 } // namespace cadrefine

@@ -91,16 +91,17 @@ void removeQualities(vtkFieldData* ofCells)
   remove({ arrays::validity, arrays::quality }, ofCells);
 }
 
-void OutputJoin::fill(
-  RankExchange& exchange, vtkPointSet* mesh, const FieldMapping& mapping, vtkPointSet* output)
+void OutputJoin::fill(RankExchange& exchange, vtkPointSet* mesh, const FieldMapping& mapping,
+  const ArraySelection& selection, vtkPointSet* output)
 {
   fields_ = mapping.follow(exchange, std::move(fields_), stages_);
   stages_ = mapping.stageCount();
+  const MeshArrays fields = select(fields_, selection);
   output->Initialize(); // VTK has passed all of the input's field data
   output->CopyStructure(mesh);
-  addArrays(fields_.ofVertices, output->GetPointData());
-  addArrays(fields_.ofCells, output->GetCellData());
-  output->GetFieldData()->PassData(fields_.ofMesh);
+  addArrays(fields.ofVertices, output->GetPointData());
+  addArrays(fields.ofCells, output->GetCellData());
+  output->GetFieldData()->PassData(fields.ofMesh);
   addArrays(mesh->GetPointData(), output->GetPointData());
   addArrays(mesh->GetCellData(), output->GetCellData());
   output->GetFieldData()->PassData(mesh->GetFieldData());

@@ -37,10 +37,11 @@ public:
   explicit OutputJoin(const InputSplit& parts) : parts_(parts), fields_(parts.fields) {}
 
   /// Fills `output` with the mesh and the fields. Points, cells and arrays of the mesh are shared
-  /// with it. `mapping`, from the geometry to the mesh, goes on where that of the call before
-  /// ended. Collective. Work: that of taking the fields along from there (see FieldMapping).
-  void fill(
-    RankExchange& exchange, vtkPointSet* mesh, const FieldMapping& mapping, vtkPointSet* output);
+  /// with it. `mapping` leads from the geometry, and goes on where that of the call before ended;
+  /// `selection` from there to the mesh. Collective. Work: that of taking the fields along from
+  /// there (see FieldMapping).
+  void fill(RankExchange& exchange, vtkPointSet* mesh, const FieldMapping& mapping,
+    const ArraySelection& selection, vtkPointSet* output);
 
 private:
   const InputSplit& parts_;

@@ -1,6 +1,7 @@
 #include "pipeline/MeshState.h"
 
 #include "balancing/Balancing.h"
+#include "classification/EdgeMidpoints.h"
 #include "comm/CollectiveErrors.h"
 #include "comm/Threads.h"
 #include "fields/CADArrays.h"
@@ -57,6 +58,57 @@ ClassifiedBoundary& boundaryOf(const PipelineContext& context, MeshState& state)
       state.mesh, context.model, *state.classification, state.cache, state.onBoundary));
   }
   return *state.boundary;
+}
+
+std::vector<EntityId> entitiesOfFacets(const PipelineContext& context, MeshState& state)
+{
+  ClassifiedBoundary& classified = boundaryOf(context, state);
+  const DistributedBoundary& boundary = classified.boundary;
+  const SimplexMesh& mesh = state.mesh.mesh();
+  const bool triangles = boundary.kind == BoundaryKind::Triangles;
+  if (!triangles && !classified.midpoints)
+  {
+    findMidpoints(context.exchange, mesh, *state.classification, state.cache, classified);
+  }
+  std::vector<EntityId> entities(boundary.facets.size());
+  const auto find = [&](std::size_t f)
+  {
+    const FacetRecord& record = classified.classes.facets[f];
+    if (record.onCAD && triangles)
+    {
+      entities[f] =
+        faceOf(classified.projector, centroidOf(mesh, boundary.facets[f], 3), record.face);
+    }
+    else if (record.onCAD)
+    {
+      entities[f] = edgeOf(context.model, (*classified.midpoints)[boundary.facetEdges[f][0]]);
+    }
+  };
+  agreeOnFailure(
+    context.exchange, [&] { forEachIndex(state.parallelFor, entities.size(), coarseGrain, find); });
+  return entities;
+}
+
+EntitySelection selectFaces(
+  const PipelineContext& context, MeshState& state, const std::vector<std::string>& faces)
+{
+  const DistributedBoundary& boundary = boundaryOf(context, state).boundary;
+  return selectEntities(context.model, boundary.facetCorners() - 1, faces, "Faces");
+}
+
+std::vector<unsigned char> facetsOn(
+  const PipelineContext& context, MeshState& state, const std::vector<std::string>& faces)
+{
+  if (faces.empty())
+  {
+    return {};
+  }
+  const EntitySelection chosen = selectFaces(context, state, faces);
+  const std::vector<EntityId> entities = entitiesOfFacets(context, state);
+  std::vector<unsigned char> flags(entities.size());
+  std::transform(entities.begin(), entities.end(), flags.begin(),
+    [&](EntityId entity) { return chosen.contains(context.model.nurbs(), entity); });
+  return flags;
 }
 
 const QualitySummary& qualityOf(RankExchange& exchange, MeshState& state)

@@ -9,11 +9,13 @@
 #include "pipeline/PipelineContext.h"
 #include "pipeline/PipelineResult.h"
 
+#include <cadrefine/cad/model/EntitySelection.h>
 #include <cadrefine/mesh/QualitySummary.h>
 
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace cadrefine
@@ -50,6 +52,20 @@ void setClassification(MeshState& state, Classification classification);
 
 /// The boundary of the classified mesh. Collective.
 ClassifiedBoundary& boundaryOf(const PipelineContext& context, MeshState& state);
+
+/// For each facet of the boundary the CAD face, of a planar mesh the CAD edge, that it lies on;
+/// none off the CAD. Collective. Work: a query for a facet that spans several faces; of a planar
+/// mesh that of findMidpoints, once for a boundary.
+std::vector<EntityId> entitiesOfFacets(const PipelineContext& context, MeshState& state);
+
+/// The CAD's faces that are named, of a planar mesh its edges; see selectEntities. Collective.
+EntitySelection selectFaces(
+  const PipelineContext& context, MeshState& state, const std::vector<std::string>& faces);
+
+/// The facets of the boundary on these faces (see selectEntities): a flag for each. None given: no
+/// flags. Collective. Work: that of entitiesOfFacets.
+std::vector<unsigned char> facetsOn(
+  const PipelineContext& context, MeshState& state, const std::vector<std::string>& faces);
 
 /// Over all ranks. Collective.
 const QualitySummary& qualityOf(RankExchange& exchange, MeshState& state);

@@ -60,6 +60,10 @@ std::string reasonOfNone(
   {
     return none + "the region (Region) contains no boundary vertex";
   }
+  if (!options.faces.empty())
+  {
+    return none + "none of the boundary's facets lies on the chosen faces (Faces)";
+  }
   const std::string farther = options.maximumDistance
                                 ? "MaximumDistance"
                                 : "its longest edges (MaximumDistance lets vertices go farther)";
@@ -77,7 +81,8 @@ void judge(const PipelineContext& context, const Projection& projection,
   {
     throw Error(reasonOfNone(projection, options, unit));
   }
-  const std::string warning = warningOfMisfit(projection.fit, unit, !options.region);
+  const bool isWhole = !options.region && options.faces.empty();
+  const std::string warning = warningOfMisfit(projection.fit, unit, isWhole);
   if (!warning.empty() && context.exchange.rank() == 0)
   {
     context.warn(warning);
@@ -86,10 +91,12 @@ void judge(const PipelineContext& context, const Projection& projection,
 
 } // namespace
 
-ProjectionOptions makeProjectionOptions(const double* region, double maximumDistance)
+ProjectionOptions makeProjectionOptions(
+  const double* region, double maximumDistance, std::vector<std::string> faces)
 {
   checkProperty("MaximumDistance", maximumDistance, 0);
   ProjectionOptions options;
+  options.faces = std::move(faces);
   if (maximumDistance > 0)
   {
     constexpr double anyDistance = 0x1p172; // between coordinates that meshes may have

@@ -5,13 +5,15 @@
 #include "pipeline/MeshState.h"
 
 #include <string>
+#include <vector>
 
 namespace cadrefine
 {
 
 /// `region`: xmin xmax ymin ymax zmin zmax, or null: everywhere. Throws Error for what is out of
 /// range (see PropertyCheck).
-ProjectionOptions makeProjectionOptions(const double* region, double maximumDistance);
+ProjectionOptions makeProjectionOptions(
+  const double* region, double maximumDistance, std::vector<std::string> faces);
 
 /// Puts the boundary onto the CAD (see projectBoundary; points alone: projectPoints). The mesh gets
 /// its classification, conflicts as a point array, counts and the fit (see writeFit) as field data.

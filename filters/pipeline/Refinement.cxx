@@ -2,6 +2,7 @@
 
 #include "balancing/Balancing.h"
 #include "comm/LoadBalancedMap.h"
+#include "fields/CADArrays.h"
 #include "pipeline/MeshSummary.h"
 #include "quadratic/MidNodePlacing.h"
 #include "refinement/DistributedRefinement.h"
@@ -11,9 +12,11 @@
 #include <vtkPolyData.h>
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -69,7 +72,7 @@ public:
     }
     if (outcome.markedCells == 0 && !outcome.refined)
     {
-      outcome.whyNone = describeLargest(exchange_, state_.mesh, state_.arrays, options_.criteria);
+      outcome.whyNone = reasonOfNoMarks();
     }
     if (outcome.refined)
     {
@@ -137,10 +140,85 @@ private:
     {
       return { planUniform(exchange_, state_.mesh), countMesh(exchange_, state_.mesh).cells };
     }
-    const auto marks = markCells(exchange_, state_.mesh, state_.arrays, options_.criteria);
+    const auto marks = marksOfCells();
     const std::int64_t marked = exchange_.sum(std::count(marks.begin(), marks.end(), 1));
     context_.statistics.set("marked cells", static_cast<double>(marked));
     return { planLongestEdge(exchange_, state_.mesh, marks, toCut ? &*toCut : nullptr), marked };
+  }
+
+  /// 1 for cells with a facet of these, given a flag for each facet.
+  std::vector<unsigned char> cellsAt(const std::vector<unsigned char>& facets) const
+  {
+    const SimplexMesh& mesh = state_.mesh.mesh();
+    std::vector<unsigned char> cells(state_.mesh.converted.cellIds[mesh.dimension].size(), 0);
+    for (std::size_t f = 0; f < facets.size(); ++f)
+    {
+      if (facets[f])
+      {
+        cells[state_.boundary->boundary.facets[f].cell] = 1;
+      }
+    }
+    return cells;
+  }
+
+  std::vector<unsigned char> marksOfCells()
+  {
+    auto marks = markCells(exchange_, state_.mesh, state_.arrays, options_.criteria);
+    if (options_.faces.empty() || !state_.classification)
+    {
+      return marks;
+    }
+    const EntitySelection faces = selectFaces(context_, state_, options_.faces);
+    if (options_.criteria.empty() && faces.hasTolerances())
+    {
+      std::fill(marks.begin(), marks.end(), 0);
+    }
+    if (options_.onlyAtFaces)
+    {
+      const auto there = cellsAt(facetsOn(context_, state_, options_.faces));
+      std::transform(marks.begin(), marks.end(), there.begin(), marks.begin(), std::bit_and<>());
+    }
+    markByTolerances(faces, marks);
+    return marks;
+  }
+
+  /// Cells whose chord error is larger than the tolerance of a face that they are at.
+  void markByTolerances(const EntitySelection& faces, std::vector<unsigned char>& marks)
+  {
+    std::set<double> tolerances(faces.chordTolerances.begin(), faces.chordTolerances.end());
+    tolerances.erase(0);
+    const std::vector<EntityId> entities =
+      tolerances.empty() ? std::vector<EntityId>() : entitiesOfFacets(context_, state_);
+    for (const double tolerance : tolerances)
+    {
+      const auto has = [&](EntityId entity)
+      { return entity && faces.chordTolerances[entity.index] == tolerance; };
+      std::vector<unsigned char> facets(entities.size());
+      std::transform(entities.begin(), entities.end(), facets.begin(), has);
+      const auto there = cellsAt(facets);
+      const auto large = markCells(exchange_, state_.mesh, state_.arrays,
+        { { arrays::chordError, MarkingCriterion::Strategy::Threshold, tolerance } });
+      for (std::size_t c = 0; c < marks.size(); ++c)
+      {
+        marks[c] |= there[c] & large[c];
+      }
+    }
+  }
+
+  std::string reasonOfNoMarks()
+  {
+    std::string reason = describeLargest(exchange_, state_.mesh, state_.arrays, options_.criteria);
+    const char* separator = reason.empty() ? "" : "; ";
+    if (options_.onlyAtFaces)
+    {
+      reason += std::string(separator) + "only cells at the chosen faces (Faces) count";
+    }
+    else if (!options_.faces.empty() &&
+             selectFaces(context_, state_, options_.faces).hasTolerances())
+    {
+      reason += std::string(separator) + "no ChordError is above the tolerance of its face (Faces)";
+    }
+    return reason;
   }
 
   /// Whether the plan makes more cells of the mesh's own dimension than allowed.

@@ -16,6 +16,10 @@ struct RefinementOptions
   bool uniform = false;                   ///< Cut all edges; else the longest of marked cells.
   int levels = 1;                         ///< 0: the mesh as it is, for quadraticCells.
   std::vector<MarkingCriterion> criteria; ///< None: all cells are marked.
+  /// CAD faces (see selectEntities): cells whose ChordError is larger than the chord tolerance of a
+  /// face that they have a facet on are marked too.
+  std::vector<std::string> faces;
+  bool onlyAtFaces = false; ///< No cells are marked but those with a facet on these faces.
   /// Bisect further until the facets on the CAD of each marked cell are cut.
   bool cutFacets = false;
   bool projectNewVertices = true;

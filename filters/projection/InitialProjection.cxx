@@ -4,12 +4,17 @@
 #include "classification/CornerAssignment.h"
 #include "classification/FacetClassification.h"
 #include "classification/VertexClassification.h"
+#include "comm/CollectiveErrors.h"
 #include "comm/LoadBalancedMap.h"
+#include "comm/Threads.h"
 #include "comm/WorkSteps.h"
 #include "motion/BoundaryMotion.h"
 
+#include <cadrefine/cad/model/EntitySelection.h>
+
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace cadrefine
@@ -85,6 +90,28 @@ std::vector<unsigned char> findVerticesOnCAD(
   return onCAD;
 }
 
+/// Takes facets that lie on other faces (of a planar mesh, edges) than these off the CAD.
+void leaveOut(const ProjectionTask& task, const EntitySelection& chosen,
+  const ParallelFor& parallelFor, std::vector<FacetRecord>& records)
+{
+  const auto decide = [&](std::size_t f)
+  {
+    if (!records[f].onCAD)
+    {
+      return;
+    }
+    const Point3 centroid =
+      centroidOf(task.mesh.mesh(), task.boundary.facets[f], task.boundary.facetCorners());
+    const EntityId entity = task.triangles()
+                              ? faceOf(task.projector, centroid, records[f].face)
+                              : edgeOf(task.model(), task.projector.nearest(centroid,
+                                                       std::numeric_limits<double>::infinity()));
+    records[f].onCAD = chosen.contains(task.model().nurbs(), entity);
+  };
+  agreeOnFailure(
+    task.exchange, [&] { forEachIndex(parallelFor, records.size(), coarseGrain, decide); });
+}
+
 /// 1 for vertices that do not make way for others: those of the boundary, and outside the region.
 std::vector<unsigned char> findFixed(const ProjectionTask& task)
 {
@@ -108,8 +135,8 @@ ProjectionResult projectBoundary(RankExchange& exchange, DistributedMesh& mesh,
   NearestPoints nearest = findNearest(task);
   auto& hits = nearest.hits;
   steps.begin(0.6, 0.75);
-  const FacetClasses facets = classifyFacets(task, hits);
-  const auto onCAD = findVerticesOnCAD(task, facets.records);
+  FacetClasses facets = classifyFacets(task, hits);
+  auto onCAD = findVerticesOnCAD(task, facets.records);
   steps.begin(0.75, 0.85);
   const VertexClassification meeting = classifyVertices(task, hits, facets);
   placeVertices(task, meeting, hits);
@@ -118,6 +145,13 @@ ProjectionResult projectBoundary(RankExchange& exchange, DistributedMesh& mesh,
   ProjectionResult result;
   const auto taken = giveCorners(task, meeting, onCAD, hits);
   result.conflicts = findConflicts(task, facets, meeting, onCAD, taken, hits);
+  if (!options.faces.empty())
+  {
+    const EntitySelection chosen =
+      selectEntities(task.model(), task.triangles() ? 2 : 1, options.faces, "Faces");
+    leaveOut(task, chosen, forOnThreads(exchange), facets.records);
+    onCAD = findVerticesOnCAD(task, facets.records);
+  }
   result.classification.resize(hits.size());
   Moves moves(mesh.mesh());
   for (std::size_t v = 0; v < hits.size(); ++v)
@@ -145,6 +179,11 @@ ProjectionResult projectPoints(RankExchange& exchange, DistributedMesh& mesh, co
   result.classification.resize(points.size());
   result.conflicts.assign(points.size(), 0);
   const auto owned = mesh.shared.ownedHere(static_cast<Index>(points.size()));
+  std::optional<EntitySelection> chosen;
+  if (!options.faces.empty())
+  {
+    chosen = selectEntities(model, model.count(2) > 0 ? 2 : 1, options.faces, "Faces");
+  }
   SearchScope scope;
   scope.maximumDistance = options.maximumDistance.value_or(scope.maximumDistance);
   std::vector<Index> vertices;
@@ -164,7 +203,7 @@ ProjectionResult projectPoints(RankExchange& exchange, DistributedMesh& mesh, co
   {
     const ClosestPoint& hit = answers.values[i];
     result.slowPoints += owned[vertices[i]] && !hit.converged;
-    if (hit.entity)
+    if (hit.entity && (!chosen || chosen->contains(model.nurbs(), hit.entity)))
     {
       result.classification.set(vertices[i], hit);
       points[vertices[i]] = hit.point;

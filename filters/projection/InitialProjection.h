@@ -35,7 +35,8 @@ struct ProjectionResult
 ///      these; other vertices stay with the faces around them (see placeVertices);
 ///   4. CAD vertices go to mesh vertices, one to one (see giveCorners);
 ///   5. vertices whose class contradicts what meets there are found (see findConflicts);
-///   6. the vertices move as far as all cells stay valid (see moveOntoCAD).
+///   6. facets on faces that were not chosen are left out, and vertices of such facets alone;
+///   7. the vertices move as far as all cells stay valid (see moveOntoCAD).
 /// Work: one whole-model query for each boundary vertex; some for facets where faces meet and for
 /// mesh edges along CAD edges; all shared out evenly over ranks and threads. Collective.
 ProjectionResult projectBoundary(RankExchange& exchange, DistributedMesh& mesh,

@@ -1,5 +1,6 @@
 #include <cadrefine/motion/PatchOptimiser.h>
 
+#include <cadrefine/base/IndicesWhere.h>
 #include <cadrefine/base/MixedBits.h>
 #include <cadrefine/mesh/Quality.h>
 
@@ -82,11 +83,8 @@ PatchOptimiser::PatchOptimiser(
   for (std::size_t v = 0; v < turns_.size(); ++v)
   {
     turns_[v] = hashOf(patch.mesh.ids[v]);
-    if (patch.free[v])
-    {
-      order_.push_back(static_cast<Index>(v));
-    }
   }
+  order_ = indicesWhere(patch.free.size(), [&](std::size_t v) { return patch.free[v] != 0; });
   std::sort(order_.begin(), order_.end(), [&](Index a, Index b) { return turns_[a] > turns_[b]; });
   findLevels();
 }

@@ -1,5 +1,6 @@
 #include <cadrefine/quadratic/MidNodeGuard.h>
 
+#include <cadrefine/base/IndicesWhere.h>
 #include <cadrefine/quadratic/MidNodes.h>
 
 #include <algorithm>
@@ -25,16 +26,9 @@ double stepped(double fraction)
 template<class Edges>
 std::vector<Index> cellsWhere(const Edges& edgesOf, const std::vector<double>& fractions)
 {
-  std::vector<Index> cells;
-  for (std::size_t c = 0; c < edgesOf.size(); ++c)
-  {
-    if (std::any_of(
-          edgesOf[c].begin(), edgesOf[c].end(), [&](Index edge) { return fractions[edge] > 0; }))
-    {
-      cells.push_back(static_cast<Index>(c));
-    }
-  }
-  return cells;
+  const auto moves = [&](Index edge) { return fractions[edge] > 0; };
+  return indicesWhere(edgesOf.size(),
+    [&](std::size_t c) { return std::any_of(edgesOf[c].begin(), edgesOf[c].end(), moves); });
 }
 
 bool isCellValid(

@@ -40,6 +40,14 @@ def number(text, lowest=-math.inf, highest=math.inf):
     return value
 
 
+def names(text):
+    """A list, of names that commas part."""
+    parts = text.split(",")
+    if "" in parts:
+        raise argparse.ArgumentTypeError(f"{text[:40]!r} has an empty name")
+    return parts
+
+
 def positive(text):
     return number(text, 0)
 

@@ -3,8 +3,8 @@
 import argparse
 import re
 
-from cadrefine.checks import (DEEPEST, MOST_CELLS, MOST_STEPS, RESULTS, angle, check, coordinate, number, positive,
-                              whole)
+from cadrefine.checks import (DEEPEST, MOST_CELLS, MOST_STEPS, RESULTS, angle, check, coordinate, number, names,
+                              positive, whole)
 from cadrefine.help import DESCRIPTION, EPILOG, USAGE, Layout
 from cadrefine.pipeline import METHODS, STRATEGIES
 from cadrefine.session import Failure, flush, speaks
@@ -61,6 +61,9 @@ def option_parser():
     files.add_argument("mesh", metavar="MESH", help="the mesh: .vtu .pvtu .vtk .msh .xdmf .e .mesh .inp ...; see below")
     files.add_argument("cad", metavar="CAD", help="the CAD model: .igs .iges .stp .step .brep")
     files.add_argument("--output", metavar="FILE", help="write the last mesh: .vtu, .pvtu, .xdmf or .msh; see below")
+    files.add_argument("--boundary-cells", action=argparse.BooleanOptionalAction, default=True,
+                       help="write the boundary's triangles (in 2D, lines) too, each with its CAD face: cell arrays "
+                       "CADEntity, CADName, ... (default)")
     add_steps(parser.add_argument_group("steps"))
     add_marking(parser.add_argument_group(
         "marking", "Longest edge bisection refines cells that any of these marks; all cells, if none is given."))
@@ -115,6 +118,10 @@ def add_geometry(group):
     group.add_argument("--cad-unit", choices=UNITS, metavar="UNIT",
                        help="convert the CAD to this unit of length, that of the mesh: m, cm, mm, in or ft (default: "
                        "the coordinates are the CAD file's own numbers)")
+    group.add_argument("--faces", type=names, default=[], metavar="NAME[=TOLERANCE],...",
+                       help="work only on these CAD faces (of a planar mesh, CAD edges): names in the CAD file, patterns "
+                       "of names (*, ?, [...]) or numbers, !NAME to leave one out; =TOLERANCE is their chord tolerance, "
+                       "a length (default: all)")
     group.add_argument("--region", type=number, nargs=6, metavar=BOX,
                        help="project only vertices inside this box; X0 <= X1, Y0 <= Y1, Z0 <= Z1, lengths (default: "
                        "everywhere)")

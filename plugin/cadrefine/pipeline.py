@@ -97,7 +97,8 @@ def adaptation_properties(options):
                   "RecursionDepth": options.recursion_depth, "UniformSteps": options.uniform_steps,
                   "MaximumSteps": options.steps, "Method": METHODS[options.method], "ErrorMarking": "Off",
                   "IndicatorArray": "None", "ProjectNewVertices": int(not options.no_cad),
-                  "QuadraticCells": int(options.quadratic), "MaximumCells": 0, "TargetError": 0}
+                  "QuadraticCells": int(options.quadratic), "MaximumCells": 0, "TargetError": 0,
+                  "Faces": options.faces, "BoundaryCells": int(bool(options.output and options.boundary_cells))}
     if options.region:
         properties.update(UseRegion=1, Region=options.region)
     if options.maximum_cells is not None:

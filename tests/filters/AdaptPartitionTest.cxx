@@ -61,6 +61,13 @@ void bySize(vtkAdaptToCAD* filter)
   filter->BalanceOff();
 }
 
+void byFaces(vtkAdaptToCAD* filter)
+{
+  filter->SetErrorMarking(vtkAdaptToCAD::OFF);
+  filter->AddFace("0=0.005");
+  filter->BoundaryCellsOn();
+}
+
 class AdaptPieces : public ParallelTest
 {
 protected:
@@ -157,7 +164,8 @@ class AdaptPiecesBy
 
 INSTANTIATE_TEST_SUITE_P(Markings, AdaptPiecesBy,
   testing::Values(Marking{ "Threshold", byThreshold },
-    Marking{ "BulkAndIndicator", byBulkAndIndicator }, Marking{ "Size", bySize }),
+    Marking{ "BulkAndIndicator", byBulkAndIndicator }, Marking{ "Size", bySize },
+    Marking{ "Faces", byFaces }),
   [](const auto& each) { return std::string(each.param.name); });
 
 TEST_P(AdaptPiecesBy, giveTheSameMeshAndTable)

@@ -1,4 +1,5 @@
-// CAD Boundary: each facet has the CAD face that it lies on, and what belongs to it.
+// CAD Boundary, and the property BoundaryCells of other filters: each facet has the CAD face that
+// it lies on, and what belongs to it.
 
 #include "DataSets.h"
 #include "FilterRun.h"
@@ -10,6 +11,7 @@
 
 #include <cadrefine/cad/model/CADModel.h>
 
+#include <vtkAdaptToCAD.h>
 #include <vtkCADBoundary.h>
 #include <vtkCADModelCache.h>
 #include <vtkCellData.h>
@@ -21,8 +23,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 #include <string>
+#include <vector>
 
 namespace
 {
@@ -235,6 +241,198 @@ TEST(CADBoundary, needsAProjectedMesh)
   EXPECT_FALSE(outcome.succeeded);
   ASSERT_EQ(outcome.errors.size(), 1u);
   EXPECT_NE(outcome.errors[0].find("CADDimension"), std::string::npos) << outcome.errors[0];
+}
+
+/// Ids of the points of a cell, ascending.
+std::vector<vtkIdType> pointIdsOf(vtkPointSet* mesh, vtkIdType cell)
+{
+  vtkDataArray* const ids = mesh->GetPointData()->GetGlobalIds();
+  std::vector<vtkIdType> result;
+  for (const vtkIdType point : *mesh->GetCell(cell)->GetPointIds())
+  {
+    result.push_back(static_cast<vtkIdType>(ids->GetTuple1(point)));
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+std::map<std::vector<vtkIdType>, EntityId> entitiesByPoints(vtkPointSet* mesh, int dimension)
+{
+  std::map<std::vector<vtkIdType>, EntityId> result;
+  for (vtkIdType cell = 0; cell < mesh->GetNumberOfCells(); ++cell)
+  {
+    if (mesh->GetCell(cell)->GetCellDimension() == dimension)
+    {
+      EXPECT_TRUE(result.emplace(pointIdsOf(mesh, cell), entityOf(mesh, cell)).second)
+        << "cell " << cell << " is there twice";
+    }
+  }
+  return result;
+}
+
+/// Cells of this dimension, with all of their arrays and their ids.
+std::string describeCells(vtkPointSet* mesh, int dimension, const std::set<std::string>& arrays)
+{
+  std::ostringstream text;
+  for (vtkIdType cell = 0; cell < mesh->GetNumberOfCells(); ++cell)
+  {
+    if (mesh->GetCell(cell)->GetCellDimension() == dimension)
+    {
+      for (const vtkIdType point : *mesh->GetCell(cell)->GetPointIds())
+      {
+        text << point << " ";
+      }
+      for (const std::string& name : arrays)
+      {
+        text << mesh->GetCellData()->GetArray(name.c_str())->GetTuple1(cell) << " ";
+      }
+      text << mesh->GetCellData()->GetGlobalIds()->GetTuple1(cell) << "\n";
+    }
+  }
+  return text.str();
+}
+
+struct BoundaryCells : testing::Test
+{
+  cadtest::TemporaryFolder folder;
+
+  /// The projected mesh, measured with and without cells of its boundary: these are those of CAD
+  /// Boundary, all else is the same.
+  static void expectFacetsBesideCells(const cadtest::FilterRun& filters, vtkPointSet* coarse)
+  {
+    cadtest::addArrays(coarse);
+    const auto projected = filters.project(coarse);
+    const auto plain = filters.measure(projected, 1);
+    const auto mesh = filters.run<vtkCADGeometricError>(projected,
+      [](vtkCADGeometricError* filter)
+      {
+        filter->SetRecursionDepth(1);
+        filter->SetBoundaryCells(true);
+      });
+    const int dimension = cadtest::toMesh(plain).dimension;
+    const std::set<std::string> arrays{ "GeometricError", "GeometricDistance", "Tag" };
+    EXPECT_EQ(describeCells(mesh, dimension, arrays), describeCells(plain, dimension, arrays));
+    EXPECT_EQ(entitiesByPoints(mesh, dimension - 1),
+      entitiesByPoints(boundaryOf(filters, plain), dimension - 1));
+    for (const char* name : { "GlobalGeometricError", "GlobalCells", "InvalidCells" })
+    {
+      EXPECT_EQ(cadtest::fieldValue(mesh, name), cadtest::fieldValue(plain, name)) << name;
+    }
+    std::set<double> ids;
+    for (vtkIdType cell = 0; cell < mesh->GetNumberOfCells(); ++cell)
+    {
+      EXPECT_TRUE(ids.insert(mesh->GetCellData()->GetGlobalIds()->GetTuple1(cell)).second);
+      if (mesh->GetCell(cell)->GetCellDimension() < dimension)
+      {
+        EXPECT_EQ(mesh->GetCellData()->GetArray("GeometricError")->GetTuple1(cell), 0);
+        EXPECT_EQ(mesh->GetCellData()->GetArray("Tag")->GetTuple1(cell), 0);
+      }
+      else
+      {
+        EXPECT_EQ(entityOf(mesh, cell), EntityId{});
+      }
+    }
+  }
+};
+
+TEST_F(BoundaryCells, areTheFacetsOfTetrahedra)
+{
+  expectFacetsBesideCells(
+    cadtest::FilterRun(cadtest::writeInto(folder, cadtest::partWithCavity(), ".step")),
+    cadtest::readGrid(CADREFINE_DATA "/part_coarse.vtu"));
+}
+
+TEST_F(BoundaryCells, areTheSegmentsInThePlane)
+{
+  expectFacetsBesideCells(cadtest::FilterRun(CADREFINE_DATA "/three_arcs.igs"),
+    cadtest::readGrid(CADREFINE_DATA "/three_arcs_coarse.vtu"));
+}
+
+/// Of a surface the cells themselves.
+TEST_F(BoundaryCells, ofASurfaceAreItsTriangles)
+{
+  const cadtest::FilterRun filters(cadtest::writeInto(folder, cadtest::sphere(2), ".step"));
+  const auto surface = cadtest::toPolyData(cadtest::sphereMesh(2, 0.03));
+  const auto mesh = filters.run<vtkProjectOntoCAD>(
+    surface, [](vtkProjectOntoCAD* filter) { filter->SetBoundaryCells(true); });
+  ASSERT_EQ(mesh->GetNumberOfCells(), surface->GetNumberOfCells());
+  for (vtkIdType cell = 0; cell < mesh->GetNumberOfCells(); ++cell)
+  {
+    EXPECT_EQ(entityOf(mesh, cell), (EntityId{ 2, 0 }));
+  }
+}
+
+/// A cell that the mesh lists is no second time there, keeps its tag, and knows its face; so do its
+/// children.
+TEST_F(BoundaryCells, keepListedCells)
+{
+  const cadtest::FilterRun filters(cadtest::writeInto(folder, cadtest::sphere(2), ".step"));
+  const SimplexMesh listed = cadtest::ballInShellMesh(2, 0.03);
+  const auto coarse = cadtest::toGrid(listed);
+  cadtest::addArrays(coarse);
+  const auto mesh = filters.run<vtkAdaptToCAD>(coarse,
+    [](vtkAdaptToCAD* filter)
+    {
+      filter->SetUniformSteps(1);
+      filter->SetMaximumSteps(0);
+      filter->SetBoundaryCells(true);
+    });
+  const auto entities = entitiesByPoints(mesh, 2);
+  EXPECT_EQ(entities.size(), 4 * (listed.triangles.size() + cadtest::countOuterSides(listed)));
+  std::size_t onSphere = 0;
+  std::size_t tagged = 0;
+  for (vtkIdType cell = 0; cell < mesh->GetNumberOfCells(); ++cell)
+  {
+    if (mesh->GetCell(cell)->GetCellDimension() == 2)
+    {
+      const bool inside = norm(centroidOf(mesh, cell)) < 3;
+      EXPECT_EQ(entityOf(mesh, cell), (inside ? EntityId{ 2, 0 } : EntityId{}));
+      onSphere += inside;
+      tagged += inside && mesh->GetCellData()->GetArray("Tag")->GetTuple1(cell) <
+                            static_cast<double>(listed.triangles.size());
+    }
+  }
+  EXPECT_EQ(onSphere, 4 * listed.triangles.size());
+  EXPECT_EQ(tagged, onSphere) << "tags are the numbers of the cells, triangles first";
+}
+
+/// Beside quadratic cells: with the mid nodes of these.
+TEST_F(BoundaryCells, areQuadraticBesideSuch)
+{
+  const cadtest::FilterRun filters(cadtest::writeInto(folder, cadtest::sphere(2), ".step"));
+  const auto mesh = filters.run<vtkAdaptToCAD>(cadtest::toGrid(cadtest::ballMesh(2, 0.03)),
+    [](vtkAdaptToCAD* filter)
+    {
+      filter->SetMaximumSteps(0);
+      filter->SetQuadraticCells(true);
+      filter->SetBoundaryCells(true);
+    });
+  std::set<std::vector<vtkIdType>> outer; // of those of cells that are met once
+  std::set<std::vector<vtkIdType>> cells;
+  for (vtkIdType cell = 0; cell < mesh->GetNumberOfCells(); ++cell)
+  {
+    const vtkSmartPointer<vtkCell> current = mesh->GetCell(cell);
+    for (int face = 0; face < current->GetNumberOfFaces(); ++face)
+    {
+      vtkIdList* const points = current->GetFace(face)->GetPointIds();
+      std::vector<vtkIdType> key(points->begin(), points->end());
+      std::sort(key.begin(), key.end());
+      const auto [place, isNew] = outer.insert(key);
+      if (!isNew)
+      {
+        outer.erase(place);
+      }
+    }
+    if (current->GetCellDimension() == 2)
+    {
+      ASSERT_EQ(current->GetCellType(), VTK_QUADRATIC_TRIANGLE);
+      std::vector<vtkIdType> key(current->GetPointIds()->begin(), current->GetPointIds()->end());
+      std::sort(key.begin(), key.end());
+      cells.insert(key);
+    }
+  }
+  EXPECT_GT(cells.size(), 0u);
+  EXPECT_EQ(cells, outer);
 }
 
 } // namespace

@@ -263,7 +263,7 @@ protected:
   using Steps = std::vector<cadtest::FilterRun::Data>;
 
   /// The mesh after each filter: projected, measured, refined locally, refined uniformly, its
-  /// boundary, measured.
+  /// boundary, measured with its boundary's cells.
   Steps run(vtkPointSet* mesh, vtkMultiProcessController* controller) const
   {
     const cadtest::FilterRun filters(cadFile(), controller);
@@ -284,7 +284,12 @@ protected:
         filter->SetBalance(GetParam().balance);
       }));
     steps.push_back(filters.run<vtkCADBoundary>(steps.back(), [](vtkCADBoundary*) {}));
-    steps.push_back(filters.measure(*std::prev(steps.end(), 2), 1));
+    steps.push_back(filters.run<vtkCADGeometricError>(*std::prev(steps.end(), 2),
+      [](vtkCADGeometricError* filter)
+      {
+        filter->SetRecursionDepth(1);
+        filter->SetBoundaryCells(true);
+      }));
     return steps;
   }
 

@@ -15,8 +15,8 @@ namespace cadrefine
 struct RunLimits
 {
   int cpuSeconds = 0; ///< Of computing, in all.
-  std::uint64_t megabytes =
-    0;                  ///< Of address space, beside what the program starts with; 0: no limit.
+  /// Of address space, beside what the program starts with; 0: no limit.
+  std::uint64_t megabytes = 0;
   int idleSeconds = 20; ///< On the clock, without computing anything.
   /// From one noteProgress() to the next, of computing and on the clock (on several threads the
   /// former runs faster); 0: no limit.

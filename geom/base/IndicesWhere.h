@@ -1,0 +1,27 @@
+// The indices of what has a property.
+#pragma once
+
+#include <cadrefine/base/MeshTypes.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace cadrefine
+{
+
+/// Those of 0, ..., count - 1 for which holds(index) is true, ascending.
+template<class Predicate>
+std::vector<Index> indicesWhere(std::size_t count, const Predicate& holds)
+{
+  std::vector<Index> indices;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    if (holds(i))
+    {
+      indices.push_back(static_cast<Index>(i));
+    }
+  }
+  return indices;
+}
+
+} // namespace cadrefine

@@ -1,0 +1,32 @@
+// Faces of a model, or edges, that a user has chosen.
+#pragma once
+
+#include <cadrefine/cad/model/CADModel.h>
+
+#include <string>
+#include <vector>
+
+namespace cadrefine
+{
+
+/// Entities of one dimension: faces, or edges where a mesh is planar.
+struct EntitySelection
+{
+  int dimension = 2;
+  std::vector<unsigned char> chosen;   ///< Of each entity.
+  std::vector<double> chordTolerances; ///< Of each entity; 0: none of its own.
+
+  /// Whether it is one of them, or (of lower dimension) lies on the border of one.
+  bool contains(const NurbsModel& model, EntityId entity) const;
+  bool hasTolerances() const;
+};
+
+/// The entities that `wanted` names: each entry a name in the CAD file, a pattern of names as in a
+/// shell (`*`, `?`, `[...]`), or an index, if no name is like that. `!` before it takes these away
+/// (from all, if it is the first entry), `=` and a length after it is their chord tolerance. Throws
+/// Error, which begins with `property`, for an entry that fits nothing and for a tolerance that is
+/// no positive number; it lists what there is.
+EntitySelection selectEntities(const CADModel& model, int dimension,
+  const std::vector<std::string>& wanted, const std::string& property);
+
+} // namespace cadrefine
