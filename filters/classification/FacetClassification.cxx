@@ -149,7 +149,7 @@ std::vector<FaceMatch> findFaces(
   }
   const auto answers = mapBalanced<FaceMatch>(task.exchange, std::move(queries),
     [&](const CornerHits& query) { return finder.find(query); },
-    { "finding the faces of", "facets" });
+    { "finding the CAD faces of", "facets" });
   std::vector<FaceMatch> matches(records.size());
   for (std::size_t i = 0; i < facets.size(); ++i)
   {

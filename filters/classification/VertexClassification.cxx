@@ -184,7 +184,7 @@ void placeVertices(
   }
   const auto answers = mapBalanced<ClosestPoint>(task.exchange, std::move(queries),
     [&](const VertexQuery& query) { return placeOf(task.projector, query); },
-    { "placing", "vertices" });
+    { "classifying", "vertices" });
   for (std::size_t i = 0; i < vertices.size(); ++i)
   {
     hits[vertices[i]] = answers.values[i];

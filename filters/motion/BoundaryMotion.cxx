@@ -269,9 +269,9 @@ void moveOntoCAD(RankExchange& exchange, DistributedMesh& mesh, Moves moves,
   int idle = 0;
   for (int round = 0; count > 0 && idle < patience && round < maximumRounds; ++round)
   {
-    progress.say(
-      (1.0 + round) / (2.0 + maximumRounds), "untangling cells at " + std::to_string(count) +
-                                               " vertices, round " + std::to_string(round + 1));
+    progress.say((1.0 + round) / (2.0 + maximumRounds),
+      "untangling " + std::to_string(count) + (count == 1 ? " vertex" : " vertices") + ", round " +
+        std::to_string(round + 1) + " of " + std::to_string(maximumRounds));
     tryAgain(motion, left, round);
     const std::int64_t before = std::exchange(count, dropDone(motion, left));
     idle = count < before ? 0 : idle + 1;

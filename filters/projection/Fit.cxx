@@ -144,7 +144,7 @@ public:
     const auto answers = mapBalanced<double>(task_.exchange, std::move(queries),
       [&](const Point3& point)
       { return task_.projector.nearest(point, std::numeric_limits<double>::infinity()).distance; },
-      { "looking for the farthest of", "vertices" });
+      { "measuring the fit at", "vertices" });
     for (std::size_t i = 0; i < asking.size(); ++i)
     {
       addIfOff(off, asking[i], answers.values[i]);

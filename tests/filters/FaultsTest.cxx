@@ -244,7 +244,7 @@ protected:
 TEST_F(Faults, projection)
 {
   expectAllFailTogether(runOf<vtkProjectOntoCAD>(ownPiece(), [](vtkProjectOntoCAD*) {}),
-    { "finding the boundary", "finding the faces of", "finding the CAD edges of", "projecting",
+    { "finding the boundary", "finding the CAD faces of", "finding the CAD edges of", "projecting",
       "moving vertices onto the CAD" });
 }
 
