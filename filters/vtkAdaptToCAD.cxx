@@ -3,6 +3,7 @@
 #include "fields/CADArrays.h"
 #include "pipeline/Adaptation.h"
 #include "pipeline/InputSplit.h"
+#include "pipeline/PipelineContext.h"
 #include "pipeline/Projection.h"
 #include "pipeline/PropertyCheck.h"
 
@@ -16,6 +17,7 @@
 #include <vtkTable.h>
 
 #include <string>
+#include <vector>
 
 using cadrefine::checkProperty;
 using cadrefine::MarkingCriterion;
@@ -82,6 +84,11 @@ cadrefine::PipelineResult vtkAdaptToCAD::Execute(
   options.targetError = this->TargetError;
   options.quadraticCells = this->QuadraticCells;
   options.boundaryCells = this->GetBoundaryCells();
+  const cadrefine::PipelineContext context = this->MakeContext(exchange, *model);
+  if (this->ErrorThreshold > 0 && this->ErrorMarking != THRESHOLD && exchange.rank() == 0)
+  {
+    context.warn("ErrorThreshold has no effect: set ErrorMarking to Threshold to mark cells by it");
+  }
 
   this->StepStatistics = "{}";
   cadrefine::AdaptationObserver observer;
@@ -95,7 +102,7 @@ cadrefine::PipelineResult vtkAdaptToCAD::Execute(
       this->InvokeEvent(StepEvent);
     };
   }
-  return cadrefine::adaptMesh(this->MakeContext(exchange, *model), input, options, observer);
+  return cadrefine::adaptMesh(context, input, options, observer);
 }
 
 MarkingCriterion vtkAdaptToCAD::GetOwnCriterion() const
@@ -104,6 +111,13 @@ MarkingCriterion vtkAdaptToCAD::GetOwnCriterion() const
   checkProperty("ErrorThreshold", this->ErrorThreshold, 0);
   return MakeCriterion(this->ErrorMarking == OFF ? "" : cadrefine::arrays::error,
     this->ErrorMarking, this->ErrorThreshold, this->ErrorFraction);
+}
+
+std::vector<std::string> vtkAdaptToCAD::GetCellArraysRead() const
+{
+  const std::string indicator = this->GetIndicator().array;
+  const bool isUsed = !indicator.empty() && !this->MakeOptions().uniform;
+  return isUsed ? std::vector{ indicator } : std::vector<std::string>{};
 }
 
 void vtkAdaptToCAD::PrintSelf(ostream& os, vtkIndent indent)

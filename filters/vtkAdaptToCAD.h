@@ -136,9 +136,10 @@ public:
 
   ///@{
   /**
-   * How cells are marked by their geometric error: a MarkingStrategy (default THRESHOLD) with
-   * ErrorThreshold (default 0) or ErrorFraction (default 0.5, above 0 and at most 1); or OFF (all
-   * cells are marked where there is no other criterion either).
+   * How cells are marked by their geometric error: a MarkingStrategy (default BULK) with
+   * ErrorFraction (default 0.5, above 0 and at most 1) or ErrorThreshold (default 0; a warning if
+   * it is set, but not used); or OFF (all cells are marked where there is no other criterion
+   * either).
    */
   vtkSetMacro(ErrorMarking, int);
   vtkGetMacro(ErrorMarking, int);
@@ -156,6 +157,8 @@ protected:
   int RequestDataObject(
     vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   cadrefine::MarkingCriterion GetOwnCriterion() const override;
+  /// The indicator alone: the others are measured here.
+  std::vector<std::string> GetCellArraysRead() const override;
   cadrefine::PipelineResult Execute(cadrefine::RankExchange& exchange, vtkPointSet* input,
     const cadrefine::CADModel* model) override;
 
@@ -174,7 +177,7 @@ private:
   vtkIdType MaximumCells = 10000000;
   double TargetError = 0;
   bool QuadraticCells = false;
-  int ErrorMarking = THRESHOLD;
+  int ErrorMarking = BULK;
   double ErrorThreshold = 0;
   double ErrorFraction = 0.5;
 };

@@ -41,8 +41,7 @@ cadrefine::RefinementOptions vtkRefinementAlgorithm::MakeOptions() const
     }
   };
   add(this->GetOwnCriterion());
-  add(MakeCriterion(this->IndicatorArray, this->IndicatorMarking, this->IndicatorThreshold,
-    this->IndicatorFraction));
+  add(this->GetIndicator());
   for (const auto& [array, limit] :
     { std::pair(cadrefine::arrays::chordError, this->ChordTolerance),
       std::pair(cadrefine::arrays::normalAngle, this->NormalAngle) })
@@ -59,10 +58,17 @@ cadrefine::RefinementOptions vtkRefinementAlgorithm::MakeOptions() const
   return options;
 }
 
+MarkingCriterion vtkRefinementAlgorithm::GetIndicator() const
+{
+  return MakeCriterion(this->IndicatorArray, this->IndicatorMarking, this->IndicatorThreshold,
+    this->IndicatorFraction);
+}
+
 std::vector<std::string> vtkRefinementAlgorithm::GetCellArraysRead() const
 {
+  const cadrefine::RefinementOptions options = this->MakeOptions();
   std::vector<std::string> names;
-  for (const MarkingCriterion& criterion : this->MakeOptions().criteria)
+  for (const MarkingCriterion& criterion : options.criteria)
   {
     names.push_back(criterion.array);
   }
@@ -70,7 +76,7 @@ std::vector<std::string> vtkRefinementAlgorithm::GetCellArraysRead() const
   {
     names.push_back(cadrefine::arrays::chordError); // for the faces' own tolerances
   }
-  return names;
+  return options.uniform ? std::vector<std::string>{} : names;
 }
 
 void vtkRefinementAlgorithm::PrintSelf(ostream& os, vtkIndent indent)

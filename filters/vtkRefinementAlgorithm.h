@@ -121,6 +121,9 @@ protected:
 
   std::vector<std::string> GetCellArraysRead() const override;
 
+  /// Empty: none.
+  cadrefine::MarkingCriterion GetIndicator() const;
+
   /// Criterion on an array ("" and "None", the panel's entry for no array: none).
   static cadrefine::MarkingCriterion MakeCriterion(
     const std::string& array, int strategy, double threshold, double fraction);

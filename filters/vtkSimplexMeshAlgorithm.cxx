@@ -9,10 +9,13 @@
 #include "pipeline/GeometryCache.h"
 #include "pipeline/InputSplit.h"
 #include "pipeline/PipelineContext.h"
+#include "pipeline/PropertyCheck.h"
 #include "vtkCADModelCache.h"
 
+#include <cadrefine/base/Error.h>
 #include <cadrefine/cad/model/CADModel.h>
 
+#include <vtkAlgorithm.h>
 #include <vtkCellData.h>
 #include <vtkDataObject.h>
 #include <vtkInformation.h>
@@ -43,6 +46,7 @@ int vtkSimplexMeshAlgorithm::FillInputPortInformation(int port, vtkInformation* 
   if (port == 1)
   {
     info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPartitionedDataSetCollection");
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1); // VTK's own complaint has a line a pass
     return 1;
   }
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
@@ -50,12 +54,46 @@ int vtkSimplexMeshAlgorithm::FillInputPortInformation(int port, vtkInformation* 
   return 1;
 }
 
+namespace
+{
+
+/// The CAD of the algorithm, or of the nearest one above it that has one; null without.
+vtkDataObject* findCAD(vtkAlgorithm* algorithm)
+{
+  const auto* filter = vtkSimplexMeshAlgorithm::SafeDownCast(algorithm);
+  if (filter && algorithm->GetNumberOfInputPorts() == 2 &&
+      algorithm->GetNumberOfInputConnections(1) > 0)
+  {
+    return algorithm->GetInputDataObject(1, 0);
+  }
+  vtkDataObject* cad = nullptr;
+  if (algorithm->GetNumberOfInputPorts() > 0)
+  {
+    for (int i = 0; !cad && i < algorithm->GetNumberOfInputConnections(0); ++i)
+    {
+      cad = findCAD(algorithm->GetInputAlgorithm(0, i));
+    }
+  }
+  return cad;
+}
+
+} // namespace
+
 std::shared_ptr<const cadrefine::CADModel> vtkSimplexMeshAlgorithm::FindModel(
-  cadrefine::RankExchange& exchange, vtkInformationVector* input) const
+  cadrefine::RankExchange& exchange)
 {
   std::shared_ptr<const cadrefine::CADModel> model;
-  cadrefine::agreeOnFailure(
-    exchange, [&] { model = vtkCADModelCache::Get(vtkDataObject::GetData(input)); });
+  cadrefine::agreeOnFailure(exchange,
+    [&]
+    {
+      vtkDataObject* cad = findCAD(this);
+      if (!cad)
+      {
+        throw cadrefine::Error("choose a CAD: open the .step, .iges or .brep file, and set the "
+                               "property CAD to that CAD Reader");
+      }
+      model = vtkCADModelCache::Get(cad);
+    });
   return model;
 }
 
@@ -135,12 +173,17 @@ void vtkSimplexMeshAlgorithm::Run(
   std::shared_ptr<const cadrefine::CADModel> model;
   if (this->GetNumberOfInputPorts() == 2)
   {
-    model = this->FindModel(exchange, inputs[1]);
+    model = this->FindModel(exchange);
   }
-  cadrefine::agreeOnFailure(
-    exchange, [&] { cadrefine::checkInput(vtkPointSet::GetData(inputs[0])); });
-  const cadrefine::InputSplit parts =
-    cadrefine::splitInput(vtkPointSet::GetData(inputs[0]), this->GetCellArraysRead());
+  vtkPointSet* input = vtkPointSet::GetData(inputs[0]);
+  const std::vector<std::string> cellArrays = this->GetCellArraysRead();
+  cadrefine::agreeOnFailure(exchange,
+    [&]
+    {
+      cadrefine::checkInput(input);
+      cadrefine::checkCellArrays(input, cellArrays);
+    });
+  const cadrefine::InputSplit parts = cadrefine::splitInput(input, cellArrays);
   if (this->ChangesMesh())
   {
     cadrefine::removeMeasured(parts.fields.ofCells, parts.fields.ofMesh);

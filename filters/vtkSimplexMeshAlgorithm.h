@@ -53,7 +53,8 @@ public:
   vtkTypeMacro(vtkSimplexMeshAlgorithm, vtkPointSetAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /// The CAD model: the output of a vtkCADReader. For the filters that need it.
+  /// The CAD model: the output of a vtkCADReader. For the filters that need it. Not set: that of
+  /// the nearest filter above in the pipeline that has one, onto which the mesh was projected.
   void SetCADConnection(vtkAlgorithmOutput* cad) { this->SetInputConnection(1, cad); }
 
   ///@{
@@ -148,8 +149,7 @@ private:
   vtkSimplexMeshAlgorithm(const vtkSimplexMeshAlgorithm&) = delete;
   void operator=(const vtkSimplexMeshAlgorithm&) = delete;
 
-  std::shared_ptr<const cadrefine::CADModel> FindModel(
-    cadrefine::RankExchange& exchange, vtkInformationVector* input) const;
+  std::shared_ptr<const cadrefine::CADModel> FindModel(cadrefine::RankExchange& exchange);
 
   /// Makes the output, with the kept result if it can.
   void Run(cadrefine::RankExchange& exchange, vtkInformationVector** inputs,

@@ -1,6 +1,12 @@
 #include "pipeline/PropertyCheck.h"
 
+#include "fields/CADArrays.h"
+
 #include <cadrefine/base/Error.h>
+
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkPointSet.h>
 
 #include <cmath>
 #include <sstream>
@@ -23,6 +29,21 @@ std::string rangeOf(double lowest, double highest)
   return text.str();
 }
 
+/// Their names, or "none".
+std::string numericArraysOf(vtkCellData* cells)
+{
+  std::string names;
+  for (int a = 0; a < cells->GetNumberOfArrays(); ++a)
+  {
+    vtkDataArray* array = cells->GetArray(a);
+    if (array && array->GetName())
+    {
+      names += (names.empty() ? "" : ", ") + std::string(array->GetName());
+    }
+  }
+  return names.empty() ? "none" : names;
+}
+
 } // namespace
 
 void checkProperty(const char* name, double value, double lowest, double highest)
@@ -33,6 +54,23 @@ void checkProperty(const char* name, double value, double lowest, double highest
     reason << "the property " << name << " is " << value << ", which is not "
            << rangeOf(lowest, highest);
     throw Error(reason.str());
+  }
+}
+
+void checkCellArrays(vtkPointSet* mesh, const std::vector<std::string>& names)
+{
+  vtkCellData* cells = mesh->GetCellData();
+  for (const std::string& name : names)
+  {
+    if (mesh->GetNumberOfCells() > 0 && !cells->GetArray(name.c_str()))
+    {
+      const bool isMeasured = name == arrays::error || name == arrays::errorDistance ||
+                              name == arrays::chordError || name == arrays::normalAngle;
+      throw Error("the mesh has no cell array " + name +
+                  (isMeasured ? ": measure it first with CAD Geometric Error"
+                              : " of numbers to mark cells by") +
+                  "; cell arrays here: " + numericArraysOf(cells));
+    }
   }
 }
 

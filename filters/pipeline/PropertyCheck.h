@@ -2,6 +2,10 @@
 #pragma once
 
 #include <limits>
+#include <string>
+#include <vector>
+
+class vtkPointSet;
 
 namespace cadrefine
 {
@@ -18,6 +22,10 @@ inline void checkProperty(const char* name, double value)
 {
   checkProperty(name, value, -std::numeric_limits<double>::infinity());
 }
+
+/// Throws Error where the cells lack one of these arrays of numbers: how to get it, and which there
+/// are. A rank without cells need not have any.
+void checkCellArrays(vtkPointSet* mesh, const std::vector<std::string>& names);
 
 /// Six bounds, xmin xmax ymin ymax zmin zmax: finite, and no lower one above its upper one.
 void checkBox(const char* name, const double* bounds);

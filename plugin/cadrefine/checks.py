@@ -82,9 +82,11 @@ def check(options):
         raise Failure("--indicator and --indicator-threshold go together")
     if options.indicator_marking != "threshold" and options.indicator is None:
         raise Failure(f"--indicator-marking {options.indicator_marking} needs an --indicator")
-    if options.marking != "threshold" and options.threshold is None:
-        raise Failure(f"--marking {options.marking} needs a --threshold")
-    check_fraction("--threshold", options.marking, options.threshold)
+    if options.marking == "threshold" and options.threshold is None:
+        raise Failure("--marking threshold needs a --threshold")
+    if options.marking == "off" and options.threshold is not None:
+        raise Failure("--threshold and --marking off exclude each other")
+    check_fraction("--threshold", options.marking or "threshold", options.threshold)
     check_fraction("--indicator-threshold", options.indicator_marking, options.indicator_threshold)
     if options.projected and options.region:
         raise Failure("--region is for projecting, which --projected leaves out")

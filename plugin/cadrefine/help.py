@@ -23,7 +23,7 @@ examples:
     pvpython cadrefine.py wing.msh wing.step --method uniform --report wing.json --output fine.msh
   The cells that carry 30 % of the error, until the error is 1e-4, on 8 ranks:
     mpirun -np 8 pvbatch cadrefine.py wing.vtu wing.igs --steps 40 --marking bulk --threshold 0.3 \\
-        --cut-facets --target-error 1e-4 --output fine.pvtu
+        --target-error 1e-4 --output fine.pvtu
   Where a solver's cell array "eta" is larger than 1e-3, on a mesh that an earlier run wrote:
     pvpython cadrefine.py flow.vtu wing.igs --projected --steps 1 --indicator eta \\
         --indicator-threshold 1e-3 --output next.vtu

@@ -12,7 +12,7 @@ from cadrefine.session import Failure, flush, speaks
 UNITS = ("m", "cm", "mm", "in", "inch", "ft")  # Of the CAD Reader.
 BOX = ("X0", "X1", "Y0", "Y1", "Z0", "Z1")
 NEGATIVE = re.compile(r"-(\.?\d|inf|nan)", re.IGNORECASE)  # How negative numbers begin.
-MARKING = ("threshold", "indicator", "chord_tolerance", "normal_angle", "cut_facets")  # Of longest edge bisection.
+MARKING = ("threshold", "marking", "indicator", "chord_tolerance", "normal_angle", "cut_facets")
 
 
 def parse(arguments):
@@ -39,7 +39,7 @@ def results(options):
 
 def remarks(options):
     """What is worth a word, though it is no mistake."""
-    given = [name for name in MARKING if getattr(options, name) not in (None, False, 0.0)]
+    given = [name for name in MARKING if getattr(options, name) not in (None, 0.0)]
     if options.method == "uniform" and given:
         names = ", ".join("--" + name.replace("_", "-") for name in given)
         yield f"Without effect, as --method uniform refines all cells: {names}"
@@ -66,7 +66,8 @@ def option_parser():
                        "CADEntity, CADName, ... (default)")
     add_steps(parser.add_argument_group("steps"))
     add_marking(parser.add_argument_group(
-        "marking", "Longest edge bisection refines cells that any of these marks; all cells, if none is given."))
+        "marking", "Longest edge bisection refines cells that any of these marks; where none is given, the fewest\n"
+        "  cells that carry half of the geometric error (--marking bulk --threshold 0.5)."))
     add_geometry(parser.add_argument_group("geometry"))
     add_results(parser.add_argument_group("results"))
     return parser
@@ -89,13 +90,14 @@ def add_steps(group):
 
 
 def add_marking(group):
+    group.add_argument("--marking", choices=[*STRATEGIES, "off"],
+                       help="by the geometric error of a cell, an area in 2D, a volume in 3D: the fewest cells that carry "
+                       "the part E of its sum (bulk, after Doerfler), those where it is at least the part E of the "
+                       "largest one (fraction), or larger than E (threshold); off: not by it, and with no other "
+                       "criterion all cells (default: bulk if there is no other criterion, else off)")
     group.add_argument("--threshold", type=positive, metavar="E",
-                       help="by the geometric error of a cell: those where it is larger than E, an area in 2D, a "
-                       "volume in 3D; or what --marking makes of E (default: not used)")
-    group.add_argument("--marking", choices=list(STRATEGIES), default="threshold",
-                       help="what E is: a bound (threshold, default), a part of the largest error, from which on cells "
-                       "are marked (fraction), or a part of the sum, which the fewest cells shall carry (bulk, after "
-                       "Doerfler); parts are above 0 and at most 1")
+                       help="the E of --marking: for bulk and fraction above 0 and at most 1 (default 0.5); alone it "
+                       "means --marking threshold")
     group.add_argument("--indicator", metavar="ARRAY",
                        help="by this cell array of MESH, such as a solver's error indicator; needs "
                        "--indicator-threshold (default: not used)")
@@ -110,8 +112,8 @@ def add_marking(group):
     group.add_argument("--normal-angle", type=angle, default=0.0, metavar="DEGREES",
                        help="those with a facet that makes a larger angle with a neighbour, across no crease of the "
                        "CAD (default 0: not used)")
-    group.add_argument("--cut-facets", action="store_true",
-                       help="bisect marked cells on until their facets on the CAD are cut")
+    group.add_argument("--cut-facets", action=argparse.BooleanOptionalAction,
+                       help="bisect marked cells on until their facets on the CAD are cut (default: yes)")
 
 
 def add_geometry(group):

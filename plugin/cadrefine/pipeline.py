@@ -34,8 +34,10 @@ class Pipeline:
 
     def check(self, options):
         """Finds what cannot be done with the mesh before any work is."""
-        if options.indicator is not None:
-            self.largest(options.indicator)
+        if options.indicator is not None and self.mesh.CellData[options.indicator] is None:
+            names = ", ".join(self.mesh.CellData.keys()) or "none"
+            raise Failure(f"{self.mesh_path}: there is no cell array {options.indicator} (--indicator); cell arrays "
+                          f"there: {names}")
         if options.quadratic and local_output(self.mesh).IsA("vtkPolyData"):
             raise Failure(f"{self.mesh_path}: poly data cannot hold quadratic cells (--quadratic); use a .vtu file")
 
@@ -50,7 +52,8 @@ class Pipeline:
         """Projects the mesh, unless an earlier run did, and adapts it. `end_step(kind)` is called after each step, when
         `mesh`, `values`, `seconds` and `costs` are those of the step. Returns why there was no further one."""
         if options.projected and self.mesh.PointData["CADDimension"] is None:
-            raise Failure(f"{self.mesh_path}: there is no point array CADDimension: the mesh was not projected")
+            raise Failure(f"{self.mesh_path}: there is no point array CADDimension; --projected takes what an earlier "
+                          "run wrote")
         adaptation = simple.AdaptToCAD(Input=self.mesh, CAD=self.cad, **adaptation_properties(options))
 
         def take_step(mesh):
@@ -74,13 +77,6 @@ class Pipeline:
         table = adaptation.GetClientSideObject().GetOutputDataObject(1)
         return table.GetFieldData().GetAbstractArray("StopReason").GetValue(0)
 
-    def largest(self, name):
-        """Of a cell array of the last mesh, over all ranks."""
-        array = self.mesh.CellData[name]
-        if array is None:
-            raise Failure(f"{self.mesh_path}: there is no cell array {name}")
-        return array.GetRange(0)[1]
-
     def timed(self, phase, work):
         started = time.perf_counter()
         result = work()
@@ -95,8 +91,8 @@ def adaptation_properties(options):
     """Of Adapt To CAD, whose 0 stands for no limit."""
     properties = {"StartProjected": int(options.projected), "MaximumDistance": options.maximum_distance,
                   "RecursionDepth": options.recursion_depth, "UniformSteps": options.uniform_steps,
-                  "MaximumSteps": options.steps, "Method": METHODS[options.method], "ErrorMarking": "Off",
-                  "IndicatorArray": "None", "ProjectNewVertices": int(not options.no_cad),
+                  "MaximumSteps": options.steps, "Method": METHODS[options.method], "IndicatorArray": "None",
+                  "ProjectNewVertices": int(not options.no_cad),
                   "QuadraticCells": int(options.quadratic), "MaximumCells": 0, "TargetError": 0,
                   "Faces": options.faces, "BoundaryCells": int(bool(options.output and options.boundary_cells))}
     if options.region:
@@ -114,15 +110,27 @@ def adaptation_properties(options):
 def marking_properties(options):
     """By what cells are marked."""
     properties = {"ChordTolerance": options.chord_tolerance, "NormalAngle": options.normal_angle,
-                  "CutFacets": int(options.cut_facets)}
-    for name, strategy, value in (("Error", options.marking, options.threshold),
-                                  ("Indicator", options.indicator_marking, options.indicator_threshold)):
-        if value is not None:
-            properties[name + "Marking"] = STRATEGIES[strategy]
-            properties[name + ("Threshold" if strategy == "threshold" else "Fraction")] = value
+                  "CutFacets": int(options.cut_facets is not False)}
+    properties.update(criterion("Error", *error_marking(options)))
     if options.indicator is not None:
         properties["IndicatorArray"] = options.indicator
+        properties.update(criterion("Indicator", options.indicator_marking, options.indicator_threshold))
     return properties
+
+
+def error_marking(options):
+    """How the geometric error marks cells: the strategy, and its threshold or part."""
+    others = options.indicator is not None or options.chord_tolerance or options.normal_angle
+    strategy = options.marking or ("threshold" if options.threshold is not None else "off" if others else "bulk")
+    return strategy, 0.5 if options.threshold is None else options.threshold
+
+
+def criterion(name, strategy, value):
+    """The properties that say how the geometric error ("Error") or the indicator marks cells."""
+    if strategy == "off":
+        return {name + "Marking": "Off"}
+    return {name + "Marking": STRATEGIES[strategy],
+            name + ("Threshold" if strategy == "threshold" else "Fraction"): value}
 
 
 def told(proxy, name):

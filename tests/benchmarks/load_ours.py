@@ -86,7 +86,7 @@ def adaptive():
     before = measured(coarse, cad)
     mesh = refined(coarse, cad, Method="Uniform Bisection", Levels=2)
     return checks(before, updated(simple.AdaptToCAD(Input=mesh, CAD=cad, RecursionDepth=1, MaximumSteps=4,
-                                                            MaximumCells=0)))
+                                                    MaximumCells=0, ErrorMarking="Threshold")))
 
 
 def cycles():

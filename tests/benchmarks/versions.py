@@ -47,9 +47,10 @@ def uniform(mesh, cad, on_cad):
 
 
 CASES = {
-    "NACA, Adapt To CAD, threshold 0": (NACA, lambda *case: adapt(*case, MaximumSteps=9)),
+    "NACA, Adapt To CAD, threshold 0": (NACA, lambda *case: adapt(*case, MaximumSteps=9, ErrorMarking="Threshold")),
     "NACA, Adapt To CAD, bulk 0.5": (NACA, lambda *case: adapt(*case, MaximumSteps=18, ErrorMarking="Bulk")),
-    "nose, Adapt To CAD, threshold 0": (NOSE, lambda *case: adapt(*case, MaximumSteps=5, UseRegion=1, Region=REGION)),
+    "nose, Adapt To CAD, threshold 0": (NOSE, lambda *case: adapt(*case, MaximumSteps=5, UseRegion=1, Region=REGION,
+                                                                  ErrorMarking="Threshold")),
     "nose, Adapt To CAD, bulk 0.5": (NOSE, lambda *case: adapt(*case, MaximumSteps=9, UseRegion=1, Region=REGION,
                                                                ErrorMarking="Bulk")),
     "nose, projection and error at depth 3": (NOSE, project_and_measure),

@@ -41,6 +41,7 @@ struct Marking
 
 void byThreshold(vtkAdaptToCAD* filter)
 {
+  filter->SetErrorMarking(vtkAdaptToCAD::THRESHOLD);
   filter->SetErrorThreshold(1e-3);
 }
 
@@ -189,6 +190,7 @@ TEST_F(AdaptPieces, giveTheSameWing)
     cadtest::readGrid(CADREFINE_DATA "/naca0012_coarse.vtu"), cadtest::Dealing::EmptyRank,
     [](vtkAdaptToCAD* filter)
     {
+      filter->SetErrorMarking(vtkAdaptToCAD::THRESHOLD);
       filter->SetErrorThreshold(1e-5);
       filter->SetMaximumSteps(2);
     });
@@ -270,6 +272,7 @@ void byAllSteps(vtkAdaptToCAD* filter)
 {
   filter->SetUniformSteps(1);
   filter->SetMaximumSteps(2);
+  filter->SetErrorMarking(vtkAdaptToCAD::THRESHOLD);
   filter->SetErrorThreshold(1e-3);
 }
 

@@ -93,6 +93,7 @@ TEST_F(Adapt, isTheChainOfItsFilters)
       [&](vtkAdaptToCAD* filter)
       {
         filter->SetCutFacets(cut);
+        filter->SetErrorMarking(vtkAdaptToCAD::THRESHOLD);
         filter->SetErrorThreshold(threshold);
         filter->SetMaximumSteps(3);
       }));
@@ -163,8 +164,12 @@ TEST_F(Adapt, neverMakesMoreCellsThanAllowed)
 
 TEST_F(Adapt, stopsWhereNoCellIsMarked)
 {
-  const Adapted adapted =
-    adapt(ball, [](vtkAdaptToCAD* filter) { filter->SetErrorThreshold(100); });
+  const Adapted adapted = adapt(ball,
+    [](vtkAdaptToCAD* filter)
+    {
+      filter->SetErrorMarking(vtkAdaptToCAD::THRESHOLD);
+      filter->SetErrorThreshold(100);
+    });
   EXPECT_EQ(adapted.steps(), 0u);
   std::ostringstream reason;
   reason << "no cell is marked: the largest GeometricError is "
@@ -174,10 +179,25 @@ TEST_F(Adapt, stopsWhereNoCellIsMarked)
   const Adapted full = adapt(ball,
     [](vtkAdaptToCAD* filter)
     {
+      filter->SetErrorMarking(vtkAdaptToCAD::THRESHOLD);
       filter->SetErrorThreshold(100);
       filter->SetMaximumCells(1);
     });
   EXPECT_EQ(full.reason, reason.str()) << "that there are too many cells is no reason";
+}
+
+TEST_F(Adapt, warnsOfAThresholdThatItDoesNotUse)
+{
+  const auto outcome = filters.attempt<vtkAdaptToCAD>(ball,
+    [](vtkAdaptToCAD* filter)
+    {
+      filter->SetErrorThreshold(100);
+      filter->SetMaximumSteps(0);
+    });
+  EXPECT_TRUE(outcome.succeeded);
+  ASSERT_EQ(outcome.warnings.size(), 1u);
+  EXPECT_NE(outcome.warnings[0].find("set ErrorMarking to Threshold"), std::string::npos)
+    << outcome.warnings[0];
 }
 
 TEST_F(Adapt, refinesToAChordTolerance)
@@ -258,7 +278,12 @@ TEST_F(Adapt, followsIndicatorAndGeometry)
 TEST_F(Adapt, takesPolyData)
 {
   const auto surface = cadtest::toPolyData(cadtest::sphereMesh(2, 0.03));
-  const Adapted adapted = adapt(surface, [](vtkAdaptToCAD* filter) { filter->SetMaximumSteps(6); });
+  const Adapted adapted = adapt(surface,
+    [](vtkAdaptToCAD* filter)
+    {
+      filter->SetErrorMarking(vtkAdaptToCAD::THRESHOLD);
+      filter->SetMaximumSteps(6);
+    });
   ASSERT_NE(vtkPolyData::SafeDownCast(adapted.mesh), nullptr);
   EXPECT_EQ(adapted.steps(), 6u);
   const auto& errors = adapted.columns.at("GlobalGeometricError");
@@ -304,6 +329,7 @@ TEST_F(Adapt, refinesUniformlyFirst)
     {
       filter->SetUniformSteps(1);
       filter->SetMaximumSteps(1);
+      filter->SetErrorMarking(vtkAdaptToCAD::THRESHOLD);
       filter->SetErrorThreshold(threshold);
       filter->CutFacetsOff();
     });
@@ -321,6 +347,7 @@ TEST_F(Adapt, refinesUniformlyFirst)
     {
       filter->SetUniformSteps(1);
       filter->SetMaximumSteps(0);
+      filter->SetErrorMarking(vtkAdaptToCAD::THRESHOLD);
       filter->SetErrorThreshold(100);
     });
   EXPECT_EQ(none.steps(), 1u);

@@ -229,6 +229,13 @@ TEST_F(BadArrays, valuesThatMarkCells)
   expectError(refineBy("Mark"), "the marking array Mark contains NaN");
   expectError(refineBy("Text"), "the mesh has no cell array Text of numbers to mark cells by");
   expectError(refineBy("Nothing"), "the mesh has no cell array Nothing");
+  expectError(filters.attempt<vtkRefineWithCAD>(
+                projected(), [](vtkRefineWithCAD* filter) { filter->SetChordTolerance(0.1); }),
+    "the mesh has no cell array ChordError: measure it first with CAD Geometric Error; cell arrays "
+    "here: ");
+  expectError(filters.attempt<vtkAdaptToCAD>(
+                mesh, [](vtkAdaptToCAD* filter) { filter->SetIndicatorArray("eta"); }),
+    "the mesh has no cell array eta of numbers to mark cells by; cell arrays here: ");
 }
 
 /// They go where interpolation takes them, and nowhere else.

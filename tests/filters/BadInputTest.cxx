@@ -222,6 +222,30 @@ TEST_F(BadInput, cadInputWithoutModel)
     "output of a CAD Reader");
 }
 
+TEST_F(BadInput, noCADIsChosen)
+{
+  expectFailure(filters.attempt<vtkProjectOntoCAD>(goodMesh(),
+                  [](vtkProjectOntoCAD* filter) { filter->SetInputConnection(1, nullptr); }),
+    "choose a CAD: open the .step, .iges or .brep file");
+}
+
+TEST_F(BadInput, theCADOfTheProjectionNeedNotBeChosenAgain)
+{
+  vtkNew<vtkProjectOntoCAD> project;
+  project->SetController(worldController());
+  project->SetInputDataObject(0, goodMesh());
+  project->SetInputDataObject(1, filters.cad());
+  const auto outcome = filters.attempt<vtkCADGeometricError>(goodMesh(),
+    [&](vtkCADGeometricError* filter)
+    {
+      filter->SetInputConnection(0, project->GetOutputPort());
+      filter->SetInputConnection(1, nullptr);
+    });
+  ASSERT_TRUE(outcome.succeeded) << testing::PrintToString(outcome.errors);
+  EXPECT_EQ(cadtest::fieldValue(outcome.pointSet(), "GlobalGeometricError"),
+    cadtest::fieldValue(filters.measure(filters.project(goodMesh()), 1), "GlobalGeometricError"));
+}
+
 TEST_F(BadInput, readerWithoutAFile)
 {
   for (const char* name : { "", "/nowhere/nothing.igs" })

@@ -85,6 +85,7 @@ protected:
     pipeline.refine->SetFraction(setting == wrongFraction ? 0 : 0.5);
     pipeline.refine->SetMarkingArray(setting == wrongArray ? "Missing" : "GeometricError");
     pipeline.refine->SetQuadraticCells(setting % 6 == 4);
+    pipeline.adapt->SetErrorMarking(vtkAdaptToCAD::THRESHOLD);
     pipeline.adapt->SetErrorThreshold(0.01 * (1 + setting % 3));
     pipeline.adapt->SetIndicatorArray(setting == wrongIndicator ? "Colour" : "");
     pipeline.series->Modified();

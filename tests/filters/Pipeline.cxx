@@ -18,6 +18,7 @@ Pipeline::Pipeline(vtkPointSet* piece, const std::string& cadFile,
   refine->SetThreshold(0.01);
   refine->SetLevels(2);
   adapt->SetMaximumSteps(2);
+  adapt->SetErrorMarking(vtkAdaptToCAD::THRESHOLD);
   adapt->SetErrorThreshold(0.01);
   setup(*this);
 }

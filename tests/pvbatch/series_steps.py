@@ -17,7 +17,8 @@ def pipeline(series, cad):
     projected = simple.ProjectOntoCAD(Input=series, CAD=cad)
     error = simple.CADGeometricError(Input=projected, CAD=cad)
     refined = simple.RefineWithCAD(Input=error, CAD=cad, MarkingArray="GeometricError", Threshold=1e-5, Levels=2)
-    adapted = simple.AdaptToCAD(Input=series, CAD=cad, MaximumSteps=3, ErrorThreshold=1e-5)
+    adapted = simple.AdaptToCAD(Input=series, CAD=cad, MaximumSteps=3, ErrorMarking="Threshold",
+                                ErrorThreshold=1e-5)
     return {"project": projected, "error": error, "refine": refined, "adapt": adapted,
             "validity": simple.MeshValidity(Input=refined)}
 

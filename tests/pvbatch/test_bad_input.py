@@ -160,6 +160,8 @@ class BadInput(Case):
                   for bad in ("nan", "-inf", "1e999")]
         cases += [(["--region", "0", "1", "-1e-3", "-2e-3", "0", "1"], "--region: the box is empty"),
                   (["--focus", "0", "1", "0", "1", "0", "1e300"], "argument --focus: '1e300' is not a finite number"),
+                  (["--marking", "threshold"], "--marking threshold needs a --threshold"),
+                  (["--marking", "off", "--threshold", "1"], "--threshold and --marking off exclude each other"),
                   (["--view", "0", "0", "nan"], "argument --view: 'nan' is not a finite number")]
         self.assert_refused(cases)
 
@@ -225,7 +227,7 @@ class BadInput(Case):
 
     def test_missing_indicator(self):
         self.assert_fails(self.mesh, self.cad, "--indicator", "velocity", "--indicator-threshold", "1",
-                          names="naca0012_coarse.vtu: there is no cell array velocity")
+                          names="naca0012_coarse.vtu: there is no cell array velocity (--indicator); cell arrays there: ")
 
     def test_screenshot_without_display(self):
         path = os.path.join(self.folder, "picture.png")
