@@ -17,14 +17,13 @@ sys.path.insert(0, os.path.join(ROOT, "tests", "window"))
 sys.path.insert(0, os.path.join(ROOT, "tests", "docs"))
 
 import pages
-from test_window import APPLY, PANEL, PROPERTIES, choose_cad, choose_from_menu, open_file
+from test_window import APPLY, PANEL, PROPERTIES, choose_from_menu, open_file
 from window import Window, event, python
 
 IMAGES = os.path.join(ROOT, "docs", "images")
 STEP = "/usr/share/opencascade/data/step/linkrods.step"
 WIDTH, COLORS = 900, 160  # Of a saved picture.
 TIMEOUT = 300
-OK = event("SelectInputDialog/buttonBox/1QPushButton0", "activate")
 
 
 def make_mesh(folder):
@@ -69,12 +68,11 @@ def show(window, name, association, array):
 def play(window, mesh):
     window.play(*open_file(STEP), APPLY, event("cameraToolbar/actionResetCamera", "activate"))
     window.picture("tutorial_cad")
-    window.play(*open_file(mesh), APPLY, *choose_from_menu("ProjectOntoCAD"), *choose_cad())
+    window.play(*open_file(mesh), APPLY, *choose_from_menu("ProjectOntoCAD"))
     window.picture("tutorial_inputs")
-    window.play(OK, APPLY, show(window, "ProjectOntoCAD1", "POINTS", "CADDimension"))
+    window.play(APPLY, show(window, "ProjectOntoCAD1", "POINTS", "CADDimension"))
     window.picture("tutorial_projected")
-    window.play(*select("rod.vtk"), *choose_from_menu("AdaptToCAD"), *choose_cad(), OK,
-                event(PANEL + "ErrorMarking/ComboBox", "activated", "Bulk"),
+    window.play(*select("rod.vtk"), *choose_from_menu("AdaptToCAD"),
                 event(PANEL + "MaximumSteps/LineEdit0", "set_string", "6"), APPLY,
                 show(window, "AdaptToCAD1", "CELLS", "GeometricError"))
     window.picture("tutorial_adapted")

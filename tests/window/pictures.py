@@ -10,7 +10,7 @@ import tempfile
 
 from PIL import Image
 
-from test_window import APPLY, PANEL, choose_from_menu, choose_inputs, open_file
+from test_window import APPLY, PANEL, choose_from_menu, open_file
 from window import Window, event, python
 
 SIZE = (1000, 660)
@@ -34,7 +34,7 @@ def play_cad(window, data):
 def play_region(window, data):
     window.play(python("simple.ResetSession()"), *open_file(os.path.join(data, "cylinder.brep")), APPLY,
                 *open_file(os.path.join(data, "cylinder_coarse.vtu")), APPLY,
-                *choose_from_menu("ProjectOntoCAD"), *choose_inputs(),
+                *choose_from_menu("ProjectOntoCAD"),
                 event(PANEL + "UseRegion/CheckBox", "set_boolean", "true"),
                 event(PANEL + "CADRegion/Bound3", "set_string", "0.2"),
                 python("simple.Hide(simple.FindSource('cylinder.brep'))"), *look_from(-2, 1.5, 3))
@@ -43,9 +43,9 @@ def play_region(window, data):
 
 def play_error(window):
     window.play(event(PANEL + "UseRegion/CheckBox", "set_boolean", "false"), APPLY,
-                *choose_from_menu("RefineWithCAD"), *choose_inputs(),
+                *choose_from_menu("RefineWithCAD"),
                 event(PANEL + "Levels/IntRangeWidget/LineEdit", "set_string", "2"), APPLY,
-                *choose_from_menu("CADGeometricError"), *choose_inputs(), APPLY, *look_from(-2, 1.5, 3))
+                *choose_from_menu("CADGeometricError"), APPLY, *look_from(-2, 1.5, 3))
     window.picture("window_error")
 
 

@@ -10,7 +10,7 @@ import os
 import subprocess
 import sys
 
-from test_window import APPLY, PANEL, PROPERTIES, choose_from_menu, choose_inputs, open_file, panel
+from test_window import APPLY, PANEL, PROPERTIES, choose_from_menu, open_file, panel
 from window import Display, Window, event, python
 
 TIMEOUT = 200
@@ -117,7 +117,7 @@ def play_inputs(window, data):
 
 
 def play_region(window):
-    window.play(*choose_from_menu("ProjectOntoCAD"), *choose_inputs(),
+    window.play(*choose_from_menu("ProjectOntoCAD"),
                 *panel(("CADRegion", "visible", "false")), APPLY, note("whole"),
                 event(PANEL + "UseRegion/CheckBox", "set_boolean", "true"),
                 *panel(("CADRegion", "visible", "true"), ("CADRegion/ShowBox", "checked", "true")),
@@ -141,7 +141,7 @@ def play_copies(window):
     window.play(python("simple.SetActiveSource(simple.FindSource('ProjectOntoCAD1'))"),
                 event(BUTTONS + "PropertiesCopy", "activate"),
                 python("simple.SetActiveSource(simple.FindSource('cylinder_coarse.vtu'))"),
-                *choose_from_menu("ProjectOntoCAD"), *choose_inputs(),
+                *choose_from_menu("ProjectOntoCAD"),
                 event(BUTTONS + "PropertiesPaste", "activate"),
                 *panel(("UseRegion/CheckBox", "checked", "true"), ("MaximumDistance/DoubleLineEdit0", "text", "0.25")),
                 APPLY, note("copied"))
@@ -149,7 +149,7 @@ def play_copies(window):
 
 
 def play_error(window):
-    window.play(*choose_from_menu("CADGeometricError"), *choose_inputs(), APPLY,
+    window.play(*choose_from_menu("CADGeometricError"), APPLY,
                 note_colours("error"),
                 python("notes['error'] = simple.GetActiveSource().CellData['GeometricError'].GetRange()[1]"),
                 python(f"open({window.path('trace.py')!r}, 'w').write(smtrace.stop_trace())"))

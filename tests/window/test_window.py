@@ -1,5 +1,5 @@
-"""Uses the plugin in the real ParaView window, as a person would: File > Open, Filters > CAD Refinement, the dialog
-that asks for the CAD, the panels, Apply. ParaView's own test player presses the buttons and compares the panels'
+"""Uses the plugin in the real ParaView window, as a person would: File > Open, Filters > CAD Refinement, the panels,
+which have the only CAD chosen, Apply. ParaView's own test player presses the buttons and compares the panels'
 fields; what came out is asked of the window's Python.
 
 usage: test_window.py PLUGIN DATA OUTPUT
@@ -16,7 +16,7 @@ TIMEOUT = 150
 PROPERTIES = "propertiesDock/propertiesPanel/"
 PANEL = PROPERTIES + "scrollArea/qt_scrollarea_viewport/scrollAreaWidgetContents/PropertiesFrame/ProxyPanel/"
 APPLY = event(PROPERTIES + "Accept", "activate")
-DIALOG = "SelectInputDialog/"
+CAD = ("CAD/1QComboBox0", "currentText", "NACA.IGS")  # Chosen, as it is the only one.
 RENDER_AREA = (310, 210, 1590, 1060)
 
 # Runs in the window at the end: what its pipeline holds, as JSON.
@@ -74,20 +74,6 @@ def choose_from_menu(name):
             event("menubar/menuFilters/CAD Refinement", "activate", name)]
 
 
-def choose_cad():
-    """In the dialog that asks for the inputs: the mesh is chosen, the CAD is the first of the pipeline."""
-    click = "50,7,/0:0/0:0"
-    return [check(DIALOG + "buttonFrame/CAD", "text", "CAD"),
-            event(DIALOG + "buttonFrame/CAD", "set_boolean", "true"),
-            event(DIALOG + "pipelineView", "mousePress", "1,1,0," + click),
-            event(DIALOG + "pipelineView", "mouseRelease", "1,0,0," + click)]
-
-
-def choose_inputs():
-    """The same, and OK."""
-    return [*choose_cad(), event(DIALOG + "buttonBox/1QPushButton0", "activate")]
-
-
 def panel(*fields):
     """The fields of the panel and what they must hold: (name, Qt property, value)."""
     return [check(PANEL + name, qt_property, value) for name, qt_property, value in fields]
@@ -103,9 +89,7 @@ def use(window, name, *actions):
     """Makes a filter from the menu, looks at its panel, changes it, and applies it."""
     window.play(*choose_from_menu(name))
     if name != "MeshValidity":
-        window.play(*choose_cad())
-        window.picture("dialog_" + name)
-        window.play(event(DIALOG + "buttonBox/1QPushButton0", "activate"))
+        window.play(*panel(CAD))
     window.play(*actions)
     window.picture("panel_" + name)
     window.play(APPLY)
@@ -164,11 +148,22 @@ def play_all(window, data):
                 python("simple.SetActiveSource(simple.FindSource('naca0012_coarse.vtu'))"))
     use(window, "AdaptToCAD",
         *panel(("MaximumSteps/LineEdit0", "text", "5"), ("MaximumCells/LineEdit0", "text", "10000000"),
-               ("ErrorMarking/ComboBox", "currentText", "Threshold"),
-               ("ErrorThreshold", "visible", "true"), ("ErrorFraction", "visible", "false")),
-        *chosen_marking("Bulk", "false", "true"), *chosen_marking("Off", "false", "false"),
+               ("ErrorMarking/ComboBox", "currentText", "Bulk"),
+               ("ErrorThreshold", "visible", "false"), ("ErrorFraction", "visible", "true")),
+        *chosen_marking("Threshold", "true", "false"), *chosen_marking("Off", "false", "false"),
         *chosen_marking("Fraction of Largest", "false", "true"),
         event(PANEL + "MaximumSteps/LineEdit0", "set_string", "3"))
+
+
+def play_two_cads(window, data):
+    """With a second CAD in the pipeline, a projected mesh keeps its own; a mesh that was not waits for a choice."""
+    delete = event(PROPERTIES + "Delete", "activate")
+    window.play(*open_file(os.path.join(data, "cylinder.brep")), APPLY,
+                python("simple.SetActiveSource(simple.FindSource('RefineWithCAD1'))"),
+                *choose_from_menu("CADGeometricError"), *panel(CAD), delete,
+                python("simple.SetActiveSource(simple.FindSource('naca0012_coarse.vtu'))"),
+                *choose_from_menu("ProjectOntoCAD"), *panel((*CAD[:2], "(none)"), ("CAD/1QComboBox0", "count", "3")),
+                delete, python("simple.Delete(simple.FindSource('cylinder.brep'))"))
 
 
 def report_of(window):
@@ -245,6 +240,7 @@ def main():
     plugin, data, output = map(os.path.abspath, sys.argv[1:])
     window = Window(plugin, output)
     play_all(window, data)
+    play_two_cads(window, data)
     report_path = report_of(window)
     pictures = window.run_well(TIMEOUT)
     with open(report_path, encoding="utf-8") as file:
