@@ -4,19 +4,18 @@
 #include <QTimer>
 #include <pqApplicationCore.h>
 #include <pqDataRepresentation.h>
+#include <pqOutputPort.h>
 #include <pqPipelineSource.h>
 #include <pqServerManagerModel.h>
 #include <pqView.h>
+#include <vtkPVArrayInformation.h>
+#include <vtkPVDataInformation.h>
 #include <vtkSMPVRepresentationProxy.h>
 #include <vtkSMPropertyHelper.h>
-#include <vtkSMProxyIterator.h>
-#include <vtkSMProxyManager.h>
-#include <vtkSMSessionProxyManager.h>
 #include <vtkSMSettings.h>
 #include <vtkSMTrace.h>
 #include <vtkSMTransferFunctionManager.h>
 #include <vtkSMTransferFunctionProxy.h>
-#include <vtkSmartPointer.h>
 
 #include <cmath>
 #include <limits>
@@ -38,6 +37,12 @@ bool isSavedByUser(const QString& array)
   return vtkSMSettings::GetInstance()->HasSetting(qUtf8Printable(key));
 }
 
+vtkSMProxy* tableOf(pqRepresentation* representation)
+{
+  return vtkSMPropertyHelper(representation->getProxy(), "LookupTable", /*quiet*/ true)
+    .GetAsProxy();
+}
+
 QString colourArray(vtkSMProxy* display)
 {
   auto* coloured = vtkSMPVRepresentationProxy::SafeDownCast(display);
@@ -46,22 +51,35 @@ QString colourArray(vtkSMProxy* display)
            : "";
 }
 
-/// Whether the scale ends at the largest value of the data that are shown, if it has any.
-bool fitToData(vtkSMProxy* table)
+/// The largest value of the array that these data are coloured by; 0 without any.
+double largestValue(pqDataRepresentation* representation)
 {
-  double range[2] = { 0, 0 };
-  if (!vtkSMTransferFunctionProxy::ComputeDataRange(table, range) || !(range[1] > 0))
+  const vtkSMPropertyHelper colour(representation->getProxy(), "ColorArrayName");
+  const pqOutputPort* port = representation->getOutputPortFromInput();
+  vtkPVArrayInformation* array =
+    port ? port->getDataInformation()->GetArrayInformation(
+             colour.GetInputArrayNameToProcess(), colour.GetInputArrayAssociation())
+         : nullptr;
+  return array ? array->GetComponentRange(0)[1] : 0;
+}
+
+/// Whether the scale ends at the largest value of these data, if they have any. Of these alone:
+/// beside a coarse mesh that is shown still, a fine one would have one colour.
+bool fitToData(vtkSMProxy* table, pqDataRepresentation* representation)
+{
+  const double largest = largestValue(representation);
+  if (!(largest > 0) || !std::isfinite(largest))
   {
     return false;
   }
   vtkSMTransferFunctionProxy::RescaleTransferFunction(
-    table, lowestPart * range[1], range[1], /*extend*/ false);
+    table, lowestPart * largest, largest, /*extend*/ false);
   return true;
 }
 
-void makeLogarithmic(vtkSMProxy* table)
+void makeLogarithmic(vtkSMProxy* table, pqDataRepresentation* representation)
 {
-  if (fitToData(table))
+  if (fitToData(table, representation))
   {
     vtkSMTransferFunctionProxy::MapControlPointsToLogSpace(table);
     SM_SCOPED_TRACE(PropertiesModified).arg("proxy", table);
@@ -108,7 +126,7 @@ void pqColourScales::onAdded(pqRepresentation* added)
     return;
   }
   const bool fromState = pqApplicationCore::instance()->isLoadingState();
-  const QPointer<pqRepresentation> pointer(added);
+  const QPointer<pqDataRepresentation> pointer(representation);
   const auto colourLater = [this, pointer]
   {
     // ParaView chooses the colours after its signals.
@@ -128,17 +146,24 @@ void pqColourScales::onAdded(pqRepresentation* added)
   }
 }
 
-void pqColourScales::colour(pqRepresentation* representation)
+void pqColourScales::colour(pqDataRepresentation* representation)
 {
   vtkSMProxy* display = representation->getProxy();
   const QString array = colourArray(display);
-  vtkSMProxy* table = vtkSMPropertyHelper(display, "LookupTable", /*quiet*/ true).GetAsProxy();
-  if (table && isMeasure(array) && !seen_.contains(table->GetGlobalID()))
+  vtkSMProxy* table = tableOf(representation);
+  if (table && isMeasure(array))
   {
-    seen_.insert(table->GetGlobalID());
-    if (!isSavedByUser(array))
+    if (!seen_.contains(table->GetGlobalID()))
     {
-      makeLogarithmic(table);
+      seen_.insert(table->GetGlobalID());
+      if (!isSavedByUser(array))
+      {
+        makeLogarithmic(table, representation);
+      }
+    }
+    else if (isOurs(table))
+    {
+      fitToData(table, representation);
     }
   }
   const bool isDirect = vtkSMPropertyHelper(display, "MapScalars", /*quiet*/ true).GetAsInt() == 0;
@@ -150,17 +175,15 @@ void pqColourScales::colour(pqRepresentation* representation)
   representation->renderViewEventually();
 }
 
-void pqColourScales::onDataUpdated()
+void pqColourScales::onDataUpdated(pqPipelineSource* source)
 {
-  const auto tables = vtkSmartPointer<vtkSMProxyIterator>::New();
-  tables->SetSessionProxyManager(
-    vtkSMProxyManager::GetProxyManager()->GetActiveSessionProxyManager());
-  tables->SetModeToOneGroup();
-  for (tables->Begin("lookup_tables"); !tables->IsAtEnd(); tables->Next())
+  for (pqDataRepresentation* representation : source->getRepresentations(nullptr))
   {
-    if (isMeasure(QString(tables->GetKey()).section('.', 0, 0)) && isOurs(tables->GetProxy()))
+    vtkSMProxy* table = tableOf(representation);
+    if (table && representation->isVisible() &&
+        isMeasure(colourArray(representation->getProxy())) && isOurs(table))
     {
-      fitToData(tables->GetProxy());
+      fitToData(table, representation);
     }
   }
 }

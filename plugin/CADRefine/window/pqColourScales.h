@@ -6,14 +6,14 @@
 
 #include <vtkType.h>
 
+class pqDataRepresentation;
 class pqPipelineSource;
 class pqRepresentation;
-class vtkSMProxy;
 
 /// Colours errors and distances on a logarithmic scale of four decades that ends at their largest
-/// value, when an array is coloured by for the first time, and keeps the scale to
-/// the data while the user leaves it like that. ParaView's own logarithmic scale warns at each
-/// rescaling where some values are 0, as those of all cells away from the CAD are.
+/// value, when an array is coloured by for the first time, and keeps the scale to the data that
+/// were shown or computed last while the user leaves it like that. ParaView's own logarithmic scale
+/// warns at each rescaling where some values are 0, as those of all cells away from the CAD are.
 ///
 /// Hides the legend of CAD entities, which would have a line for each of them, and of the CAD
 /// file's own colours, which has no meaning. What a state file or the user's saved defaults say is
@@ -30,8 +30,8 @@ public:
 
 private:
   void onAdded(pqRepresentation* added);
-  void onDataUpdated();
-  void colour(pqRepresentation* representation);
+  void onDataUpdated(pqPipelineSource* source);
+  void colour(pqDataRepresentation* representation);
 
   QSet<vtkTypeUInt32> seen_; ///< Look-up tables that have their scale.
 };

@@ -64,5 +64,8 @@ void pqConvergenceChart::onAdded(pqView* view, pqRepresentation* added)
   {
     vtkSMPropertyHelper(view->getProxy(), axis, /*quiet*/ true).Set(1);
   }
+  vtkSMPropertyHelper(view->getProxy(), "LeftAxisTitle", /*quiet*/ true)
+    .Set("Global geometric error (area or volume)");
+  vtkSMPropertyHelper(view->getProxy(), "BottomAxisTitle", /*quiet*/ true).Set("Cells");
   view->getProxy()->UpdateVTKObjects();
 }

@@ -7,7 +7,8 @@ class pqRepresentation;
 class pqView;
 
 /// Draws the steps of Adapt To CAD, when they are shown for the first time, as such are read: the
-/// global error over the number of cells, on logarithmic axes. What a state file says is kept.
+/// global error over the number of cells, on logarithmic axes with titles. What a state file says
+/// is kept.
 class pqConvergenceChart : public QObject
 {
   Q_OBJECT

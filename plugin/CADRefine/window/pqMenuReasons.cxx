@@ -39,8 +39,8 @@ bool isMet(vtkPVXMLElement* condition, vtkPVDataInformation* data)
                               association->second) != nullptr);
 }
 
-/// Why the data are no input of the filter; empty if they meet its conditions.
-QString reasonAgainst(vtkSMProxy* filter, vtkPVDataInformation* data)
+/// The condition of the filter that the data do not meet; null if they meet all.
+vtkPVXMLElement* unmetCondition(vtkSMProxy* filter, vtkPVDataInformation* data)
 {
   vtkSMProperty* input = filter->GetProperty("Input");
   vtkPVXMLElement* hints = input ? input->GetHints() : nullptr;
@@ -49,10 +49,22 @@ QString reasonAgainst(vtkSMProxy* filter, vtkPVDataInformation* data)
     vtkPVXMLElement* hint = hints->GetNestedElement(i);
     if (std::string(hint->GetName()) == "MenuCondition" && !isMet(hint, data))
     {
-      return hint->GetAttributeOrEmpty("reason");
+      return hint;
     }
   }
-  return {};
+  return nullptr;
+}
+
+/// Of the menus that have the action; by default menus show none.
+void showToolTips(QAction* action)
+{
+  for (QWidget* widget : action->associatedWidgets())
+  {
+    if (auto* menu = qobject_cast<QMenu*>(widget))
+    {
+      menu->setToolTipsVisible(true);
+    }
+  }
 }
 
 } // namespace
@@ -92,11 +104,13 @@ void pqMenuReasons::explain()
     }
     vtkSMProxy* filter =
       proxies->GetPrototypeProxy(qUtf8Printable(names[0]), qUtf8Printable(names[1]));
-    const QString reason = filter ? reasonAgainst(filter, port->getDataInformation()) : QString();
-    if (!reason.isEmpty())
+    vtkPVXMLElement* unmet = filter ? unmetCondition(filter, port->getDataInformation()) : nullptr;
+    action->setToolTip(unmet ? unmet->GetAttributeOrEmpty("details") : "");
+    if (unmet)
     {
       action->setEnabled(false);
-      action->setStatusTip(reason);
+      action->setStatusTip(unmet->GetAttributeOrEmpty("reason"));
+      showToolTips(action);
     }
   }
 }
