@@ -10,9 +10,10 @@ import os
 import socket
 import subprocess
 import sys
+import time
 
 from test_session import read_json
-from test_window import APPLY, choose_from_menu, choose_inputs, open_file, panel
+from test_window import APPLY, choose_from_menu, open_file, panel
 from window import Display, Window, python
 
 TIMEOUT = 150
@@ -61,8 +62,8 @@ def free_port():
 
 
 def configuration_of(plugin):
-    """The file beside the plugin's folder that names it, and says that it is loaded at once."""
-    return os.path.join(os.path.dirname(os.path.dirname(plugin)), "cadrefine.xml")
+    """The file beside the plugin that names it, and says that it is loaded at once."""
+    return os.path.join(os.path.dirname(plugin), "cadrefine.xml")
 
 
 class Server:
@@ -82,6 +83,12 @@ class Server:
                                         env=environment, stdout=self.log, stderr=subprocess.STDOUT)
 
     def __enter__(self):
+        """As soon as it waits for its client, who would complain of another try otherwise."""
+        while self.process.poll() is None:
+            with open(self.log.name, encoding="utf-8") as log:
+                if "Accepting connection" in log.read():
+                    break
+            time.sleep(0.1)
         return self
 
     def __exit__(self, *_):
@@ -117,7 +124,7 @@ def play(window, data, result):
                 *open_file(os.path.join(data, "cylinder.brep")), APPLY,
                 *open_file(os.path.join(data, "cylinder_coarse.vtu")), APPLY)
     window.picture("opened")
-    window.play(*choose_from_menu("AdaptToCAD"), *choose_inputs(),
+    window.play(*choose_from_menu("AdaptToCAD"),
                 *panel(("MaximumSteps", "visible", "true"), ("MaximumCells", "visible", "false"),
                        ("IndicatorThreshold", "visible", "false"), ("CADRegion", "visible", "false")), APPLY)
     window.picture("adapted")

@@ -11,6 +11,7 @@ import shutil
 import struct
 import subprocess
 import sys
+import threading
 import zlib
 from xml.sax.saxutils import quoteattr
 
@@ -48,6 +49,7 @@ class Window:
         self.plugin = plugin
         self.folder = folder
         self.events = []
+        self.meanwhile = None  # What is done in a thread while it runs: a function of this and the display.
         shutil.rmtree(folder, ignore_errors=True)
         for name in ("display", "runtime", "settings/ParaView", "output"):
             os.makedirs(os.path.join(folder, name), mode=0o700)
@@ -76,6 +78,8 @@ class Window:
                 Display(self.path("display"), self.size) as display:
             process = subprocess.Popen(self.command() + list(options), env=self.environment(display), stdout=log,
                                        stderr=subprocess.STDOUT)
+            if self.meanwhile:
+                threading.Thread(target=self.meanwhile, args=(self, display), daemon=True).start()
             try:
                 return process.wait(timeout)
             except subprocess.TimeoutExpired:
