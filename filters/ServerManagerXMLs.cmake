@@ -1,6 +1,35 @@
 # What proxies have in common is written once, in xml/parts: a line <?part NAME key="value"?> of a proxy's file stands
 # for the file NAME.xml there, with @key@ replaced.
 
+# The text of a proxy's file with a list of its properties, each with its documentation, at the end of that of the
+# proxy: this is what help() shows in Python.
+function (cadrefine_list_properties text result)
+  set(rest "${text}")
+  set(list "")
+  while (rest MATCHES "<([A-Za-z]+Property) name=\"([A-Za-z]+)\"")
+    set(kind "${CMAKE_MATCH_1}")
+    set(name "${CMAKE_MATCH_2}")
+    string(FIND "${rest}" "${CMAKE_MATCH_0}" begin)
+    string(SUBSTRING "${rest}" ${begin} -1 rest)
+    string(FIND "${rest}" "</${kind}>" end)
+    string(SUBSTRING "${rest}" 0 ${end} property)
+    string(SUBSTRING "${rest}" ${end} -1 rest)
+    if (NOT property MATCHES "information_only" AND property MATCHES "<Documentation>(.*)</Documentation>")
+      string(STRIP "${CMAKE_MATCH_1}" documentation)
+      string(REGEX REPLACE "\n *" "\n          " documentation "${documentation}")
+      string(APPEND list "\n        * ${name}:\n          ${documentation}")
+    endif ()
+  endwhile ()
+  if (list)
+    string(FIND "${text}" "</Documentation>" place) # the proxy's own is the first
+    string(SUBSTRING "${text}" 0 ${place} before)
+    string(SUBSTRING "${text}" ${place} -1 after)
+    string(STRIP "${before}" before)
+    set(text "${before}\n\n        Properties:\n${list}\n      ${after}")
+  endif ()
+  set(${result} "${text}" PARENT_SCOPE)
+endfunction ()
+
 # The file, with its parts, in the build folder; its path goes to the list `result`.
 function (cadrefine_put_together file result)
   get_filename_component(name "${file}" NAME)
@@ -22,6 +51,7 @@ function (cadrefine_put_together file result)
   endwhile ()
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${file}")
   set(path "${CMAKE_CURRENT_BINARY_DIR}/xml/${name}")
+  cadrefine_list_properties("${text}" text)
   file(CONFIGURE OUTPUT "${path}" CONTENT "${text}" @ONLY)
   set(${result} ${${result}} "${path}" PARENT_SCOPE)
 endfunction ()

@@ -16,7 +16,9 @@ PART = re.compile(r"<\?part (\w+)([^?]*)\?>")  # As filters/ServerManagerXMLs.cm
 
 def proxies():
     for path in sorted(glob.glob(os.path.join(pages.ROOT, "xml", "*.xml"))):
-        yield from ElementTree.fromstring(PART.sub(part, text_of(path))).iter("SourceProxy")
+        for proxy in ElementTree.fromstring(PART.sub(part, text_of(path))).iter("SourceProxy"):
+            if not proxy.get("base_proxyname"):  # Else an old name.
+                yield proxy
 
 
 def text_of(path):

@@ -54,7 +54,7 @@ def display_of_cad():
 
 report = {"cad": display_of_cad(), "charts": charts(), "sources": {key[0]: describe(source) for key, source in simple.GetSources().items()},
           "menu": {name: definition("filters", name) for name in FILTERS},
-          "functions": [name for name in FUNCTIONS if hasattr(simple, name)]}
+          "functions": [name for name in FUNCTIONS if hasattr(simple, name)], "help": simple.AdaptToCAD.__doc__}
 with open(FILE, "w") as file:
     json.dump(report, file)
 """
@@ -63,6 +63,7 @@ FILTERS = {"ProjectOntoCAD": "Project Onto CAD", "CADGeometricError": "CAD Geome
            "RefineWithCAD": "Refine With CAD", "CADBoundary": "CAD Boundary", "MeshValidity": "Mesh Validity",
            "AdaptToCAD": "Adapt To CAD"}
 FUNCTIONS = ["CADReader"] + [label.replace(" ", "") for label in FILTERS.values()]
+FUNCTIONS += ["ProjectontoCAD", "RefinewithCAD", "AdapttoCAD"]  # The old names.
 
 
 def open_file(path):
@@ -188,6 +189,8 @@ def check_registered(report):
         assert report["menu"][name] == "CAD Refinement", f"{name} is in the menu {report['menu'][name]}"
     assert by_type(report, "CADReader")["label"] == "CAD Reader"
     assert report["functions"] == FUNCTIONS, f"paraview.simple has only {report['functions']}"
+    for name in set(by_type(report, "AdaptToCAD")["properties"]) - {"FitReport", "RunStatistics", "StepStatistics"}:
+        assert f"* {name}:" in report["help"], f"help() does not list {name}: {report['help']}"
 
 
 def check_cad(report):
