@@ -85,10 +85,6 @@ cadrefine::PipelineResult vtkAdaptToCAD::Execute(
   options.quadraticCells = this->QuadraticCells;
   options.boundaryCells = this->GetBoundaryCells();
   const cadrefine::PipelineContext context = this->MakeContext(exchange, *model);
-  if (this->ErrorThreshold > 0 && this->ErrorMarking != THRESHOLD && exchange.rank() == 0)
-  {
-    context.warn("ErrorThreshold has no effect: set ErrorMarking to Threshold to mark cells by it");
-  }
 
   this->StepStatistics = "{}";
   cadrefine::AdaptationObserver observer;
@@ -107,10 +103,12 @@ cadrefine::PipelineResult vtkAdaptToCAD::Execute(
 
 MarkingCriterion vtkAdaptToCAD::GetOwnCriterion() const
 {
-  checkProperty("ErrorMarking", this->ErrorMarking, THRESHOLD, OFF);
+  checkProperty("ErrorMarking", this->ErrorMarking, THRESHOLD, AUTOMATIC);
   checkProperty("ErrorThreshold", this->ErrorThreshold, 0);
-  return MakeCriterion(this->ErrorMarking == OFF ? "" : cadrefine::arrays::error,
-    this->ErrorMarking, this->ErrorThreshold, this->ErrorFraction);
+  const int byDefault = this->ErrorThreshold > 0 ? THRESHOLD : BULK;
+  const int strategy = this->ErrorMarking == AUTOMATIC ? byDefault : this->ErrorMarking;
+  return MakeCriterion(strategy == OFF ? "" : cadrefine::arrays::error, strategy,
+    this->ErrorThreshold, this->ErrorFraction);
 }
 
 std::vector<std::string> vtkAdaptToCAD::GetCellArraysRead() const

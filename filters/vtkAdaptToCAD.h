@@ -40,10 +40,11 @@ public:
   vtkTypeMacro(vtkAdaptToCAD, vtkRefinementAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /// Geometric error in marking: as a MarkingStrategy, or not at all.
+  /// Geometric error in marking: as a MarkingStrategy, not at all, or AUTOMATIC.
   enum
   {
-    OFF = BULK + 1
+    OFF = BULK + 1,
+    AUTOMATIC
   };
 
   /// Invoked after each step; see above.
@@ -136,10 +137,10 @@ public:
 
   ///@{
   /**
-   * How cells are marked by their geometric error: a MarkingStrategy (default BULK) with
-   * ErrorFraction (default 0.5, above 0 and at most 1) or ErrorThreshold (default 0; a warning if
-   * it is set, but not used); or OFF (all cells are marked where there is no other criterion
-   * either).
+   * How cells are marked by their geometric error: a MarkingStrategy with ErrorThreshold (default
+   * 0) or ErrorFraction (default 0.5, above 0 and at most 1); OFF (all cells are marked where there
+   * is no other criterion either); or AUTOMATIC (default): THRESHOLD where ErrorThreshold is above
+   * 0, otherwise BULK.
    */
   vtkSetMacro(ErrorMarking, int);
   vtkGetMacro(ErrorMarking, int);
@@ -177,7 +178,7 @@ private:
   vtkIdType MaximumCells = 10000000;
   double TargetError = 0;
   bool QuadraticCells = false;
-  int ErrorMarking = BULK;
+  int ErrorMarking = AUTOMATIC;
   double ErrorThreshold = 0;
   double ErrorFraction = 0.5;
 };

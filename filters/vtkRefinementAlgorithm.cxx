@@ -4,6 +4,8 @@
 #include "pipeline/PropertyCheck.h"
 #include "pipeline/Refinement.h"
 
+#include <algorithm>
+
 using cadrefine::MarkingCriterion;
 
 vtkRefinementAlgorithm::vtkRefinementAlgorithm(bool cutFacets)
@@ -72,9 +74,11 @@ std::vector<std::string> vtkRefinementAlgorithm::GetCellArraysRead() const
   {
     names.push_back(criterion.array);
   }
-  if (!this->GetFaces().empty())
+  const std::vector<std::string>& faces = this->GetFaces();
+  if (std::any_of(faces.begin(), faces.end(),
+        [](const std::string& face) { return face.find('=') != std::string::npos; }))
   {
-    names.push_back(cadrefine::arrays::chordError); // for the faces' own tolerances
+    names.push_back(cadrefine::arrays::chordError); // for tolerances of their own
   }
   return options.uniform ? std::vector<std::string>{} : names;
 }

@@ -186,18 +186,26 @@ TEST_F(Adapt, stopsWhereNoCellIsMarked)
   EXPECT_EQ(full.reason, reason.str()) << "that there are too many cells is no reason";
 }
 
-TEST_F(Adapt, warnsOfAThresholdThatItDoesNotUse)
+/// By a threshold that is given, otherwise in bulk.
+TEST_F(Adapt, choosesItsMarkingByItself)
 {
-  const auto outcome = filters.attempt<vtkAdaptToCAD>(ball,
-    [](vtkAdaptToCAD* filter)
-    {
-      filter->SetErrorThreshold(100);
-      filter->SetMaximumSteps(0);
-    });
-  EXPECT_TRUE(outcome.succeeded);
-  ASSERT_EQ(outcome.warnings.size(), 1u);
-  EXPECT_NE(outcome.warnings[0].find("set ErrorMarking to Threshold"), std::string::npos)
-    << outcome.warnings[0];
+  constexpr double threshold = 2e-3;
+  const auto marked = [&](int marking, double value)
+  {
+    return adapt(ball,
+      [&](vtkAdaptToCAD* filter)
+      {
+        filter->SetErrorMarking(marking);
+        filter->SetErrorThreshold(value);
+        filter->SetMaximumSteps(2);
+      });
+  };
+  const int automatic = vtkAdaptToCAD::AUTOMATIC;
+  const auto byThreshold = marked(automatic, threshold);
+  const auto inBulk = marked(automatic, 0);
+  EXPECT_TRUE(cadtest::areSame(byThreshold.mesh, marked(vtkAdaptToCAD::THRESHOLD, threshold).mesh));
+  EXPECT_TRUE(cadtest::areSame(inBulk.mesh, marked(vtkAdaptToCAD::BULK, threshold).mesh));
+  EXPECT_NE(byThreshold.columns, inBulk.columns);
 }
 
 TEST_F(Adapt, refinesToAChordTolerance)

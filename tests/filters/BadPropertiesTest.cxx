@@ -94,7 +94,7 @@ TEST_F(BadProperties, ofAdaptToCAD)
     mesh, "MaximumDistance", &Filter::SetMaximumDistance, notLengths, anyLength);
   expectRefused<Filter>(mesh, "TargetError", &Filter::SetTargetError, notLengths, anyLength);
   expectRefused<Filter>(mesh, "ErrorThreshold", &Filter::SetErrorThreshold, notLengths, anyLength);
-  expectRefused<Filter>(mesh, "ErrorMarking", &Filter::SetErrorMarking, { -1, 4 }, " from 0 to 3");
+  expectRefused<Filter>(mesh, "ErrorMarking", &Filter::SetErrorMarking, { -1, 5 }, " from 0 to 4");
   expectRefused<Filter>(mesh, "UniformSteps", &Filter::SetUniformSteps, { -1 }, anyLength);
   expectRefused<Filter>(mesh, "MaximumSteps", &Filter::SetMaximumSteps, { -1 }, anyLength);
   expectRefused<Filter>(mesh, "MaximumCells", &Filter::SetMaximumCells, { -1 }, anyLength);

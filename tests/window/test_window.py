@@ -149,8 +149,8 @@ def play_all(window, data):
                 python("simple.SetActiveSource(simple.FindSource('naca0012_coarse.vtu'))"))
     use(window, "AdaptToCAD",
         *panel(("MaximumSteps/LineEdit0", "text", "5"), ("MaximumCells/LineEdit0", "text", "10000000"),
-               ("ErrorMarking/ComboBox", "currentText", "Bulk"),
-               ("ErrorThreshold", "visible", "false"), ("ErrorFraction", "visible", "true")),
+               ("ErrorMarking/ComboBox", "currentText", "Automatic"),
+               ("ErrorThreshold", "visible", "true"), ("ErrorFraction", "visible", "true")),
         *chosen_marking("Threshold", "true", "false"), *chosen_marking("Off", "false", "false"),
         *chosen_marking("Fraction of Largest", "false", "true"),
         event(PANEL + "MaximumSteps/LineEdit0", "set_string", "3"))
