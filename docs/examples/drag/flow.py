@@ -77,10 +77,13 @@ class Flow:
         before, after = self.state.copy(deepcopy=True), self.state.copy(deepcopy=True)
         form = self.step_form(self.state, before, time_step)
         left, right = df.Form(df.lhs(form)), df.Form(df.rhs(form))
-        conditions, matrix, solver = self.conditions(1.0, 0.0), None, krylov_solver()
+        matrix, vector = df.PETScMatrix(self.mesh.mpi_comm()), df.PETScVector(self.mesh.mpi_comm())
+        conditions, solver = self.conditions(1.0, 0.0), krylov_solver()
+        assembler = df.Assembler()  # Not df.assemble, which takes no compiled form on Debian 13.
         self.mean.vector().zero()
         for step in range(steps):
-            matrix, vector = df.assemble(left, tensor=matrix), df.assemble(right)
+            assembler.assemble(matrix, left)
+            assembler.assemble(vector, right)
             for condition in conditions:
                 condition.apply(matrix, vector)
             solver.set_operator(matrix)
