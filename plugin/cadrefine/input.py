@@ -123,6 +123,8 @@ def read_in_paraview(path):
     if reader.GetXMLName() == "CADReader":
         raise Failure(f"{path}: this is a CAD file where a mesh is due")
     session.update_reader(reader, path)
+    if reader.GetXMLName() == "FLUENTReader" and reader.GetDataInformation().GetNumberOfDataSets() == 0:
+        raise Failure(f"{path}: ParaView cannot read this as a mesh")  # This reader finds no fault with any text.
     if not local_output(reader).IsA("vtkCompositeDataSet"):
         return reader
     mesh = simple.MergeBlocks(Input=reader)
