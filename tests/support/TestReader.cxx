@@ -124,6 +124,24 @@ Bytes drawItems(const std::string& /*context*/, ByteReader& input)
   return result;
 }
 
+/// Draws eight items, of which the first come to no end, as many as its input says.
+Bytes drawForEver(const std::string& /*context*/, ByteReader& input)
+{
+  const ReadOptions options = cadrefine::takeOptions(input);
+  const auto endless = input.number<int>();
+  Bytes result(8, 'x');
+  for (int item = 0; item < 8; ++item)
+  {
+    options.noteItem(cadrefine::ReadStep::Drawing, item);
+    const bool leftOut = options.withoutDrawings.count(item) > 0;
+    for (volatile bool goesOn = item < endless && !leftOut; goesOn;)
+    {
+    }
+    result[static_cast<std::size_t>(item)] = leftOut ? '-' : 'x';
+  }
+  return result;
+}
+
 /// The notes of an attempt, which fails on several threads, or over item 0 if its input says so.
 Bytes tellNotes(const std::string& /*context*/, ByteReader& input)
 {
@@ -150,6 +168,6 @@ int main(int argc, char** argv)
     { "throw exception", throwException }, { "throw number", throwNumber },
     { "divide by zero", divideByZero }, { "crash", crash }, { "kill itself", killItself },
     { "fill memory", fillMemory }, { "stand still", standStill }, { "compute", compute },
-    { "draw items", drawItems }, { "tell notes", tellNotes } });
+    { "draw items", drawItems }, { "draw for ever", drawForEver }, { "tell notes", tellNotes } });
   return cadrefine::serveRun(argc, argv, jobs);
 }

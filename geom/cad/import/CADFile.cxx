@@ -193,7 +193,7 @@ RunLimits limitsFor(const std::string& path)
   const double megabytes = 1e-6 * static_cast<double>(std::filesystem::file_size(path));
   RunLimits limits;
   limits.cpuSeconds = static_cast<int>(std::min(day, 20 + 60 * megabytes));
-  limits.stepSeconds = static_cast<int>(std::min(day, 20 + 20 * megabytes));
+  limits.stepSeconds = static_cast<int>(std::min(day, 10 + 20 * megabytes));
   limits.megabytes = static_cast<std::uint64_t>(2048 + 100 * megabytes);
   return limits;
 }

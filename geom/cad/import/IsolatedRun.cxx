@@ -155,7 +155,7 @@ public:
   }
 
   /// To be called after a second without news. Why the process is to be ended; "" where it is not.
-  std::string look()
+  std::string look(bool& lateStep)
   {
     constexpr double little = 1e-3;
     const double now = cpuSecondsOf(process_);
@@ -170,9 +170,10 @@ public:
     {
       return "reading it stands still";
     }
-    return limits_.stepSeconds > 0 && std::min(now - stepStart_, stepClock_) > limits_.stepSeconds
-             ? "one step did not finish within " + std::to_string(limits_.stepSeconds) + " s"
-             : "";
+    lateStep =
+      limits_.stepSeconds > 0 && std::min(now - stepStart_, stepClock_) > limits_.stepSeconds;
+    return lateStep ? "one step did not finish within " + std::to_string(limits_.stepSeconds) + " s"
+                    : "";
   }
 
 private:
@@ -200,6 +201,7 @@ struct Received
 {
   std::vector<char> bytes;
   std::string cause; ///< Why the process was killed; "" where it was not.
+  bool lateStep = false;
 };
 
 Received readAll(int descriptor, pid_t process, Watch watch)
@@ -217,7 +219,7 @@ Received readAll(int descriptor, pid_t process, Watch watch)
     }
     if (ready == 0)
     {
-      received.cause = received.cause.empty() ? watch.look() : received.cause;
+      received.cause = received.cause.empty() ? watch.look(received.lateStep) : received.cause;
       if (!received.cause.empty())
       {
         kill(process, SIGKILL);
@@ -266,7 +268,9 @@ public:
     {
     }
     process_ = 0;
-    const auto seconds = static_cast<double>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec);
+    const auto seconds =
+      static_cast<double>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
+      1e-6 * static_cast<double>(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
     return { WIFSIGNALED(status) ? WTERMSIG(status) : 0, seconds };
   }
 
@@ -276,7 +280,8 @@ private:
 
 bool wasKilledByOthers(const End& end, const RunLimits& limits)
 {
-  const bool byLimit = end.signal == SIGKILL && end.cpuSeconds + 1 > limits.cpuSeconds;
+  const bool byLimit =
+    end.signal == SIGKILL && limits.spentSeconds + end.cpuSeconds + 1 > limits.cpuSeconds;
   return (end.signal == SIGKILL || end.signal == SIGTERM) && !byLimit;
 }
 
@@ -310,7 +315,7 @@ std::string causeOf(
 
 /// What a whole answer holds.
 std::vector<char> openAnswer(const std::vector<char>& answer, const std::string& context,
-  const RunLimits& limits, RunPlace place)
+  const RunLimits& limits, const RunEnd& end)
 {
   const auto payload = answer.begin() + answerHeadSize;
   switch (static_cast<AnswerKind>(answer.front()))
@@ -321,9 +326,9 @@ std::vector<char> openAnswer(const std::vector<char>& answer, const std::string&
       throw Error(std::string(payload, answer.end()));
     case AnswerKind::OutOfMemory:
       throw RunFailure(context,
-        "reading it takes more than " + std::to_string(limits.megabytes) + " MiB of memory", place);
+        "reading it takes more than " + std::to_string(limits.megabytes) + " MiB of memory", end);
     default:
-      throw RunFailure(context, std::string(payload, answer.end()), place);
+      throw RunFailure(context, std::string(payload, answer.end()), end);
   }
 }
 
@@ -357,12 +362,12 @@ std::vector<char> runIsolated(const std::string& job, const std::string& context
     throwCannotBeRead(
       context, "the program " + program + " does not start, or is of another CADRefine");
   }
-  const RunPlace place = state.get()->place;
+  const RunEnd reached{ state.get()->place, end.cpuSeconds, received.lateStep };
   if (!isComplete(received.bytes))
   {
-    throw RunFailure(context, causeOf(received.cause, end, limits, context), place);
+    throw RunFailure(context, causeOf(received.cause, end, limits, context), reached);
   }
-  return openAnswer(received.bytes, context, limits, place);
+  return openAnswer(received.bytes, context, limits, reached);
 }
 
 } // namespace cadrefine

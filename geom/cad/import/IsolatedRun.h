@@ -21,6 +21,7 @@ struct RunLimits
   /// From one noteProgress() to the next, of computing and on the clock (on several threads the
   /// former runs faster); 0: no limit.
   int stepSeconds = 0;
+  double spentSeconds = 0; ///< Of cpuSeconds, by other runs for the same.
 };
 
 /// Which part of the work a run was at, in numbers of its own (see noteStep).
@@ -30,22 +31,31 @@ struct RunPlace
   int item = -1;
 };
 
+/// How far a run came that gave no answer.
+struct RunEnd
+{
+  RunPlace place;
+  double cpuSeconds = 0; ///< Of computing.
+  bool lateStep = false; ///< Whether it was ended for RunLimits::stepSeconds.
+};
+
 /// Thrown where a run ended without an answer: by a crash, an exception that is no Error, or beyond
 /// its limits.
 class RunFailure : public Error
 {
 public:
-  RunFailure(const std::string& context, const std::string& cause, RunPlace place)
-    : Error(context + ": " + cause), cause_(cause), place_(place)
+  RunFailure(const std::string& context, const std::string& cause, const RunEnd& end)
+    : Error(context + ": " + cause), cause_(cause), end_(end)
   {
   }
   /// The text without its context.
   const std::string& cause() const { return cause_; }
-  RunPlace place() const { return place_; }
+  RunPlace place() const { return end_.place; }
+  const RunEnd& end() const { return end_; }
 
 private:
   std::string cause_;
-  RunPlace place_;
+  RunEnd end_;
 };
 
 /// What the job of this name returns for `input`, in a process that prints nothing, of the program

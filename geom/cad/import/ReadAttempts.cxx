@@ -58,6 +58,14 @@ RunLimits limitsOn(int threads, RunLimits limits)
   return limits;
 }
 
+/// Takes what a run needed off the limits of those after it, so that many entities that never come
+/// to an end take little more time than one.
+void spend(const RunEnd& end, RunLimits& limits)
+{
+  limits.spentSeconds += end.cpuSeconds;
+  limits.stepSeconds = end.lateStep ? std::max(1, limits.stepSeconds / 2) : limits.stepSeconds;
+}
+
 template<typename Key>
 void write(ByteWriter& writer, const std::map<Key, std::string>& reasons)
 {
@@ -93,8 +101,8 @@ std::vector<char> withOptions(const ReadOptions& options, const std::vector<char
 
 } // namespace
 
-std::vector<char> runAttempts(const std::string& job, const std::string& context,
-  const RunLimits& limits, int threads, const std::vector<char>& input)
+std::vector<char> runAttempts(const std::string& job, const std::string& context, RunLimits limits,
+  int threads, const std::vector<char>& input)
 {
   constexpr int mostAttempts = 20;
   ReadOptions options;
@@ -108,7 +116,9 @@ std::vector<char> runAttempts(const std::string& job, const std::string& context
     }
     catch (const RunFailure& failure)
     {
-      if (attempt == mostAttempts || !leaveOut(failure, options))
+      spend(failure.end(), limits);
+      const bool isOver = attempt == mostAttempts || limits.spentSeconds + 1 > limits.cpuSeconds;
+      if (isOver || !leaveOut(failure, options))
       {
         throw;
       }

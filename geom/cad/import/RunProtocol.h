@@ -27,7 +27,7 @@ constexpr std::size_t answerHeadSize = 1 + sizeof(std::uint64_t);
 /// What both processes see. The bytes for the job follow it.
 struct RunState
 {
-  static constexpr std::uint64_t currentProtocol = 1;
+  static constexpr std::uint64_t currentProtocol = 2;
 
   /// To be raised with any change to what is passed, so that no other program is taken.
   std::uint64_t protocol = currentProtocol;

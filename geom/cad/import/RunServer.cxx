@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
@@ -118,7 +119,8 @@ void setLimits(const RunLimits& limits)
 {
   const rlimit noCore{ 0, 0 };
   setrlimit(RLIMIT_CORE, &noCore);
-  const auto seconds = static_cast<rlim_t>(limits.cpuSeconds);
+  const auto seconds =
+    static_cast<rlim_t>(std::max(1., std::ceil(limits.cpuSeconds - limits.spentSeconds)));
   const rlimit time{ seconds, seconds + 1 };
   setrlimit(RLIMIT_CPU, &time);
   limitMemory(limits.megabytes);

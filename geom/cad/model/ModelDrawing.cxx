@@ -133,7 +133,7 @@ RunLimits limitsFor(std::size_t bytes)
   const double megabytes = 1e-6 * static_cast<double>(bytes);
   RunLimits limits;
   limits.cpuSeconds = day;
-  limits.stepSeconds = static_cast<int>(std::min<double>(day, 20 + 60 * megabytes));
+  limits.stepSeconds = static_cast<int>(std::min<double>(day, 10 + 60 * megabytes));
   limits.megabytes = static_cast<std::uint64_t>(2048 + 300 * megabytes);
   return limits;
 }

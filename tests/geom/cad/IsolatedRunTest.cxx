@@ -12,6 +12,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <string>
+#include <sys/resource.h>
 #include <thread>
 #include <vector>
 
@@ -237,11 +238,39 @@ protected:
     const Bytes answer = cadrefine::runAttempts(job, "file", limits, 2, input);
     return { answer.begin(), answer.end() };
   }
+
+  /// Of computing, of the programs that have ended.
+  static double secondsOfChildren()
+  {
+    rusage usage{};
+    getrusage(RUSAGE_CHILDREN, &usage);
+    return static_cast<double>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec);
+  }
 };
 
 TEST_F(ReadAttempts, leaveOutTheItemThatCrashesAmongThreads)
 {
   EXPECT_EQ(answerOf("draw items", { 60 }, {}), "xxx-xxxx");
+}
+
+TEST_F(ReadAttempts, leaveOutWhatTakesTooLongAStep)
+{
+  EXPECT_EQ(answerOf("draw for ever", { 60, 0, 20, 1 }, inputOf(2)), "--xxxxxx");
+}
+
+TEST_F(ReadAttempts, keepToOneLimitTogether)
+{
+  const double before = secondsOfChildren();
+  try
+  {
+    answerOf("draw for ever", { 3, 0, 20, 1 }, inputOf(8));
+    FAIL();
+  }
+  catch (const cadrefine::Error& error)
+  {
+    expectError(error.what(), "did not finish within");
+  }
+  EXPECT_LT(secondsOfChildren() - before, 5);
 }
 
 TEST_F(ReadAttempts, tellOfAFailureThatOnlyThreadsHave)
