@@ -100,6 +100,8 @@ def check(options):
     for name, allowed in RESULTS.items():
         if getattr(options, name):
             session.check_writable(getattr(options, name), allowed)
+    if options.output:
+        output.check(options.output, options.quadratic)
     check_places(options)
     if options.screenshot or options.screenshot_start:
         check_display()

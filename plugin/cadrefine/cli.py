@@ -37,7 +37,7 @@ class Steps:
     def write(self):
         place = self.options.output
         path = self.results.path(place, output.companions(place))
-        output.write(self.pipeline.mesh, path, place)
+        output.write(self.pipeline.mesh, path, self.options)
         write_report(self.options, self.report.content(self.pipeline, "ended by a signal"), self.results)
         self.results.keep_on_signal([result for result in (place, self.options.report) if result],
                                     f"the mesh after step {self.report.steps[-1]['step']}")

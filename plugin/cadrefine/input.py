@@ -20,7 +20,8 @@ from cadrefine.session import Failure
 
 EXODUS = (".e", ".ex2", ".exo", ".exii", ".g")
 XDMF = (".xdmf", ".xmf")
-MESHIO = {".mesh": "medit", ".meshb": "medit", ".su2": "su2", ".vol": "netgen"}  # Its modules by extension.
+MESHIO = {".mesh": "medit", ".meshb": "medit", ".vol": "netgen"}  # Its modules by extension.
+OWN = {".su2": "su2", ".med": "med", ".foam": "openfoam"}  # Modules of cadrefine.formats.
 
 # Runs on every rank, in the process of the driver on rank 0, whose grid it hands over.
 HAND_OVER = f"""
@@ -51,13 +52,15 @@ def open_mesh(path, terminal):
 def own_reader(path):
     """A function that makes a vtkUnstructuredGrid of the file, or None where ParaView reads it."""
     ending = os.path.splitext(path)[1].lower()
-    with open(path, "rb") as file:
-        start = file.read(1000).lstrip()
+    ending = ".foam" if os.path.isdir(path) else ending
+    start = b"" if os.path.isdir(path) else start_of(path)
     formats = functools.partial(importlib.import_module, package="cadrefine.formats")
     if ending == ".msh" and (start.startswith(b"$") or b"$MeshFormat" in start):  # Else it is one of Fluent.
         return lambda: to_grid(formats(".msh").read(path))
     if ending == ".inp" and start.startswith(b"*"):  # Else it is one of AVS UCD.
         return lambda: to_grid(formats(".meshio").read(path, "abaqus"))
+    if ending in OWN:
+        return lambda: to_grid(formats("." + OWN[ending]).read(path))
     if ending in MESHIO:
         return lambda: to_grid(formats(".meshio").read(path, MESHIO[ending]))
     if ending in XDMF:
@@ -65,6 +68,11 @@ def own_reader(path):
     if ending in EXODUS:
         return lambda: formats(".exodus").read(path)
     return None
+
+
+def start_of(path):
+    with open(path, "rb") as file:
+        return file.read(1000).lstrip()
 
 
 def read_grid(read, path):

@@ -3,6 +3,7 @@
 import argparse
 import re
 
+from cadrefine import output
 from cadrefine.checks import (DEEPEST, MOST_CELLS, MOST_STEPS, RESULTS, angle, check, coordinate, number, names,
                               positive, whole)
 from cadrefine.help import DESCRIPTION, EPILOG, USAGE, Layout
@@ -12,6 +13,7 @@ from cadrefine.session import Failure, flush, speaks
 UNITS = ("m", "cm", "mm", "in", "inch", "ft")  # Of the CAD Reader.
 BOX = ("X0", "X1", "Y0", "Y1", "Z0", "Z1")
 NEGATIVE = re.compile(r"-(\.?\d|inf|nan)", re.IGNORECASE)  # How negative numbers begin.
+MSH_VERSIONS = ("2.2", "4.1")
 MARKING = ("threshold", "marking", "indicator", "chord_tolerance", "normal_angle", "cut_facets")
 
 
@@ -23,6 +25,7 @@ def parse(arguments):
             flush()
         return None
     options = option_parser().parse_args([as_given(text) for text in arguments])
+    options.output = options.output and output.place_of(options.output)
     check(options)
     return options
 
@@ -60,10 +63,14 @@ def option_parser():
     files = parser.add_argument_group("files")
     files.add_argument("mesh", metavar="MESH", help="the mesh: .vtu .pvtu .vtk .msh .xdmf .e .mesh .inp ...; see below")
     files.add_argument("cad", metavar="CAD", help="the CAD model: .igs .iges .stp .step .brep")
-    files.add_argument("--output", metavar="FILE", help="write the last mesh: .vtu, .pvtu, .xdmf or .msh; see below")
+    files.add_argument("--output", metavar="FILE", help="write the last mesh: .vtu .pvtu .xdmf .msh .med .exo .su2 .foam; "
+                       "see below")
     files.add_argument("--boundary-cells", action=argparse.BooleanOptionalAction, default=True,
                        help="write the boundary's triangles (in 2D, lines) too, each with its CAD face: cell arrays "
                        "CADEntity, CADName, ... (default)")
+    files.add_argument("--msh-version", choices=MSH_VERSIONS, default=MSH_VERSIONS[0],
+                       help="of a .msh file: 2.2, which all programs know that take .msh (default), or 4.1")
+    files.add_argument("--ascii", action="store_true", help="write a .msh file as text, not binary")
     add_steps(parser.add_argument_group("steps"))
     add_marking(parser.add_argument_group(
         "marking", "Longest edge bisection refines cells that any of these marks; where none is given, the fewest\n"

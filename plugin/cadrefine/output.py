@@ -1,10 +1,12 @@
 """Writes the last mesh, in the format that the file's name tells."""
 
+import importlib
 import os
 
 from paraview import servermanager, simple
 
 from cadrefine import pieces, session
+from cadrefine.formats import BadFile, library, openfoam_writing
 from cadrefine.formats.grid import SERIAL, from_grid
 from cadrefine.input import local_output, silence
 from cadrefine.merge import merged_grid
@@ -12,10 +14,39 @@ from cadrefine.parts import parts_of
 from cadrefine.session import Failure
 
 NOT_KEPT = {
-    ".xdmf": "names of groups, global ids, field data",
-    ".msh": "cell arrays but for tags, global ids, field data but for names of groups",
+    ".xdmf": "global ids, field data but for names of groups",
+    ".msh": "cell arrays but for groups, global ids, field data but for names of groups",
+    ".med": "arrays, but for groups",
+    ".exo": "arrays, but for groups",
+    ".e": "arrays, but for groups",
+    ".su2": "arrays, but for groups of facets on the boundary",
+    ".foam": "arrays, but for groups",
 }
 FORMATS = (".vtu", ".pvtu", *NOT_KEPT)
+WRITERS = {".msh": "msh_writing", ".xdmf": "xdmf", ".med": "med", ".exo": "exodus_writing", ".e": "exodus_writing",
+           ".su2": "su2", ".foam": "openfoam_writing"}  # Modules of cadrefine.formats.
+NEEDED = {".med": "h5py", ".exo": "scipy", ".e": "scipy"}  # Python packages.
+LINEAR_ONLY = {".su2": "SU2", ".foam": "OpenFOAM"}
+
+
+def ending(path):
+    return os.path.splitext(path)[1]
+
+
+def check(place, quadratic):
+    """Finds what would keep the last mesh from being written."""
+    try:
+        if ending(place) in NEEDED:
+            library(NEEDED[ending(place)])
+    except BadFile as error:
+        raise Failure(f"{place}: {error}") from None
+    if quadratic and ending(place) in LINEAR_ONLY:
+        raise Failure(f"{place}: {LINEAR_ONLY[ending(place)]} has no quadratic cells; leave out --quadratic")
+
+
+def place_of(path):
+    """A folder stands for the OpenFOAM case in it."""
+    return os.path.join(path, os.path.basename(os.path.abspath(path)) + ".foam") if os.path.isdir(path) else path
 
 
 def companions(path):
@@ -23,6 +54,8 @@ def companions(path):
     name = path.replace("\\", "/").rpartition("/")[2]
     if path.endswith(".xdmf"):
         return [name[: -len(".xdmf")] + ".h5", SERIAL + name]
+    if path.endswith(".foam"):
+        return [f"{openfoam_writing.FOLDER}/{file}" for file in openfoam_writing.FILES]
     if path.endswith(".pvtu"):
         folder = name[: -len(".pvtu")]
         return [f"{folder}/{folder}_{rank}.vtu" for rank in range(session.ranks())]
@@ -36,8 +69,9 @@ def files_of(place):
     return files + (parts_of(place) if place.endswith(".pvtu") and os.path.isfile(place) else [])
 
 
-def write(proxy, path, place):
-    """Writes the output of `proxy` to `path`, which will later be `place`. Failures name `place`."""
+def write(proxy, path, options):
+    """Writes the output of `proxy` to `path`, which will later be `options.output`. Failures name that."""
+    place = options.output
     session.messages.take()
     try:
         if path.endswith(".pvtu"):
@@ -45,28 +79,24 @@ def write(proxy, path, place):
         else:
             grid = gathered(proxy)
             if session.speaks():
-                write_grid(merged_grid(grid), path)
+                write_grid(merged_grid(grid), path, options)
     except OSError as error:
         raise Failure(f"{place}: {error.strerror or error}") from None
+    except BadFile as error:
+        raise Failure(f"{place}: {error}") from None
     except RuntimeError as error:
         session.messages.errors.append(str(error))
     session.raise_errors(place)
 
 
-def write_grid(grid, path):
+def write_grid(grid, path, options):
     if path.endswith(".vtu"):
         pieces.write_grid(grid, path)
         return
-    mesh = from_grid(grid)
-    if path.endswith(".msh"):
-        from cadrefine.formats import msh
-
-        msh.write(path, mesh)
-    else:
-        from cadrefine.formats import xdmf
-
-        with silence():
-            xdmf.write(path, mesh)
+    module = importlib.import_module("cadrefine.formats." + WRITERS[ending(path)])
+    how = {"version": options.msh_version, "ascii": options.ascii} if path.endswith(".msh") else {}
+    with silence():
+        module.write(path, from_grid(grid), **how)
 
 
 def gathered(proxy):

@@ -1,4 +1,5 @@
-"""The files that a mesh file names: the pieces of .pvtu and .pvtp, the blocks of .vtm, the data of .xdmf."""
+"""The files that a mesh file names: the pieces of .pvtu and .pvtp, the blocks of .vtm, the data of .xdmf, the mesh of an
+OpenFOAM case."""
 
 import html
 import os
@@ -14,6 +15,9 @@ NAMES = {
 
 def parts_of(path):
     """Paths of the files that the file `path` names, each once. It can be read."""
+    polymesh = polymesh_of(path)
+    if polymesh:
+        return sorted(os.path.join(polymesh, name) for name in os.listdir(polymesh))
     found = {}
     for endings, pattern in NAMES.items():
         if path.lower().endswith(endings):
@@ -23,10 +27,19 @@ def parts_of(path):
     return list(found)
 
 
+def polymesh_of(path):
+    """The folder polyMesh of an OpenFOAM case: of its .foam file, its folder, or that folder itself; else None."""
+    if path.endswith(".foam"):
+        path = os.path.dirname(os.path.abspath(path))
+    inside = os.path.join(path, "constant", "polyMesh")
+    is_polymesh = os.path.basename(os.path.abspath(path)) == "polyMesh" and os.path.isdir(path)
+    return inside if os.path.isdir(inside) else path if is_polymesh else None
+
+
 def all_files_of(path):
     """`path`, the files that it names, those that these name, and so on."""
     files = [path]
     for file in files:
-        if os.path.isfile(file):
+        if os.path.exists(file):
             files += [part for part in parts_of(file) if part not in files]
     return files

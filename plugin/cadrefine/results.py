@@ -21,6 +21,9 @@ from cadrefine import session
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 LOCK = "lock"
+# Of an OpenFOAM mesh, also those that would not fit a new one.
+MESH_FILES = ("points", "faces", "owner", "neighbour", "boundary", "cellZones", "faceZones", "pointZones", "cellLevel",
+              "pointLevel", "level0Edge", "surfaceIndex", "refinementHistory")
 
 
 class Results:
@@ -49,7 +52,8 @@ class Results:
         result, beside it or in a folder beside it, that go along with it."""
         folder = self.folders[place] = os.path.join(folder_of(place), str(self.step))
         files = [os.path.join(folder, name) for name in (*companions, os.path.basename(place))]
-        self.unfinished[place] = sorted({folder, *map(os.path.dirname, files)}, key=len) + files
+        folders = {os.path.join(folder, inside) for name in companions for inside in folders_of(name)}
+        self.unfinished[place] = sorted({folder, *folders}, key=len) + files
         self.arm()
         if session.speaks():
             with failing_for(place):
@@ -108,6 +112,12 @@ class Results:
             os.remove(lock_of(place))
             os.rmdir(folder_of(place))
         os.close(self.locks.pop(place))
+
+
+def folders_of(name):
+    """The folders of a name, the outermost first."""
+    parts = os.path.dirname(name).split("/")
+    return ["/".join(parts[:count]) for count in range(1, len(parts) + 1) if parts[0]]
 
 
 def folder_of(place):
@@ -189,11 +199,10 @@ def exchange(folder, place):
     found = [os.path.relpath(os.path.join(inside, name), folder) for inside, _, names in os.walk(folder)
              for name in names]
     actions = []
-    if len(found) > 1 and os.path.exists(place):
-        actions += [(path, "") for path in (place, *pieces_of(place))]
+    if len(found) > 1:
+        actions += [(path, "") for path in (place, *pieces_of(place)) if os.path.exists(path)]
     for name in sorted(found, key=lambda name: (name == last, name)):
-        if os.path.dirname(name):
-            actions.append(("", os.path.join(target, os.path.dirname(name))))
+        actions += [("", os.path.join(target, inside)) for inside in folders_of(name)]
         actions.append((os.path.join(folder, name), os.path.join(target, name)))
     return actions
 
@@ -209,8 +218,13 @@ def carry_out(actions):
 
 
 def pieces_of(place):
-    """The pieces that the .pvtu file at `place` names, and nothing else of the user's."""
-    if not place.endswith(".pvtu"):
+    """The pieces that the .pvtu file at `place` names, the mesh of the case of a .foam file, and nothing else of the
+    user's."""
+    if place.endswith(".foam"):
+        folder = os.path.join(os.path.dirname(os.path.abspath(place)), "constant", "polyMesh")
+        return [path for path in (os.path.join(folder, name + packed) for name in MESH_FILES for packed in ("", ".gz"))
+                if os.path.isfile(path)]
+    if not place.endswith(".pvtu") or not os.path.isfile(place):
         return []
     with open(place, encoding="utf-8", errors="replace") as file:
         named = re.findall(r'<Piece\s+Source="([^"]*)"', file.read())

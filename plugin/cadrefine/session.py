@@ -10,6 +10,7 @@ from paraview import simple
 from paraview.modules.vtkRemotingCore import vtkProcessModule
 
 from cadrefine import messages
+from cadrefine.parts import polymesh_of
 
 PLUGIN = "CADRefine.so"
 HERE = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))  # Where the package and the command are.
@@ -124,11 +125,11 @@ def fail_with_traceback():
 def check_readable(path):
     if not os.path.exists(path):
         raise Failure(f"{path}: no such file")
-    if os.path.isdir(path):
-        raise Failure(f"{path}: is a folder, not a file")
+    if os.path.isdir(path) and not polymesh_of(path):
+        raise Failure(f"{path}: is a folder, not a file, and there is no constant/polyMesh in it")
     if not os.access(path, os.R_OK):
         raise Failure(f"{path}: may not be read")
-    if os.path.getsize(path) == 0:
+    if os.path.getsize(path) == 0 and not path.endswith(".foam"):
         raise Failure(f"{path}: the file is empty")
 
 

@@ -95,7 +95,7 @@ class BadFormats(unittest.TestCase):
         mesh = self.write("tetrahedron.inp", TETRAHEDRON)
         (line,), _ = driver.many(RANKS, self.folder, [
             {"arguments": [mesh, WING[1], "--quiet", "--steps", "0"], "without": "meshio"}])
-        self.assertEqual(line, f"{mesh}: to read it, the Python package meshio is needed (Debian: python3-meshio)")
+        self.assertEqual(line, f"{mesh}: the Python package meshio is needed for this format (Debian: python3-meshio)")
 
     def test_writing(self):
         """Whatever fails, the results of the run before stay as they were, and there is nothing beside them."""
@@ -106,7 +106,7 @@ class BadFormats(unittest.TestCase):
         before = self.contents()
         self.assertLessEqual({"out.vtu", "out.pvtu", "out/out_0.vtu", "out.msh", "out.xdmf", "out.h5"}, set(before))
         steps[-2] = "1"
-        broken = {".vtu": "cadrefine.pieces.write_grid", ".msh": "cadrefine.formats.msh.write",
+        broken = {".vtu": "cadrefine.pieces.write_grid", ".msh": "cadrefine.formats.msh_writing.write",
                   ".xdmf": "cadrefine.formats.xdmf.arrange"}
         runs = [{"arguments": [*steps, results[ending]], "fails": function} for ending, function in broken.items()]
         late = ["--plot", self.path("plot.png")]

@@ -21,6 +21,7 @@ CAD = driver.data("cylinder.brep")
 CHILDREN = {"tetra": 8, "triangle": 4, "line": 2}  # Of each cell in a uniform step.
 TAGS = {**{f"gmsh{kind}.msh": "gmsh:physical" for kind in ("2text", "2binary", "4text", "4binary")},
         "text.xdmf": "gmsh:physical", "mixed.xdmf": "gmsh:physical", "gmsh.vtk": "CellEntityIds"}
+BACK = ("back.med", "back.exo", "back.su2", "case")
 
 READ_XDMF = """
 import json, sys
@@ -70,10 +71,16 @@ class Formats(unittest.TestCase):
         runs = [[cls.path(name), CAD, *step, "--output", cls.path(name + ".vtu")] for name in names]
         runs += [[cls.path("gmsh4binary.msh"), CAD, *step, "--output", cls.path("out" + ending)]
                  for ending in (".msh", ".xdmf")]
+        os.makedirs(cls.path("case"))
+        runs += [[cls.path("gmsh4binary.msh"), CAD, "--steps", "0", "--output", cls.path(name)]
+                 for name in ("back.med", "back.exo", "back.su2", "case")]
+        runs += [[cls.path(name), CAD, "--steps", "0", "--output", cls.path(os.path.basename(name) + ".msh")]
+                 for name in BACK]
         runs += [[cls.path("exodus.ex2"), CAD, *step, "--output", cls.path("exodus.msh")],
                  [cls.path("disc.msh"), cls.path("disc.brep"), *step, "--output", cls.path("disc_out.xdmf")],
                  [cls.path("disc.msh"), cls.path("disc.brep"), *step, "--output", cls.path("disc_out.msh")],
                  [cls.path("out.xdmf"), CAD, "--steps", "0", "--quadratic", "--output", cls.path("curved.msh")]]
+        runs += [[cls.path("all.msh"), CAD, *step, "--output", cls.path("all_out.msh"), "--msh-version", "4.1", "--ascii"]]
         failures, cls.output = driver.many(RANKS, cls.folder, [{"arguments": run} for run in runs])
         assert not any(failures), failures
 
@@ -116,6 +123,15 @@ class Formats(unittest.TestCase):
         self.assertEqual(counted(mesh, "wall")["triangle"][1], walls[meshes.WALL])
         first = counted(mesh, "first wall")["triangle"][1]
         self.assertTrue(0 < first < walls[meshes.WALL])
+
+    def test_cells_in_two_groups_for_gmsh(self):
+        with open(self.path("all_out.msh"), encoding="ascii") as file:
+            self.assertEqual(file.read(19), "$MeshFormat\n4.1 0 8")
+        coarse, fine = self.groups_in_gmsh("all.msh"), self.groups_in_gmsh("all_out.msh")
+        self.assertIn((2, 22), coarse)
+        factors = {3: 8, 2: 4, 1: 2}
+        self.assertEqual(fine, {(dimension, tag): (name, factors[dimension] * count)
+                                for (dimension, tag), (name, count) in coarse.items()})
 
     def test_medit(self):
         tags = children(counted(meshio.medit.read(self.path("gmsh.mesh")), "medit:ref"))
@@ -188,6 +204,30 @@ class Formats(unittest.TestCase):
         self.assertEqual(set(self.groups_in_gmsh("exodus.msh").values()),
                          {("steel", 8 * self.exodus[1]), ("air", 8 * self.exodus[2]), ("wall", 4 * self.exodus[7])})
         self.assertEqual(self.groups_in_gmsh("disc_out.msh")[1, 4][0], "rim")
+
+    def test_there_and_back(self):
+        """Written in the format of a solver, and read again: the same groups. Of those of OpenFOAM and SU2 each facet
+        is in one, and names have no spaces; SU2 has none of volume cells."""
+        expected = counted(self.coarse, "gmsh:physical")
+        kinds = {3: "tetra", 2: "triangle", 1: "line"}
+        groups = {name: expected[kinds[dimension]][tag] for name, (tag, dimension) in meshes.GROUPS.items()}
+        for name in BACK:
+            with self.subTest(name):
+                found = dict(self.groups_in_gmsh(os.path.basename(name) + ".msh").values())
+                wanted = {group.replace(" ", "_") if "case" in name else group: count for group, count in groups.items()}
+                if name != "back.med":  # Groups of edges become node sets, or are left out.
+                    del wanted["rim"]
+                if "case" in name or name == "back.su2":
+                    boundary = found.pop("boundary")
+                    self.assertEqual(boundary + wanted["wall"] + wanted["ends"], self.boundary_facets())
+                if name == "back.su2":
+                    del wanted["solid body"]
+                self.assertEqual(found, wanted)
+
+    def boundary_facets(self):
+        facets = np.sort(self.coarse.cells_dict["tetra"][:, [[0, 1, 2], [0, 1, 3], [0, 2, 3], [1, 2, 3]]], axis=2)
+        _, counts = np.unique(facets.reshape(-1, 3), axis=0, return_counts=True)
+        return int((counts == 1).sum())
 
     def test_quadratic_cells_for_gmsh(self):
         """meshio and this driver agree on the order of the nodes: the middles of inner edges are where they belong."""

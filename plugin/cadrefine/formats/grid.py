@@ -4,12 +4,13 @@ import dataclasses
 
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonCore import vtkPoints, vtkStringArray
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkUnstructuredGrid
 
 PHYSICAL, GEOMETRICAL = "gmsh:physical", "gmsh:geometrical"  # Cell arrays, named as meshio names them.
-# Cell arrays that tell groups of cells, the first of them counts: of gmsh, Medit, Exodus, SU2, Netgen, .vtk files.
+PATCH_TYPES = "OpenFOAMPatchTypes"  # Field data: names of patches, and the type of each behind it.
 SERIAL = "SERIAL:"  # Before the name of an HDF5 file: this process opens it alone, not all ranks together.
+# Cell arrays that tell groups of cells, the first of them counts: of gmsh, Medit, Exodus, SU2, Netgen, .vtk files.
 TAG_ARRAYS = (PHYSICAL, "medit:ref", "ObjectId", "su2:tag", "netgen:index", "CellEntityIds", "MaterialIds")
 
 TYPES = {  # VTK's number of a type of cell: its name in meshio, its dimension, its number of points.
@@ -23,13 +24,17 @@ TYPE_OF_NAME = {name: number for number, (name, _, _) in TYPES.items()}
 @dataclasses.dataclass
 class Mesh:
     """Cells of one type after the other, in `blocks` of VTK's type and corners (cells, points); arrays over all points,
-    and over all cells in the order of the blocks; `groups` is tag and dimension by name of group."""
+    and over all cells in the order of the blocks; `groups` is tag and dimension by name of group, `entity_names` the
+    CAD's name by dimension and number of a CAD entity that cells are part of, `patch_types` OpenFOAM's type by name of
+    patch."""
 
     points: np.ndarray
     blocks: list
     point_data: dict = dataclasses.field(default_factory=dict)
     cell_data: dict = dataclasses.field(default_factory=dict)
     groups: dict = dataclasses.field(default_factory=dict)
+    entity_names: dict = dataclasses.field(default_factory=dict)
+    patch_types: dict = dataclasses.field(default_factory=dict)
 
     def cell_dimensions(self):
         return np.repeat([TYPES[number][1] for number, _ in self.blocks], [len(corners) for _, corners in self.blocks])
@@ -50,7 +55,17 @@ def to_grid(mesh):
                          (grid.GetFieldData(), {name: np.int32([pair]) for name, pair in mesh.groups.items()})):
         for name, values in arrays.items():
             data.AddArray(to_vtk(name, np.asarray(values)))
+    if mesh.patch_types:
+        grid.GetFieldData().AddArray(texts(PATCH_TYPES, [text for pair in mesh.patch_types.items() for text in pair]))
     return grid
+
+
+def texts(name, values):
+    array = vtkStringArray()
+    array.SetName(name)
+    for value in values:
+        array.InsertNextValue(value)
+    return array
 
 
 def set_cells(grid, types, offsets, corners):
@@ -86,7 +101,25 @@ def from_grid(grid):
     order = np.concatenate(order or [[]]).astype(int)
     cell_data = {name: values[order] for name, values in arrays_of(grid.GetCellData()).items()}
     return Mesh(vtk_to_numpy(grid.GetPoints().GetData()), blocks, arrays_of(grid.GetPointData()), cell_data,
-                groups_of(grid.GetFieldData()))
+                groups_of(grid.GetFieldData()), entity_names_of(grid.GetCellData()),
+                patch_types_of(grid.GetFieldData()))
+
+
+def entity_names_of(cell_data):
+    """{(dimension, entity): name} of the CAD entities that cells are part of."""
+    dimensions, entities, names = (cell_data.GetAbstractArray(name) for name in ("CADDimension", "CADEntity", "CADName"))
+    if dimensions is None or entities is None or names is None:
+        return {}
+    pairs = np.column_stack([vtk_to_numpy(dimensions), vtk_to_numpy(entities)])
+    found, cells = np.unique(pairs, axis=0, return_index=True)
+    return {(int(dimension), int(entity)): names.GetValue(int(cell))
+            for (dimension, entity), cell in zip(found, cells) if entity >= 0}
+
+
+def patch_types_of(field_data):
+    array = field_data.GetAbstractArray(PATCH_TYPES)
+    values = [array.GetValue(index) for index in range(array.GetNumberOfValues())] if array else []
+    return dict(zip(values[::2], values[1::2]))
 
 
 def arrays_of(data):

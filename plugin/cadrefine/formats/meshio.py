@@ -1,10 +1,8 @@
 """Reads files of other programs through the Python package meshio."""
 
-import importlib
-
 import numpy as np
 
-from cadrefine.formats import BadFile
+from cadrefine.formats import BadFile, library
 from cadrefine.formats.grid import PHYSICAL, TYPE_OF_NAME, Mesh, tag_array
 
 NOT_KEPT = {"medit:ref", "gmsh:dim_tags"}  # Tags of points, which could only be interpolated.
@@ -13,11 +11,7 @@ NOT_KEPT = {"medit:ref", "gmsh:dim_tags"}  # Tags of points, which could only be
 def read(path, module):
     """The Mesh that meshio's `module` makes of the file. Sets of cells become cell arrays of 0 and 1, and, where the
     file has no other tags, groups: a cell of several sets is in the first of them. Throws BadFile."""
-    try:
-        reader = importlib.import_module("meshio." + module)
-    except ImportError as error:
-        package = (error.name or "meshio").partition(".")[0]
-        raise BadFile(f"to read it, the Python package {package} is needed (Debian: python3-{package})") from None
+    reader = library("meshio." + module)
     try:
         source = reader.read(path)
     except (Exception, SystemExit) as error:  # meshio lets through whatever went wrong.

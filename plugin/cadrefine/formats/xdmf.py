@@ -11,6 +11,7 @@ from vtkmodules.vtkIOXdmf2 import vtkXdmfReader, vtkXdmfWriter
 from cadrefine.formats import BadFile
 from cadrefine.formats.blocks import joined, orient
 from cadrefine.formats.grid import SERIAL, TYPES, Mesh, arrays_of, tag_array, to_grid, to_vtk
+from cadrefine.formats.groups import grouped
 
 FACET_TAGS = "facet_tags"
 PLANE = "plane"  # Points in the plane, two coordinates: DOLFIN takes them for a mesh of two dimensions.
@@ -46,8 +47,19 @@ def read(path):
         raise BadFile("it holds no grid that can be read")
     grid = joined(reader.GetOutputDataObject(0))
     grid.GetCellData().RemoveArray(FACET_TAGS)
+    for name, pair in names_of(tree).items():
+        grid.GetFieldData().AddArray(to_vtk(name, np.int32([pair])))
     orient(grid)  # DOLFIN orders the corners of a cell by their numbers.
     return grid
+
+
+def names_of(tree):
+    """Tag and dimension by name of group."""
+    try:
+        return {item.get("key"): (int(item.text), int(item.get("dim"))) for information in tree.iter("Information")
+                if (information.text or "").strip() for item in ElementTree.fromstring(information.text)}
+    except (ElementTree.ParseError, TypeError, ValueError):  # Information of another kind.
+        return {}
 
 
 def parse(path):
@@ -60,7 +72,10 @@ def parse(path):
 def write(path, mesh):
     """Writes a Mesh to `path`, and its numbers to the HDF5 file beside it: a grid for each type of cells, all with the
     same points. The cells of the highest dimension are the grid "mesh", which DOLFIN takes; those of its boundary are
-    "facets", with their tags a second time as FACET_TAGS, since DOLFIN seeks arrays by name in all grids."""
+    "facets", with their tags a second time as FACET_TAGS, since DOLFIN seeks arrays by name in all grids. Names of
+    groups are Information of each grid, as meshio reads them: text that is XML itself."""
+    named = grouped(mesh)
+    mesh = named if named.groups else mesh
     grids = dict(sorted(grids_of(mesh), key=lambda item: ORDER.index(item[0])))
     data = vtkMultiBlockDataSet()
     names = {}
@@ -76,7 +91,7 @@ def write(path, mesh):
         if not writer.Write():
             raise OSError("the HDF5 library reports an error")
     os.replace(os.path.join(folder, SERIAL + name), path)
-    arrange(path, list(grids), names, (FACET_TAGS, tag_array(mesh.cell_data)))
+    arrange(path, list(grids), names, mesh)
 
 
 def check_space(path, size):
@@ -119,16 +134,18 @@ def with_numbered_arrays(grid, names):
     return copy
 
 
-def arrange(path, grid_names, array_names, first_names):
-    """Puts all grids side by side under the domain, as DOLFIN has them, and gives grids and arrays their names. DOLFIN
-    and DOLFINx look at the first array of a grid alone: that is the one of `first_names` that comes first there."""
+def arrange(path, grid_names, array_names, mesh):
+    """Puts all grids side by side under the domain, as DOLFIN has them, and gives grids, arrays and groups their names.
+    DOLFIN and DOLFINx look at the first array of a grid alone: that is the one of tags."""
     tree = parse(path)
     domain = tree.find("Domain")
     grids = [grid for grid in domain.iter("Grid") if grid.get("GridType") == "Uniform"]
     for child in list(domain):
         domain.remove(child)
-    for name, grid in zip(grid_names, grids):
-        grid.set("Name", name)
+    highest = int(mesh.cell_dimensions().max(initial=0))
+    dimensions = {"mesh": highest, "facets": highest - 1, "edges": 1, "vertices": 0}
+    for grid_name, grid in zip(grid_names, grids):
+        grid.set("Name", grid_name)
         attributes = {array_names[item.get("Name")]: item for item in grid.findall("Attribute")}
         for name, attribute in attributes.items():
             name_attribute(attribute, name)
@@ -137,15 +154,26 @@ def arrange(path, grid_names, array_names, first_names):
             geometry.set("GeometryType", "XY")
             geometry[0] = attributes[PLANE].find("DataItem")
             grid.remove(attributes[PLANE])
-        for name in reversed(first_names):
+        for name in (tag_array(mesh.cell_data), FACET_TAGS):
             if name in attributes:
                 grid.remove(attributes[name])
                 grid.insert(0, attributes[name])
         for item in grid.iter("DataItem"):
             item.text = item.text.strip().removeprefix(SERIAL)
+        add_names(grid, mesh.groups, dimensions[grid_name])
         domain.append(grid)
     ElementTree.indent(tree)
     tree.write(path, encoding="utf-8", xml_declaration=True)
+
+
+def add_names(grid, groups, dimension):
+    names = ElementTree.Element("main")
+    for name, (tag, of_dimension) in groups.items():
+        if of_dimension == dimension:
+            ElementTree.SubElement(names, "map", key=name, dim=str(dimension)).text = str(tag)
+    if len(names):
+        information = ElementTree.SubElement(grid, "Information", Name="groups", Value=str(len(names)))
+        information.text = ElementTree.tostring(names, encoding="unicode")
 
 
 def name_attribute(attribute, name):

@@ -1,0 +1,164 @@
+"""Reads and writes MED files, of SALOME and code_aster, with groups. (meshio leaves the corners of cells in VTK's order,
+which is the opposite of MED's, and makes no groups of families.)"""
+
+import numpy as np
+
+from cadrefine.formats import BadFile, library
+from cadrefine.formats.grid import TYPES, Mesh, in_space
+from cadrefine.formats.groups import grouped, set_groups, sets_of_groups, unused
+
+VTK_TYPES = {"PO1": 1, "SE2": 3, "SE3": 21, "TR3": 5, "TR6": 22, "QU4": 9, "TE4": 10, "T10": 24, "HE8": 12, "PE6": 13,
+             "PY5": 14}
+MED_TYPES = {vtk: med for med, vtk in VTK_TYPES.items()}
+ORDERS = {  # Corners in the other program's order, both ways: volume cells are turned round.
+    10: [0, 2, 1, 3], 24: [0, 2, 1, 3, 6, 5, 4, 7, 9, 8], 12: [0, 3, 2, 1, 4, 7, 6, 5], 13: [0, 2, 1, 3, 5, 4],
+    14: [0, 3, 2, 1, 4],
+}
+MESH = "mesh"
+STEP = "-0000000000000000001-0000000000000000001"  # Of a mesh that does not change.
+PROFILE = np.bytes_("MED_NO_PROFILE_INTERNAL")
+NAME, FAMILY_NAME = 80, 64  # Bytes of the names of groups and of families.
+
+
+def read(path):
+    """The only mesh of the file. Throws BadFile."""
+    h5py = library("h5py")
+    try:
+        with h5py.File(path, "r") as file:
+            return read_file(file)
+    except (OSError, KeyError, ValueError, IndexError, TypeError) as error:
+        raise BadFile(f"malformed: {' '.join(str(error).split())}") from None
+
+
+def read_file(file):
+    names = list(file["ENS_MAA"]) if "ENS_MAA" in file else []
+    if len(names) != 1:
+        raise BadFile(f"it holds {len(names)} meshes ({', '.join(names)}); save one alone" if names else
+                      "it holds no mesh")
+    space = int(file["ENS_MAA"][names[0]].attrs["ESP"])
+    step = file["ENS_MAA"][names[0]]
+    step = step if "NOE" in step else step[sorted(step)[0]]
+    coordinates = step["NOE/COO"][()]
+    mesh = Mesh(in_space(coordinates.reshape((-1, space), order="F")), [])
+    families = []
+    for name, cells in step.get("MAI", {}).items():
+        if name not in VTK_TYPES:
+            raise BadFile(f"it holds cells of MED's type {name}")
+        kind = VTK_TYPES[name]
+        corners = cells["NOD"][()].reshape((-1, TYPES[kind][2]), order="F").astype(int) - 1
+        if len(corners) and not 0 <= corners.min() <= corners.max() < len(mesh.points):
+            raise BadFile("a cell has a point that is not in the file")
+        mesh.blocks.append((kind, turned(mesh.points, kind, corners)))
+        families.append(cells["FAM"][()] if "FAM" in cells else np.zeros(len(corners), int))
+    if not mesh.blocks:
+        raise BadFile("the mesh has no cells")
+    groups = groups_of_families(file["FAS"][names[0]].get("ELEME", {}) if names[0] in file.get("FAS", {}) else {})
+    add_groups(mesh, groups, np.concatenate(families))
+    return mesh
+
+
+def turned(points, kind, corners):
+    """The corners in VTK's order. Cells that are the wrong way round then, as of meshio, stay as they were."""
+    if kind not in ORDERS:
+        return corners
+    result = corners[:, ORDERS[kind]]
+    other = [4 if kind in (12, 14) else 3]
+    sides = points[result[:, [1, 3 if kind in (12, 14) else 2, *other]]] - points[result[:, :1]]
+    wrong = np.linalg.det(sides) < 0
+    result[wrong] = corners[wrong]
+    return result
+
+
+def groups_of_families(families):
+    """{number: names of its groups}."""
+    groups = {}
+    for family in families.values():
+        names = family["GRO/NOM"][()] if "GRO" in family else []
+        groups[int(family.attrs["NUM"])] = [bytes(np.asarray(row, np.int8).view(np.uint8)).partition(b"\0")[0]
+                                            .decode(errors="replace").strip() for row in names]
+    return groups
+
+
+def add_groups(mesh, groups, families):
+    """A name of groups of several dimensions goes to the highest of them."""
+    names = list(dict.fromkeys(name for _, of_family in sorted(groups.items(), reverse=True) for name in of_family))
+    dimensions, rows = mesh.cell_dimensions(), []
+    found = {name: set() for name in names}
+    for family in np.unique(families):
+        cells = np.flatnonzero(families == family)
+        for name in groups.get(int(family), []):
+            found[name] |= set(dimensions[cells].tolist())
+            rows.append(np.column_stack([cells, np.full(len(cells), names.index(name) + 1)]))
+    for tag, name in enumerate(names, 1):
+        for dimension in sorted(found[name], reverse=True):
+            wanted = name if name not in mesh.groups else f"{name} of dimension {dimension}"
+            mesh.groups[unused(wanted, mesh.groups)] = (tag, dimension)
+    if rows:
+        set_groups(mesh, np.concatenate(rows))
+
+
+def write(path, mesh):
+    h5py = library("h5py")
+    mesh = grouped(mesh)
+    numbers, sets = sets_of_groups(mesh)
+    dimensions = mesh.cell_dimensions()
+    names = {pair: name for name, pair in mesh.groups.items()}
+    kinds, place = np.unique(np.column_stack([dimensions, numbers]), axis=0, return_inverse=True)
+    members = [[names[tag, int(dimension)] for tag in sets[number]] for dimension, number in kinds]
+    families = np.cumsum([1 if of_set else 0 for of_set in members]) * [-1 if of_set else 0 for of_set in members]
+    with h5py.File(path, "w") as file:
+        attributes(file.create_group("INFOS_GENERALES"), MAJ=3, MIN=0, REL=0)  # SALOME 8 reads no later version.
+        root = file.create_group(f"ENS_MAA/{MESH}")
+        attributes(root, DIM=int(dimensions.max()), ESP=3, REP=0, UNT="", UNI="", SRT=1, TYP=0, DES="",
+                   NOM="".join(f"{axis:<16}" for axis in "XYZ"))
+        step = root.create_group(STEP)
+        attributes(step, CGT=1, NDT=-1, NOR=-1, PDT=-1.0)
+        write_nodes(step, mesh.points)
+        write_cells(step, mesh, families[place.ravel()].astype(np.int32))
+        root = file.create_group(f"FAS/{MESH}")
+        attributes(root.create_group("FAMILLE_ZERO"), NUM=0)
+        for number, of_set in zip(families, members):
+            if of_set:
+                write_family(root, int(number), of_set)
+
+
+def attributes(target, **values):
+    for name, value in values.items():
+        if isinstance(value, str):
+            value = np.bytes_(value)
+        target.attrs.create(name, np.int32(value) if isinstance(value, int) else value)
+
+
+def dataset(group, name, values, count):
+    attributes(group.create_dataset(name, data=values), CGT=1, NBR=count)
+
+
+def write_nodes(step, points):
+    nodes = step.create_group("NOE")
+    attributes(nodes, CGT=1, CGS=1, PFL=PROFILE)
+    dataset(nodes, "COO", points.astype(float).flatten(order="F"), len(points))
+
+
+def write_cells(step, mesh, families):
+    root, first = step.create_group("MAI"), 0
+    attributes(root, CGT=1)
+    for kind, corners in mesh.blocks:
+        cells = root.create_group(MED_TYPES[kind])
+        attributes(cells, CGT=1, CGS=1, PFL=PROFILE)
+        nodes = 1 + corners[:, ORDERS.get(kind, slice(None))].astype(np.int32)
+        dataset(cells, "NOD", nodes.flatten(order="F"), len(corners))
+        dataset(cells, "FAM", families[first:first + len(corners)], len(corners))
+        first += len(corners)
+
+
+def write_family(root, number, names):
+    name = f"FAM_{number}_{'_'.join(names)}".replace("/", "_").encode()[:FAMILY_NAME].decode(errors="ignore")
+    family = root.create_group(f"ELEME/{name}")
+    attributes(family, NUM=number)
+    group = family.create_group("GRO")
+    attributes(group, NBR=len(names))
+    table = np.zeros((len(names), NAME), np.int8)
+    for row, of_group in zip(table, names):
+        text = of_group.encode()[:NAME - 1]
+        row[:len(text)] = np.frombuffer(text, np.int8)
+    group.create_dataset("NOM", (len(names),), dtype=f"{NAME}int8")[:] = table

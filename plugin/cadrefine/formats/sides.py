@@ -1,0 +1,104 @@
+"""Sides of cells, and which of them the facets of a mesh are."""
+
+import dataclasses
+
+import numpy as np
+
+from cadrefine.formats.grid import PHYSICAL, TYPES
+from cadrefine.formats.groups import BOUNDARY, unused
+
+SEGMENT_SIDES = ((0, 1), (1, 2), (2, 0))
+TETRAHEDRON_SIDES = ((0, 1, 3), (1, 2, 3), (0, 3, 2), (0, 2, 1))
+SIDES = {  # Corners of the sides of each of VTK's types of cells: normals outwards, in the order of Exodus.
+    5: SEGMENT_SIDES, 22: SEGMENT_SIDES, 9: ((0, 1), (1, 2), (2, 3), (3, 0)),
+    10: TETRAHEDRON_SIDES, 24: TETRAHEDRON_SIDES,
+    12: ((0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (0, 4, 7, 3), (0, 3, 2, 1), (4, 5, 6, 7)),
+    13: ((0, 1, 4, 3), (1, 2, 5, 4), (0, 3, 5, 2), (0, 2, 1), (3, 4, 5)),
+    14: ((0, 1, 4), (1, 2, 4), (2, 3, 4), (0, 4, 3), (0, 3, 2, 1)),
+}
+CORNERS = {1: 1, 3: 2, 5: 3, 9: 4, 10: 4, 12: 8, 13: 6, 14: 5, 21: 2, 22: 3, 24: 4}  # Of the types, without mid nodes.
+WIDTH = 4  # Most corners of a side.
+
+
+@dataclasses.dataclass
+class Sides:
+    """The sides of a mesh's cells of the highest dimension, each once. `corners` (sides, 4) go round as `cells` sees it
+    from inside, -1 where there are fewer; `cells` is the first cell that has the side, `numbers` which of its sides it
+    is, `neighbours` the second cell, -1 on the boundary; `facets` the cell of one dimension less with the same corners,
+    or -1. Cells are counted over all blocks of the mesh."""
+
+    corners: np.ndarray
+    cells: np.ndarray
+    numbers: np.ndarray
+    neighbours: np.ndarray
+    facets: np.ndarray
+
+
+def sides_of(mesh):
+    dimension = int(mesh.cell_dimensions().max(initial=0))
+    corners, cells, numbers = all_sides(mesh, dimension)
+    facet_corners, facets = cells_of(mesh, dimension - 1)
+    classes, count = same_corners(np.concatenate([corners, facet_corners]))
+    of_side, of_facet = classes[:len(corners)], classes[len(corners):]
+
+    first = np.full(count, -1)
+    first[of_side[::-1]] = np.arange(len(corners))[::-1]
+    second = np.full(count, -1)
+    second[of_side] = np.arange(len(corners))
+    facet = np.full(count, -1)
+    facet[of_facet[::-1]] = facets[::-1]
+    chosen = np.sort(first[first >= 0])
+    other = second[of_side[chosen]]
+    return Sides(corners[chosen], cells[chosen], numbers[chosen], np.where(other == chosen, -1, cells[other]),
+                 facet[of_side[chosen]])
+
+
+def tagged(mesh, sides):
+    """The tag of each side's group, 0 for none; each side of the boundary has one: for those in no group, a group is
+    added to the mesh."""
+    tags = np.where(sides.facets >= 0, mesh.cell_data[PHYSICAL][sides.facets], 0)
+    rest = (tags == 0) & (sides.neighbours < 0)
+    if rest.any():
+        tags[rest] = 1 + max([0, *(tag for tag, _ in mesh.groups.values())])
+        mesh.groups[unused(BOUNDARY, mesh.groups)] = (int(tags[rest][0]), int(mesh.cell_dimensions().max()) - 1)
+    return tags
+
+
+def all_sides(mesh, dimension):
+    """Corners, cells and numbers of the sides, cell by cell."""
+    corners, cells, numbers, first = [], [], [], 0
+    for kind, points in mesh.blocks:
+        if TYPES[kind][1] == dimension:
+            table = np.array([padded(side) for side in SIDES[kind]])
+            corners.append(np.where(table >= 0, points[:, table], -1).reshape(-1, WIDTH))
+            cells.append(np.repeat(np.arange(first, first + len(points)), len(table)))
+            numbers.append(np.tile(np.arange(len(table)), len(points)))
+        first += len(points)
+    return np.concatenate(corners), np.concatenate(cells), np.concatenate(numbers)
+
+
+def cells_of(mesh, dimension):
+    """Corners of the cells of that dimension, -1 where there are fewer than 4, and their numbers."""
+    corners, cells, first = [np.zeros((0, WIDTH), int)], [np.zeros(0, int)], 0
+    for kind, points in mesh.blocks:
+        if TYPES[kind][1] == dimension:
+            rows = np.full((len(points), WIDTH), -1)
+            rows[:, :CORNERS[kind]] = points[:, :CORNERS[kind]]
+            corners.append(rows)
+            cells.append(np.arange(first, first + len(points)))
+        first += len(points)
+    return np.concatenate(corners), np.concatenate(cells)
+
+
+def padded(side):
+    return (*side, *[-1] * (WIDTH - len(side)))
+
+
+def same_corners(rows):
+    """A number for each row, the same where the corners are the same in whatever order; and how many there are."""
+    ordered = np.sort(rows, axis=1)
+    order = np.lexsort(ordered.T)
+    changes = (ordered[order][1:] != ordered[order][:-1]).any(axis=1)
+    classes = np.empty(len(rows), dtype=int)
+    classes[order] = np.concatenate([[0], np.cumsum(changes)])[:len(rows)]
+    return classes, int(classes.max(initial=-1)) + 1

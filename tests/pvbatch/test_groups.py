@@ -1,0 +1,222 @@
+#!/usr/bin/python3
+"""Groups of cells, of the input and of the CAD's faces, are kept by what writes and reads files; without ParaView."""
+
+import dataclasses
+import os
+import sys
+import tempfile
+import unittest
+
+import driver
+import gmsh
+import meshio
+import numpy as np
+
+sys.path.insert(0, os.path.join(driver.ROOT, "plugin"))
+
+from cadrefine.formats import BadFile, exodus, exodus_writing, grid, med, msh, msh_writing, openfoam, openfoam_writing, su2, xdmf
+from cadrefine.formats.groups import grouped, members
+from cadrefine.formats.sides import sides_of
+from vtkmodules.vtkCommonCore import vtkStringArray
+
+NAMED = {2: "nose", 3: "nose", 4: "wall"}  # Some faces of the two boxes' CAD; two have the name of a group, and of one another.
+
+
+def write_boxes(path):
+    """Two boxes that share a face, of steel and air; "wall" is one side of both, "contact" between them, "low" also one
+    of the sides of "wall". The other facets are in no group."""
+    gmsh.initialize()
+    try:
+        gmsh.option.setNumber("General.Terminal", 0)
+        gmsh.model.occ.addBox(0, 0, 0, 1, 1, 1)
+        gmsh.model.occ.addBox(0, 0, 1, 1, 1, 1)
+        gmsh.model.occ.fragment([(3, 1)], [(3, 2)])
+        gmsh.model.occ.synchronize()
+        centres = {tag: gmsh.model.occ.getCenterOfMass(2, tag) for _, tag in gmsh.model.getEntities(2)}
+        wall = [tag for tag, centre in centres.items() if centre[0] < 0.01]
+        contact = [tag for tag, centre in centres.items() if abs(centre[2] - 1) < 0.01]
+        for dimension, tag, name, entities in ((3, 1, "steel", [1]), (3, 2, "air", [2]), (2, 5, "wall", wall),
+                                               (2, 6, "contact", contact), (2, 7, "low", wall[:1])):
+            gmsh.model.addPhysicalGroup(dimension, entities, tag)
+            gmsh.model.setPhysicalName(dimension, tag, name)
+        gmsh.option.setNumber("Mesh.SaveAll", 1)
+        gmsh.option.setNumber("Mesh.MeshSizeMin", 0.5)
+        gmsh.option.setNumber("Mesh.MeshSizeMax", 0.5)
+        gmsh.model.mesh.generate(3)
+        gmsh.write(path)
+    finally:
+        gmsh.finalize()
+
+
+def on_cad(mesh):
+    """The mesh as the filters leave it: facets beside the cells, with the faces of the CAD that they are part of."""
+    dimensions = mesh.cell_dimensions()
+    first, blocks, kept = 0, [], []
+    for kind, corners in mesh.blocks:
+        if grid.TYPES[kind][1] >= 2:
+            blocks.append((kind, corners))
+            kept.append(np.arange(first, first + len(corners)))
+        first += len(corners)
+    kept = np.concatenate(kept)
+    facets = dimensions[kept] == 2
+    data = {name: values[kept] for name, values in mesh.cell_data.items()}
+    data["CADDimension"] = np.where(facets, 2, -1).astype(np.int8)
+    data["CADEntity"] = np.where(facets, data[grid.GEOMETRICAL] - 1, -1).astype(np.int32)
+    result = grid.to_grid(grid.Mesh(mesh.points, blocks, {}, data, mesh.groups))
+    names = vtkStringArray()
+    names.SetName("CADName")
+    for entity in data["CADEntity"]:
+        names.InsertNextValue(NAMED.get(int(entity), ""))
+    result.GetCellData().AddArray(names)
+    return grid.from_grid(result)
+
+
+def groups_in_gmsh(path):
+    """What gmsh finds in a file: {(name, dimension): number of cells}."""
+    gmsh.initialize()
+    try:
+        gmsh.option.setNumber("General.Terminal", 0)
+        gmsh.open(path)
+        return {(gmsh.model.getPhysicalName(dimension, tag), dimension): sum(
+            sum(len(ids) for ids in gmsh.model.mesh.getElements(dimension, entity)[1])
+            for entity in gmsh.model.getEntitiesForPhysicalGroup(dimension, tag))
+            for dimension, tag in gmsh.model.getPhysicalGroups()}
+    finally:
+        gmsh.finalize()
+
+
+class Groups(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = folder.name
+        write_boxes(cls.path("boxes.msh"))
+        cls.plain = msh.read(cls.path("boxes.msh"))
+        cls.mesh = on_cad(cls.plain)
+        cls.expected = cls.counts(grouped(cls.mesh))
+
+    @classmethod
+    def path(cls, name):
+        return os.path.join(cls.folder, name)
+
+    @staticmethod
+    def counts(mesh):
+        """{(name, dimension): number of cells}."""
+        return {(name, dimension): int(members(mesh, name).sum()) for name, (_, dimension) in mesh.groups.items()}
+
+    def test_groups_of_cad_faces(self):
+        """Each facet is in a group: its own, or that of its face."""
+        mesh = grouped(self.mesh)
+        names = {name for name, dimension in self.expected if dimension == 2}
+        self.assertLessEqual({"wall", "contact", "low"}, names)
+        for name, entity in (("nose Face 2", 2), ("wall Face 4", 4), ("Face 1", 1)):
+            of_face = (self.mesh.cell_data["CADEntity"] == entity) & (self.mesh.cell_data[grid.PHYSICAL] == 0)
+            self.assertGreater(of_face.sum(), 0)
+            self.assertEqual(self.expected[name, 2], of_face.sum())
+        self.assertTrue((mesh.cell_data[grid.PHYSICAL] > 0).all())
+        self.assertEqual(self.expected["steel", 3] + self.expected["air", 3], len(mesh.blocks[-1][1]))
+        tags = [tag for tag, _ in mesh.groups.values()]
+        self.assertEqual(len(set(tags)), len(tags))
+
+    def test_sides(self):
+        """Of the tetrahedra: two facets a box side, each once; normals outwards."""
+        sides = sides_of(self.mesh)
+        outside = sides.neighbours < 0
+        corners = self.mesh.points[sides.corners[:, :3]]
+        normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]) / 2
+        self.assertAlmostEqual(np.linalg.norm(normals[outside], axis=1).sum(), 10)
+        self.assertAlmostEqual((normals[outside] * corners[outside].mean(axis=1)).sum() / 3, 2)
+        self.assertTrue((sides.facets[outside] >= 0).all())
+        self.assertEqual((sides.facets >= 0).sum(), (self.mesh.cell_dimensions() == 2).sum())
+
+    def test_gmsh(self):
+        """gmsh takes a cell of several groups for several cells in version 2.2, also in files of its own."""
+        alone = dataclasses.replace(self.mesh, cell_data={
+            name: values for name, values in self.mesh.cell_data.items() if name not in self.mesh.groups})
+        for version, ascii in (("2.2", False), ("2.2", True), ("4.1", False), ("4.1", True)):
+            path = self.path(f"out{version}{ascii}.msh")
+            msh_writing.write(path, self.mesh, version, ascii)
+            with self.subTest(path):
+                if version == "4.1":
+                    self.assertEqual(groups_in_gmsh(path), self.expected)
+                back = msh.read(path)
+                self.assertEqual(self.counts(grouped(back)), self.expected)
+                np.testing.assert_array_equal(np.sort(back.points, axis=0), np.sort(self.mesh.points, axis=0))
+                msh_writing.write(path, alone, version, ascii)
+                self.assertEqual(groups_in_gmsh(path), self.counts(grouped(alone)))
+
+    def facets(self):
+        """{name: number of facets} of the groups on the boundary, each facet in one."""
+        mesh = grouped(self.mesh)
+        tags = mesh.cell_data[grid.PHYSICAL]
+        counts = {name: int(((tags == tag) & (mesh.cell_dimensions() == dimension)).sum())
+                  for name, (tag, dimension) in mesh.groups.items() if dimension == 2}
+        return {name: count for name, count in counts.items() if count}
+
+    def test_su2(self):
+        su2.write(self.path("boxes.su2"), self.mesh)
+        back = su2.read(self.path("boxes.su2"))
+        expected = {(name.replace(" ", "_"), 2): count for name, count in self.facets().items() if name != "contact"}
+        self.assertEqual(self.counts(grouped(back)), expected)
+        np.testing.assert_array_equal(back.points, self.mesh.points)
+        with self.assertRaisesRegex(BadFile, "SU2 has no meshes of surfaces in space"):
+            su2.write(self.path("surface.su2"), grid.Mesh(np.eye(3), [(5, np.array([[0, 1, 2]]))]))
+
+    def test_facets_in_no_group(self):
+        """Also those that are no cells of the mesh are in a marker."""
+        alone = grid.Mesh(self.mesh.points, self.mesh.blocks[-1:])
+        su2.write(self.path("alone.su2"), alone)
+        self.assertEqual(self.counts(grouped(su2.read(self.path("alone.su2")))), {("boundary", 2): 10 * 14})
+
+    def test_med(self):
+        med.write(self.path("boxes.med"), self.mesh)
+        back = med.read(self.path("boxes.med"))
+        self.assertEqual(self.counts(grouped(back)), self.expected)
+        np.testing.assert_array_equal(back.points, self.mesh.points)
+        self.assertEqual(len(back.blocks), len(self.mesh.blocks))
+        for (kind, corners), (_, expected) in zip(sorted(back.blocks, key=lambda block: block[0]), self.mesh.blocks):
+            np.testing.assert_array_equal(corners, expected, str(kind))
+
+    def test_exodus(self):
+        """A facet of two groups is in two side sets."""
+        exodus_writing.write(self.path("boxes.exo"), self.mesh)
+        grid_read = exodus.read(self.path("boxes.exo"))
+        back = grid.from_grid(grid_read)
+        self.assertEqual({name: pair[1] for name, pair in back.groups.items()},
+                         {name: dimension for name, dimension in self.expected})
+        for name, (tag, dimension) in back.groups.items():
+            inside = (back.cell_data["ObjectId"] == tag) & (back.cell_dimensions() == dimension)
+            self.assertEqual(inside.sum(), self.expected[name, dimension], name)
+        np.testing.assert_array_equal(np.unique(back.points, axis=0), np.unique(self.mesh.points, axis=0))
+
+    def test_xdmf(self):
+        """Names are where meshio reads them, in each of the grids."""
+        xdmf.write(self.path("boxes.xdmf"), self.mesh)
+        back = grid.from_grid(xdmf.read(self.path("boxes.xdmf")))
+        self.assertEqual(self.counts(grouped(back)), self.expected)
+        alone = grid.Mesh(self.mesh.points, self.mesh.blocks[-1:], {},
+                          {grid.PHYSICAL: self.mesh.cell_data[grid.PHYSICAL][self.mesh.cell_dimensions() == 3]},
+                          {"steel": (1, 3), "air": (2, 3)})
+        xdmf.write(self.path("alone.xdmf"), alone)
+        names = meshio.xdmf.read(self.path("alone.xdmf")).field_data
+        self.assertEqual({name: pair.tolist() for name, pair in names.items()}, {"steel": [1, 3], "air": [2, 3]})
+
+    def test_openfoam(self):
+        os.makedirs(self.path("case"))
+        mesh = dataclasses.replace(self.mesh, patch_types={"wall": "wall", "Face_1": "cyclic"})
+        openfoam_writing.write(self.path("case/boxes.foam"), mesh)
+        back = grid.from_grid(grid.to_grid(openfoam.read(self.path("case"))))
+        expected = {(name.replace(" ", "_"), 2): count for name, count in self.facets().items()}
+        expected.update({(name, 3): self.expected[name, 3] for name in ("steel", "air")})
+        self.assertEqual(self.counts(grouped(back)), expected)
+        np.testing.assert_array_equal(back.points, self.mesh.points)
+        self.assertEqual({back.patch_types["wall"], back.patch_types["Face_1"]}, {"wall", "patch"})
+        cells = back.blocks[-1][1]
+        np.testing.assert_array_equal(np.sort(cells, axis=1), np.sort(self.mesh.blocks[-1][1], axis=1))
+        corners = back.points[cells]
+        self.assertGreater(np.linalg.det(corners[:, 1:] - corners[:, :1]).min(), 0)
+
+
+if __name__ == "__main__":
+    unittest.main()
