@@ -56,6 +56,11 @@ def run(options, results, terminal, started):
     report = reporting.Report(options, terminal, started)
     pipeline = Pipeline(terminal)
     pipeline.read_mesh(options.mesh)
+    if pipeline.second_order:
+        options.quadratic = output.takes_quadratic(options.output)
+        terminal.say(f"{options.mesh}: quadratic cells are taken by their corners, and " + (
+            "made quadratic again at the end" if options.quadratic else
+            f"stay linear in {options.output}, whose format has no quadratic ones"))
     pipeline.check(options)
     pipeline.read_cad(options.cad, options.cad_unit)
     report.describe_input(pipeline)

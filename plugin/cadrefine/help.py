@@ -38,14 +38,16 @@ formats of MESH (triangles or tetrahedra; cells of lower dimension carry tags):
   .msh                      gmsh, versions 2.2 and 4.1, text and binary, with physical groups
   .xdmf                     as written by meshio, DOLFIN, DOLFINx, ParaView; all grids of the domain
   .e .ex2 .exo              Exodus: element blocks and side sets
-  .mesh                     Medit         (this and the next two: through python3-meshio)
-  .inp                      Abaqus; sets of elements become groups, and cell arrays of 0 and 1
-  .vol                      Netgen
+  .mesh .meshb .vol         Medit and Netgen, through python3-meshio
+  .inp                      Abaqus and CalculiX: sets of elements and surfaces
+  .bdf .nas .fem            Nastran: properties
+  .unv                      I-DEAS, SALOME: groups of elements
   .su2                      SU2, with names of markers
   .med                      SALOME and code_aster, with groups; needs python3-h5py
   CASE/NAME.foam, CASE      OpenFOAM, with patches and zones
   Tags of gmsh are the cell arrays gmsh:physical and gmsh:geometrical, those of Medit medit:ref, of
   Exodus ObjectId. Names of groups are field data of the mesh, and are written with the groups.
+  Quadratic cells are taken by their corners, and made quadratic again at the end.
   Of a time series the first time step is read.
 
 formats of --output, all but .vtu and .pvtu with groups and their names:
@@ -56,6 +58,7 @@ formats of --output, all but .vtu and .pvtu with groups and their names:
   .msh   gmsh: 2.2 in binary, or see --msh-version, --ascii
   .med   SALOME and code_aster; needs python3-h5py
   .exo   Exodus (also .e), for MOOSE: blocks, side sets, node sets; needs python3-scipy
+  .inp   Abaqus and CalculiX: sets of elements, surfaces, sets of nodes
   .su2   SU2: markers
   .foam  OpenFOAM: constant/polyMesh beside the file, patches and zones; the name of the folder of a
          case does the same

@@ -13,15 +13,20 @@ import os
 from paraview import simple
 
 from cadrefine import session
-from cadrefine.formats import BadFile
-from cadrefine.formats.grid import to_grid
+from cadrefine.formats import BadFile, library
+from cadrefine.formats.grid import check, from_grid, to_grid
+from cadrefine.formats.sides import once
 from cadrefine.parts import parts_of
 from cadrefine.session import Failure
 
 EXODUS = (".e", ".ex2", ".exo", ".exii", ".g")
 XDMF = (".xdmf", ".xmf")
 MESHIO = {".mesh": "medit", ".meshb": "medit", ".vol": "netgen"}  # Its modules by extension.
-OWN = {".su2": "su2", ".med": "med", ".foam": "openfoam"}  # Modules of cadrefine.formats.
+# Modules of cadrefine.formats.
+OWN = {".su2": "su2", ".med": "med", ".foam": "openfoam", ".unv": "unv", ".bdf": "nastran", ".nas": "nastran",
+       ".fem": "nastran"}
+
+HDF5 = b"\x89HDF"  # How such files begin.
 
 # Runs on every rank, in the process of the driver on rank 0, whose grid it hands over.
 HAND_OVER = f"""
@@ -55,24 +60,45 @@ def own_reader(path):
     ending = ".foam" if os.path.isdir(path) else ending
     start = b"" if os.path.isdir(path) else start_of(path)
     formats = functools.partial(importlib.import_module, package="cadrefine.formats")
+
+    def grid_of(module, *arguments):
+        def read():
+            mesh = formats("." + module).read(path, *arguments)
+            check(mesh)
+            return to_grid(once(mesh))
+        return read
+
     if ending == ".msh" and (start.startswith(b"$") or b"$MeshFormat" in start):  # Else it is one of Fluent.
-        return lambda: to_grid(formats(".msh").read(path))
+        return grid_of("msh")
     if ending == ".inp" and start.startswith(b"*"):  # Else it is one of AVS UCD.
-        return lambda: to_grid(formats(".meshio").read(path, "abaqus"))
+        return grid_of("abaqus")
+    if ending == ".cgns" and start.startswith(HDF5) and not has_labels(path):  # meshio's, which is none to others.
+        return grid_of("meshio", "cgns")
     if ending in OWN:
-        return lambda: to_grid(formats("." + OWN[ending]).read(path))
+        return grid_of(OWN[ending])
     if ending in MESHIO:
-        return lambda: to_grid(formats(".meshio").read(path, MESHIO[ending]))
+        return grid_of("meshio", MESHIO[ending])
     if ending in XDMF:
         return lambda: formats(".xdmf").read(path)
     if ending in EXODUS:
-        return lambda: formats(".exodus").read(path)
+        return lambda: with_cells_once(formats(".exodus").read(path))
     return None
+
+
+def with_cells_once(grid):
+    return to_grid(once(from_grid(grid))) if grid.GetNumberOfCells() else grid
 
 
 def start_of(path):
     with open(path, "rb") as file:
         return file.read(1000).lstrip()
+
+
+def has_labels(path):
+    """Whether a CGNS file in HDF5 has the labels by which other programs know what is in it."""
+    with contextlib.suppress(BadFile, OSError), library("h5py").File(path, "r") as file:
+        return "label" in file.attrs
+    return True
 
 
 def read_grid(read, path):

@@ -61,10 +61,11 @@ def option_parser():
     parser = OptionParser(prog="cadrefine.py", usage=USAGE, description=DESCRIPTION, epilog=EPILOG, allow_abbrev=False,
                           formatter_class=Layout, add_help=False)
     files = parser.add_argument_group("files")
-    files.add_argument("mesh", metavar="MESH", help="the mesh: .vtu .pvtu .vtk .msh .xdmf .e .mesh .inp ...; see below")
+    files.add_argument("mesh", metavar="MESH", help="the mesh: .vtu .pvtu .vtk .msh .xdmf .e .med "
+                       ".inp .foam ...; see below")
     files.add_argument("cad", metavar="CAD", help="the CAD model: .igs .iges .stp .step .brep")
-    files.add_argument("--output", metavar="FILE", help="write the last mesh: .vtu .pvtu .xdmf .msh .med .exo .su2 .foam; "
-                       "see below")
+    files.add_argument("--output", metavar="FILE", help="write the last mesh: .vtu .pvtu .xdmf .msh .med .exo .inp "
+                       ".su2 .foam; see below")
     files.add_argument("--boundary-cells", action=argparse.BooleanOptionalAction, default=True,
                        help="write the boundary's triangles (in 2D, lines) too, each with its CAD face: cell arrays "
                        "CADEntity, CADName, ... (default)")

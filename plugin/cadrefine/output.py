@@ -19,12 +19,13 @@ NOT_KEPT = {
     ".med": "arrays, but for groups",
     ".exo": "arrays, but for groups",
     ".e": "arrays, but for groups",
+    ".inp": "arrays, but for groups",
     ".su2": "arrays, but for groups of facets on the boundary",
     ".foam": "arrays, but for groups",
 }
 FORMATS = (".vtu", ".pvtu", *NOT_KEPT)
 WRITERS = {".msh": "msh_writing", ".xdmf": "xdmf", ".med": "med", ".exo": "exodus_writing", ".e": "exodus_writing",
-           ".su2": "su2", ".foam": "openfoam_writing"}  # Modules of cadrefine.formats.
+           ".inp": "abaqus", ".su2": "su2", ".foam": "openfoam_writing"}  # Modules of cadrefine.formats.
 NEEDED = {".med": "h5py", ".exo": "scipy", ".e": "scipy"}  # Python packages.
 LINEAR_ONLY = {".su2": "SU2", ".foam": "OpenFOAM"}
 
@@ -40,8 +41,12 @@ def check(place, quadratic):
             library(NEEDED[ending(place)])
     except BadFile as error:
         raise Failure(f"{place}: {error}") from None
-    if quadratic and ending(place) in LINEAR_ONLY:
+    if quadratic and not takes_quadratic(place):
         raise Failure(f"{place}: {LINEAR_ONLY[ending(place)]} has no quadratic cells; leave out --quadratic")
+
+
+def takes_quadratic(place):
+    return not place or ending(place) not in LINEAR_ONLY
 
 
 def place_of(path):

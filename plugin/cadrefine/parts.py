@@ -1,5 +1,5 @@
-"""The files that a mesh file names: the pieces of .pvtu and .pvtp, the blocks of .vtm, the data of .xdmf, the mesh of an
-OpenFOAM case."""
+"""The files that a mesh file names: the pieces of .pvtu and .pvtp, the blocks of .vtm, the data of .xdmf, the mesh of
+an OpenFOAM case."""
 
 import html
 import os

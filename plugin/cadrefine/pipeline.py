@@ -6,7 +6,7 @@ import time
 
 from paraview import simple
 
-from cadrefine import session
+from cadrefine import second_order, session
 from cadrefine.input import local_output, open_mesh
 from cadrefine.session import Failure
 from cadrefine.steps import Following
@@ -27,10 +27,15 @@ class Pipeline:
         self.costs = {}  # Of the last step: what its phases tell of their run, by their names.
         self.mesh_path = ""
         self.fit_report = ""
+        self.second_order = False  # What was read had quadratic cells.
 
     def read_mesh(self, path):
         self.mesh_path = path
         self.mesh = self.timed("read_mesh", lambda: open_mesh(path, self.terminal))
+        corners = second_order.with_corners_alone(self.mesh)
+        if corners is not None:
+            self.mesh, self.second_order = corners, True
+            session.update(corners, path)
 
     def check(self, options):
         """Finds what cannot be done with the mesh before any work is."""

@@ -53,6 +53,11 @@ def write_gmsh(cad, folder):
         gmsh.option.setNumber("Mesh.Binary", 0)
         for ending in ("mesh", "inp", "vtk", "su2"):
             gmsh.write(os.path.join(folder, "gmsh." + ending))
+        gmsh.model.mesh.setOrder(2)
+        gmsh.option.setNumber("Mesh.SaveElementTagType", 2)
+        for ending in ("msh", "unv", "bdf"):
+            gmsh.write(os.path.join(folder, "order2." + ending))
+        gmsh.model.mesh.setOrder(1)
         gmsh.option.setNumber("Mesh.SaveAll", 1)  # In this file, some cells belong to no group.
         gmsh.model.addPhysicalGroup(2, faces[:1], 22)  # And some to two.
         gmsh.model.setPhysicalName(2, 22, "first wall")

@@ -8,6 +8,7 @@ import unittest
 
 import driver
 import meshes
+import meshio
 
 RANKS = int(sys.argv.pop()) if sys.argv[-1].isdigit() else 1
 WING = [driver.data("naca0012_coarse.vtu"), driver.data("naca0012_sharp.igs"), "--quiet"]
@@ -46,6 +47,8 @@ class BadFormats(unittest.TestCase):
         self.addCleanup(whole.cleanup)
         meshes.write_gmsh(driver.data("cylinder.brep"), whole.name)
         meshes.write_exodus(whole.name)
+        mesh = meshio.gmsh.read(os.path.join(whole.name, "gmsh2text.msh"))
+        meshio.write(os.path.join(whole.name, "meshio.meshb"), meshio.Mesh(mesh.points, mesh.cells))
 
         def part(name, size):
             with open(os.path.join(whole.name, name), "rb") as file:
@@ -67,7 +70,14 @@ class BadFormats(unittest.TestCase):
              "the section Elements does not hold numbers alone"),
             ("hexahedron.msh", HEXAHEDRON, "holds a hexahedron"),
             ("cut.mesh", part("gmsh.mesh", 3000), "meshio cannot read it as medit: "),
-            ("cut.inp", part("gmsh.inp", 9000), "meshio cannot read it as abaqus: "),
+            ("cut.inp", TETRAHEDRON[:-4], "holds elements C3D4 of 3 nodes"),
+            ("type.inp", TETRAHEDRON.replace("C3D4", "U4"), "holds elements of the type U4"),
+            ("cut.meshb", part("meshio.meshb", 1500), "meshio cannot read it as medit: "),
+            ("cut.su2", part("gmsh.su2", 3000), "it is cut short"),
+            ("cut.unv", part("order2.unv", 9000), "it is cut short: the last dataset has no end"),
+            ("cut.bdf", part("order2.bdf", 9000), "the mesh has no cells"),
+            ("text.med", "This is no mesh.\n", "malformed: Unable to open file"),
+            ("lonely.foam", "", "there is no folder constant/polyMesh beside it"),
             ("broken.xdmf", "<Xdmf><Domain>", "malformed: "),
             ("lonely.xdmf", '<Xdmf><Domain><Grid><Topology TopologyType="Triangle"><DataItem Format="HDF">'
              'gone.h5:/cells</DataItem></Topology><Geometry/></Grid></Domain></Xdmf>',
@@ -92,7 +102,7 @@ class BadFormats(unittest.TestCase):
         self.assertEqual(sorted(os.listdir(self.folder)), before)
 
     def test_without_meshio(self):
-        mesh = self.write("tetrahedron.inp", TETRAHEDRON)
+        mesh = self.write("tetrahedron.mesh", "MeshVersionFormatted 2\n")
         (line,), _ = driver.many(RANKS, self.folder, [
             {"arguments": [mesh, WING[1], "--quiet", "--steps", "0"], "without": "meshio"}])
         self.assertEqual(line, f"{mesh}: the Python package meshio is needed for this format (Debian: python3-meshio)")

@@ -21,8 +21,6 @@ CAD = driver.data("cylinder.brep")
 CHILDREN = {"tetra": 8, "triangle": 4, "line": 2}  # Of each cell in a uniform step.
 TAGS = {**{f"gmsh{kind}.msh": "gmsh:physical" for kind in ("2text", "2binary", "4text", "4binary")},
         "text.xdmf": "gmsh:physical", "mixed.xdmf": "gmsh:physical", "gmsh.vtk": "CellEntityIds"}
-BACK = ("back.med", "back.exo", "back.su2", "case")
-
 READ_XDMF = """
 import json, sys
 import dolfin as df
@@ -71,18 +69,26 @@ class Formats(unittest.TestCase):
         runs = [[cls.path(name), CAD, *step, "--output", cls.path(name + ".vtu")] for name in names]
         runs += [[cls.path("gmsh4binary.msh"), CAD, *step, "--output", cls.path("out" + ending)]
                  for ending in (".msh", ".xdmf")]
-        os.makedirs(cls.path("case"))
-        runs += [[cls.path("gmsh4binary.msh"), CAD, "--steps", "0", "--output", cls.path(name)]
-                 for name in ("back.med", "back.exo", "back.su2", "case")]
-        runs += [[cls.path(name), CAD, "--steps", "0", "--output", cls.path(os.path.basename(name) + ".msh")]
-                 for name in BACK]
         runs += [[cls.path("exodus.ex2"), CAD, *step, "--output", cls.path("exodus.msh")],
                  [cls.path("disc.msh"), cls.path("disc.brep"), *step, "--output", cls.path("disc_out.xdmf")],
                  [cls.path("disc.msh"), cls.path("disc.brep"), *step, "--output", cls.path("disc_out.msh")],
-                 [cls.path("out.xdmf"), CAD, "--steps", "0", "--quadratic", "--output", cls.path("curved.msh")]]
-        runs += [[cls.path("all.msh"), CAD, *step, "--output", cls.path("all_out.msh"), "--msh-version", "4.1", "--ascii"]]
-        failures, cls.output = driver.many(RANKS, cls.folder, [{"arguments": run} for run in runs])
+                 [cls.path("all.msh"), CAD, *step, "--output", cls.path("all_out.msh"), "--msh-version", "4.1",
+                  "--ascii"]]
+        cls.output = cls.make(runs)
+        os.makedirs(cls.path("case"))
+        pairs = [("gmsh4binary.msh", "back.med"), ("back.med", "back.med.msh"), ("gmsh4binary.msh", "case"),
+                 ("case", "case.msh"), ("order2.msh", "order2_out.msh"), ("order2.unv", "order2.unv.vtu"),
+                 ("order2.unv.vtu", "order1.su2")]
+        runs = [[cls.path(mesh), CAD, "--steps", "0", "--output", cls.path(result)] for mesh, result in pairs]
+        runs += [[cls.path("out.xdmf"), CAD, "--steps", "0", "--quadratic", "--output", cls.path("curved.msh")]]
+        cls.output += cls.make(runs)
+
+    @classmethod
+    def make(cls, runs):
+        """What is printed by runs that must succeed."""
+        failures, output = driver.many(RANKS, cls.folder, [{"arguments": run} for run in runs])
         assert not any(failures), failures
+        return output
 
     @classmethod
     def path(cls, name):
@@ -206,23 +212,16 @@ class Formats(unittest.TestCase):
         self.assertEqual(self.groups_in_gmsh("disc_out.msh")[1, 4][0], "rim")
 
     def test_there_and_back(self):
-        """Written in the format of a solver, and read again: the same groups. Of those of OpenFOAM and SU2 each facet
-        is in one, and names have no spaces; SU2 has none of volume cells."""
+        """Written in the format of a solver, and read again: the same groups. In an OpenFOAM case names have no spaces,
+        there are none of edges, and each facet of the boundary is in one."""
         expected = counted(self.coarse, "gmsh:physical")
         kinds = {3: "tetra", 2: "triangle", 1: "line"}
         groups = {name: expected[kinds[dimension]][tag] for name, (tag, dimension) in meshes.GROUPS.items()}
-        for name in BACK:
-            with self.subTest(name):
-                found = dict(self.groups_in_gmsh(os.path.basename(name) + ".msh").values())
-                wanted = {group.replace(" ", "_") if "case" in name else group: count for group, count in groups.items()}
-                if name != "back.med":  # Groups of edges become node sets, or are left out.
-                    del wanted["rim"]
-                if "case" in name or name == "back.su2":
-                    boundary = found.pop("boundary")
-                    self.assertEqual(boundary + wanted["wall"] + wanted["ends"], self.boundary_facets())
-                if name == "back.su2":
-                    del wanted["solid body"]
-                self.assertEqual(found, wanted)
+        self.assertEqual(dict(self.groups_in_gmsh("back.med.msh").values()), groups)
+        del groups["rim"]
+        groups["boundary"] = self.boundary_facets() - groups["wall"] - groups["ends"]
+        groups["solid_body"] = groups.pop("solid body")
+        self.assertEqual(dict(self.groups_in_gmsh("case.msh").values()), groups)
 
     def boundary_facets(self):
         facets = np.sort(self.coarse.cells_dict["tetra"][:, [[0, 1, 2], [0, 1, 3], [0, 2, 3], [1, 2, 3]]], axis=2)
@@ -237,6 +236,28 @@ class Formats(unittest.TestCase):
         inside = mesh.point_data["CADDimension"][cells[:, 4:]] < 0
         self.assertGreater(inside.sum(), 100)
         self.assertLess(np.abs(mesh.points[cells[:, 4:]] - middles)[inside].max(), 1e-14)
+
+    def test_second_order(self):
+        """Mid nodes of the wall are put on the CAD, but for those that would invert a cell."""
+        mesh = meshio.gmsh.read(self.path("order2_out.msh"))
+        expected, found = counted(self.coarse, "gmsh:physical"), counted(mesh, "gmsh:physical")
+        self.assertEqual(found["tetra10"], expected["tetra"])
+        self.assertEqual(found["triangle6"], expected["triangle"])
+        self.assertEqual(set(mesh.field_data), set(meshes.GROUPS))
+        wall = mesh.cells_dict["triangle6"][mesh.get_cell_data("gmsh:physical", "triangle6") == meshes.WALL]
+        on_cad = mesh.point_data["CADDistance"][wall] < 1e-9
+        self.assertGreater(on_cad.mean(), 0.9)
+        self.assertIn(f"{self.path('order2.msh')}: quadratic cells are taken by their corners, and made quadratic",
+                      self.output)
+
+    def test_second_order_of_others(self):
+        cells = len(self.coarse.cells_dict["tetra"])
+        self.assertEqual(sum(len(block.data) for block in meshio.read(self.path("order2.unv.vtu")).cells
+                             if block.type == "tetra10"), cells)
+        with contextlib.redirect_stderr(io.StringIO()):
+            linear = meshio.su2.read(self.path("order1.su2"))
+        self.assertEqual(len(linear.cells_dict["tetra"]), cells)
+        self.assertIn("stay linear in", self.output)
 
     def test_dolfin_reads_what_is_written(self):
         expected = children(counted(self.coarse, "gmsh:physical"))

@@ -14,12 +14,25 @@ import numpy as np
 
 sys.path.insert(0, os.path.join(driver.ROOT, "plugin"))
 
-from cadrefine.formats import BadFile, exodus, exodus_writing, grid, med, msh, msh_writing, openfoam, openfoam_writing, su2, xdmf
+from cadrefine.formats import BadFile, abaqus, exodus, exodus_writing, grid, med, msh, msh_writing, nastran, openfoam
+from cadrefine.formats import openfoam_writing, su2, unv, xdmf
 from cadrefine.formats.groups import grouped, members
-from cadrefine.formats.sides import sides_of
+from cadrefine.formats.sides import once, sides_of
 from vtkmodules.vtkCommonCore import vtkStringArray
 
-NAMED = {2: "nose", 3: "nose", 4: "wall"}  # Some faces of the two boxes' CAD; two have the name of a group, and of one another.
+EDGES = [[0, 1], [1, 2], [2, 0], [0, 3], [1, 3], [2, 3]]  # Of a tetrahedron, those of a triangle first.
+NAMED = {2: "nose", 3: "nose", 4: "wall"}  # Faces of the boxes' CAD: two of the same name, and one of a group's.
+
+NAMED_PROPERTY = """\
+$HMNAME PROP                   3"blade"
+BEGIN BULK
+GRID           1              0.      0.      0.
+GRID           2           1.5-1      0.      0.
+GRID           3              0.      1.      0.
+GRID           4              0.      0.    1.+0
+CTETRA         9       3       1       2       3       4
+ENDDATA
+"""
 
 
 def write_boxes(path):
@@ -44,6 +57,21 @@ def write_boxes(path):
         gmsh.option.setNumber("Mesh.MeshSizeMax", 0.5)
         gmsh.model.mesh.generate(3)
         gmsh.write(path)
+    finally:
+        gmsh.finalize()
+
+
+def write_with_gmsh(source, paths, order):
+    """Those of Nastran with long fields (.bdf) or free ones."""
+    gmsh.initialize()
+    try:
+        gmsh.option.setNumber("General.Terminal", 0)
+        gmsh.open(source)
+        gmsh.model.mesh.setOrder(order)
+        gmsh.option.setNumber("Mesh.SaveElementTagType", 2)
+        for path in paths:
+            gmsh.option.setNumber("Mesh.BdfFieldFormat", 2 if path.endswith(".bdf") else 0)
+            gmsh.write(path)
     finally:
         gmsh.finalize()
 
@@ -168,6 +196,46 @@ class Groups(unittest.TestCase):
         alone = grid.Mesh(self.mesh.points, self.mesh.blocks[-1:])
         su2.write(self.path("alone.su2"), alone)
         self.assertEqual(self.counts(grouped(su2.read(self.path("alone.su2")))), {("boundary", 2): 10 * 14})
+
+    def test_abaqus(self):
+        """Facets are sides of elements: in the file each is in all of its groups, and comes back once."""
+        abaqus.write(self.path("boxes.inp"), self.mesh)
+        back = once(abaqus.read(self.path("boxes.inp")))
+        expected = {(name.replace(" ", "_"), dimension): count for (name, dimension), count in self.expected.items()}
+        self.assertEqual(self.counts(grouped(back)), expected)
+        np.testing.assert_array_equal(back.points, self.mesh.points)
+        solids = meshio.abaqus.read(self.path("boxes.inp"))
+        self.assertEqual(sum(len(cells) for cells in solids.cell_sets["steel"]), self.expected["steel", 3])
+        self.assertEqual(set(solids.point_sets), {name for name, dimension in expected if dimension == 2})
+
+    def test_files_of_gmsh(self):
+        """Of first and of second order. Nastran's have numbers of properties for names, one for each cell."""
+        named = self.counts(self.plain)
+        wall, contact, steel, air = (named[pair] for pair in (("wall", 2), ("contact", 2), ("steel", 3), ("air", 3)))
+        for order in (1, 2):
+            write_with_gmsh(self.path("boxes.msh"), [self.path(f"gmsh{order}{ending}") for ending in
+                                                     (".unv", ".inp", ".bdf", ".nas")], order)
+            for ending, reader in ((".unv", unv), (".inp", abaqus)):
+                found = self.counts(reader.read(self.path(f"gmsh{order}{ending}")))
+                self.assertEqual({name: count for name, count in found.items() if name in named}, named)
+            for ending in (".bdf", ".nas"):  # With long fields, and free ones.
+                mesh = nastran.read(self.path(f"gmsh{order}{ending}"))
+                tags, dimensions = mesh.cell_data["nastran:ref"], mesh.cell_dimensions()
+                found = {(int(tag), dimension): int(((tags == tag) & (dimensions == dimension)).sum())
+                         for dimension in (2, 3) for tag in np.unique(tags[dimensions == dimension])}
+                self.assertEqual(found, {(1, 3): steel, (2, 3): air, (5, 2): wall, (6, 2): contact})
+                for kind, corners in mesh.blocks if order == 2 else ():
+                    edges = EDGES[:corners.shape[1] - {24: 4, 22: 3}[kind]]
+                    middles = mesh.points[corners[:, edges]].mean(axis=2)
+                    self.assertLess(np.abs(middles - mesh.points[corners[:, -len(edges):]]).max(), 1e-5)
+
+    def test_names_in_nastran(self):
+        """As HyperMesh and its like leave them; fields of 8 columns, numbers without an exponent."""
+        with open(self.path("named.nas"), "w", encoding="ascii") as file:
+            file.write(NAMED_PROPERTY)
+        mesh = nastran.read(self.path("named.nas"))
+        self.assertEqual(mesh.groups, {"blade": (3, 3)})
+        self.assertEqual(mesh.points.max(axis=0).tolist(), [0.15, 1, 1])
 
     def test_med(self):
         med.write(self.path("boxes.med"), self.mesh)

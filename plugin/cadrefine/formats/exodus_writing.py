@@ -1,5 +1,5 @@
-"""Writes Exodus files (netCDF, 64-bit offsets): element blocks, side sets and node sets, with names. (VTK's writer takes
-sets from what its reader has read alone; meshio's writes no side sets.)"""
+"""Writes Exodus files (netCDF, 64-bit offsets): element blocks, side sets and node sets, with names. (VTK's writer
+takes sets from what its reader has read alone; meshio's writes no side sets.)"""
 
 import numpy as np
 

@@ -5,13 +5,17 @@ import dataclasses
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints, vtkStringArray
-from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkUnstructuredGrid
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkCellTypes, vtkUnstructuredGrid
+
+from cadrefine.formats import BadFile
 
 PHYSICAL, GEOMETRICAL = "gmsh:physical", "gmsh:geometrical"  # Cell arrays, named as meshio names them.
 PATCH_TYPES = "OpenFOAMPatchTypes"  # Field data: names of patches, and the type of each behind it.
 SERIAL = "SERIAL:"  # Before the name of an HDF5 file: this process opens it alone, not all ranks together.
-# Cell arrays that tell groups of cells, the first of them counts: of gmsh, Medit, Exodus, SU2, Netgen, .vtk files.
-TAG_ARRAYS = (PHYSICAL, "medit:ref", "ObjectId", "su2:tag", "netgen:index", "CellEntityIds", "MaterialIds")
+# Cell arrays that tell groups of cells, the first of them counts: of gmsh, Medit, Exodus, SU2, Nastran, universal
+# files, Netgen, .vtk files.
+TAG_ARRAYS = (PHYSICAL, "medit:ref", "ObjectId", "su2:tag", "nastran:ref", "unv:property", "netgen:index",
+              "CellEntityIds", "MaterialIds")
 
 TYPES = {  # VTK's number of a type of cell: its name in meshio, its dimension, its number of points.
     1: ("vertex", 0, 1), 3: ("line", 1, 2), 5: ("triangle", 2, 3), 9: ("quad", 2, 4), 10: ("tetra", 3, 4),
@@ -38,6 +42,15 @@ class Mesh:
 
     def cell_dimensions(self):
         return np.repeat([TYPES[number][1] for number, _ in self.blocks], [len(corners) for _, corners in self.blocks])
+
+
+def check(mesh):
+    """Throws BadFile where cells have points that are not there, which VTK would not notice."""
+    for _, corners in mesh.blocks:
+        if len(corners) and not 0 <= corners.min() <= corners.max() < len(mesh.points):
+            raise BadFile("a cell has a point that is not in the file")
+    if not sum(len(corners) for _, corners in mesh.blocks):
+        raise BadFile("the mesh has no cells")
 
 
 def to_grid(mesh):
@@ -94,6 +107,8 @@ def from_grid(grid):
     corners = vtk_to_numpy(grid.GetCells().GetConnectivityArray())
     order, blocks = [], []
     for number in np.unique(types):
+        if int(number) not in TYPES:
+            raise BadFile(f"it holds a {vtkCellTypes.GetClassNameFromTypeId(int(number))}")
         chosen = np.flatnonzero(types == number)
         size = TYPES[int(number)][2]
         blocks.append((int(number), corners[offsets[chosen][:, np.newaxis] + np.arange(size)]))
@@ -107,7 +122,7 @@ def from_grid(grid):
 
 def entity_names_of(cell_data):
     """{(dimension, entity): name} of the CAD entities that cells are part of."""
-    dimensions, entities, names = (cell_data.GetAbstractArray(name) for name in ("CADDimension", "CADEntity", "CADName"))
+    dimensions, entities, names = (cell_data.GetAbstractArray("CAD" + name) for name in ("Dimension", "Entity", "Name"))
     if dimensions is None or entities is None or names is None:
         return {}
     pairs = np.column_stack([vtk_to_numpy(dimensions), vtk_to_numpy(entities)])
@@ -149,3 +164,12 @@ def groups_of(field_data):
 def tag_array(cell_data):
     """Name of the array that tells groups of cells, or None."""
     return next((name for name in TAG_ARRAYS if name in cell_data), None)
+
+
+def positions(tags, all_tags):
+    """Where each of `tags` stands in `all_tags`."""
+    order = np.argsort(all_tags, kind="stable")
+    found = np.minimum(np.searchsorted(all_tags, tags, sorter=order), len(order) - 1)
+    if len(order) == 0 or (all_tags[order[found]] != tags).any():
+        raise BadFile("a cell or a value belongs to a node or element that is not in the file")
+    return order[found]

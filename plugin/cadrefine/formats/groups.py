@@ -13,6 +13,7 @@ import numpy as np
 from cadrefine.formats.grid import PHYSICAL, tag_array
 
 ENTITIES = {0: "Vertex", 1: "Edge", 2: "Face"}  # By dimension.
+NAME = "A-Za-z0-9_.-"  # What most solvers take in names.
 BOUNDARY = "boundary"  # The facets in no group, where a format wants each facet in one.
 
 
@@ -113,7 +114,7 @@ def sets_of_groups(mesh):
 
 
 def set_groups(mesh, members):
-    """Gives a mesh that has been read its tags: `members` has a row of cell and tag for each group that a cell is in."""
+    """Gives a mesh that is read its tags: `members` has a row of cell and tag for each group that a cell is in."""
     if len(members) == 0:
         return
     dimensions = mesh.cell_dimensions()

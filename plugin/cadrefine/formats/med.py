@@ -1,10 +1,10 @@
-"""Reads and writes MED files, of SALOME and code_aster, with groups. (meshio leaves the corners of cells in VTK's order,
-which is the opposite of MED's, and makes no groups of families.)"""
+"""Reads and writes MED files, of SALOME and code_aster, with groups. (meshio leaves the corners of cells in VTK's
+order, which is the opposite of MED's, and makes no groups of families.)"""
 
 import numpy as np
 
 from cadrefine.formats import BadFile, library
-from cadrefine.formats.grid import TYPES, Mesh, in_space
+from cadrefine.formats.grid import TYPES, Mesh, check, in_space
 from cadrefine.formats.groups import grouped, set_groups, sets_of_groups, unused
 
 VTK_TYPES = {"PO1": 1, "SE2": 3, "SE3": 21, "TR3": 5, "TR6": 22, "QU4": 9, "TE4": 10, "T10": 24, "HE8": 12, "PE6": 13,
@@ -26,7 +26,7 @@ def read(path):
     try:
         with h5py.File(path, "r") as file:
             return read_file(file)
-    except (OSError, KeyError, ValueError, IndexError, TypeError) as error:
+    except (OSError, RuntimeError, KeyError, ValueError, IndexError, TypeError) as error:  # Of h5py and numpy.
         raise BadFile(f"malformed: {' '.join(str(error).split())}") from None
 
 
@@ -46,12 +46,10 @@ def read_file(file):
             raise BadFile(f"it holds cells of MED's type {name}")
         kind = VTK_TYPES[name]
         corners = cells["NOD"][()].reshape((-1, TYPES[kind][2]), order="F").astype(int) - 1
-        if len(corners) and not 0 <= corners.min() <= corners.max() < len(mesh.points):
-            raise BadFile("a cell has a point that is not in the file")
-        mesh.blocks.append((kind, turned(mesh.points, kind, corners)))
+        mesh.blocks.append((kind, corners))
         families.append(cells["FAM"][()] if "FAM" in cells else np.zeros(len(corners), int))
-    if not mesh.blocks:
-        raise BadFile("the mesh has no cells")
+    check(mesh)
+    mesh.blocks = [(kind, turned(mesh.points, kind, corners)) for kind, corners in mesh.blocks]
     groups = groups_of_families(file["FAS"][names[0]].get("ELEME", {}) if names[0] in file.get("FAS", {}) else {})
     add_groups(mesh, groups, np.concatenate(families))
     return mesh

@@ -13,11 +13,12 @@ def read(path, module):
     file has no other tags, groups: a cell of several sets is in the first of them. Throws BadFile."""
     reader = library("meshio." + module)
     try:
-        source = reader.read(path)
-    except (Exception, SystemExit) as error:  # meshio lets through whatever went wrong.
+        return converted(reader.read(path))
+    except BadFile:
+        raise
+    except (Exception, SystemExit) as error:  # meshio lets through whatever went wrong, and arrays that do not fit.
         reason = str(error).strip() or type(error).__name__
         raise BadFile(f"meshio cannot read it as {module}: {reason}") from None
-    return converted(source)
 
 
 def converted(source):

@@ -3,7 +3,7 @@
 import numpy as np
 
 from cadrefine.formats import BadFile
-from cadrefine.formats.grid import GEOMETRICAL, Mesh
+from cadrefine.formats.grid import GEOMETRICAL, Mesh, positions
 from cadrefine.formats.groups import set_groups
 from cadrefine.formats.msh_sections import Reader
 from cadrefine.formats.msh_types import SWAPPED, VTK_TYPES
@@ -47,15 +47,6 @@ def assemble(sections):
     set_fields(mesh.point_data, sections.node_data, sections.tags)
     set_fields(mesh.cell_data, sections.element_data, np.concatenate(numbers))
     return mesh
-
-
-def positions(tags, all_tags):
-    """Where each of `tags` stands in `all_tags`."""
-    order = np.argsort(all_tags, kind="stable")
-    found = np.minimum(np.searchsorted(all_tags, tags, sorter=order), len(order) - 1)
-    if len(order) == 0 or (all_tags[order[found]] != tags).any():
-        raise BadFile("a cell or a value belongs to a node or element that is not in the file")
-    return order[found]
 
 
 def distinct(corners):

@@ -125,7 +125,8 @@ def read_folder(folder):
     patches = list(patches_of(File(folder, "boundary")))
     members = [(name, 2, np.arange(start, start + count)) for name, _, start, count in patches]
     members += zones_of(folder, "faceZones", b"faceLabels", 2) + zones_of(folder, "cellZones", b"cellLabels", 3)
-    chosen = np.unique(np.concatenate([np.zeros(0, int), *(faces for _, dimension, faces in members if dimension == 2)]))
+    in_groups = [numbers for _, dimension, numbers in members if dimension == 2]
+    chosen = np.unique(np.concatenate([np.zeros(0, int), *in_groups]))
     chosen = chosen[np.argsort((faces[chosen] >= 0).sum(axis=1), kind="stable")]
     sizes = (faces[chosen] >= 0).sum(axis=1)
     if not set(np.unique(sizes)) <= {3, 4}:
@@ -168,7 +169,8 @@ def patches_of(file):
     """Name, type, first face and number of faces of each patch."""
     for name, start, end in file.entries():
         text = file.content[start:end]
-        kind, first, count = (re.search(key + rb"\s+([^\s;]+)\s*;", text) for key in (rb"\btype", b"startFace", b"nFaces"))
+        kind, first, count = (re.search(key + rb"\s+([^\s;]+)\s*;", text)
+                              for key in (rb"\btype", b"startFace", b"nFaces"))
         if not (kind and first and count):
             raise BadFile("constant/polyMesh/boundary is malformed")
         yield name, kind[1].decode(errors="replace"), int(first[1]), int(count[1])

@@ -6,13 +6,12 @@ import numpy as np
 
 from cadrefine.formats import BadFile
 from cadrefine.formats.grid import PHYSICAL
-from cadrefine.formats.groups import group_names, grouped
+from cadrefine.formats.groups import NAME, group_names, grouped
 from cadrefine.formats.sides import sides_of, tagged
 
 FOLDER = "constant/polyMesh"
 FILES = ("points", "faces", "owner", "neighbour", "boundary", "cellZones", "faceZones")
 TYPES = ("wall", "symmetry", "symmetryPlane")  # Of patches, which need nothing but their name.
-NAME = "A-Za-z0-9_.-"  # What a word of OpenFOAM takes.
 LINEAR = (10, 12, 13, 14)  # VTK's types of cells of three dimensions.
 HEADER = """FoamFile
 {{

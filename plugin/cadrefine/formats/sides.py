@@ -4,8 +4,8 @@ import dataclasses
 
 import numpy as np
 
-from cadrefine.formats.grid import PHYSICAL, TYPES
-from cadrefine.formats.groups import BOUNDARY, unused
+from cadrefine.formats.grid import PHYSICAL, TYPES, tag_array
+from cadrefine.formats.groups import BOUNDARY, is_list, set_groups, unused
 
 SEGMENT_SIDES = ((0, 1), (1, 2), (2, 0))
 TETRAHEDRON_SIDES = ((0, 1, 3), (1, 2, 3), (0, 3, 2), (0, 2, 1))
@@ -88,6 +88,41 @@ def cells_of(mesh, dimension):
             cells.append(np.arange(first, first + len(points)))
         first += len(points)
     return np.concatenate(corners), np.concatenate(cells)
+
+
+def once(mesh):
+    """The mesh with each cell below its own dimension once: one that comes several times, for each of its groups, is
+    in all of them."""
+    highest = int(mesh.cell_dimensions().max(initial=0))
+    kept = np.arange(len(mesh.cell_dimensions()))
+    for dimension in range(highest):
+        corners, cells = cells_of(mesh, dimension)
+        classes, count = same_corners(corners)
+        first = np.full(count, -1)
+        first[classes[::-1]] = cells[::-1]
+        kept[cells] = first[classes]
+    single = kept == np.arange(len(kept))
+    name = tag_array(mesh.cell_data)
+    if single.all():
+        return mesh
+    blocks, start = [], 0
+    for kind, corners in mesh.blocks:
+        blocks.append((kind, corners[single[start:start + len(corners)]]))
+        start += len(corners)
+    result = dataclasses.replace(mesh, blocks=blocks,
+                                 cell_data={name: values[single] for name, values in mesh.cell_data.items()})
+    if name:
+        place = (np.cumsum(single) - 1)[kept]
+        tags = mesh.cell_data[name]
+        rows = [np.column_stack([place, tags])[tags > 0]]
+        for group, (tag, dimension) in mesh.groups.items():
+            if is_list(mesh.cell_data.get(group)):
+                inside = place[(mesh.cell_data[group] == 1) & (mesh.cell_dimensions() == dimension)]
+                rows.append(np.column_stack([inside, np.full(len(inside), tag)]))
+        rows = np.concatenate(rows)
+        _, first = np.unique(rows, axis=0, return_index=True)
+        set_groups(result, rows[np.sort(first)])
+    return result
 
 
 def padded(side):

@@ -4,13 +4,12 @@ import numpy as np
 
 from cadrefine.formats import BadFile
 from cadrefine.formats.grid import TYPES, Mesh
-from cadrefine.formats.groups import group_names, grouped
+from cadrefine.formats.groups import NAME, group_names, grouped
 from cadrefine.formats.sides import sides_of, tagged
 
 TAGS = "su2:tag"
 LINEAR = (3, 5, 9, 10, 12, 13, 14)  # SU2 numbers types of cells as VTK does.
 FACET_TYPES = {2: 3, 3: 5, 4: 9}  # By the number of corners.
-NAME = "A-Za-z0-9_.-"  # What its configuration takes in names of markers.
 
 
 def read(path):
@@ -60,11 +59,7 @@ def read_lines(lines):
         elif key in ("NELEM", "MARKER_ELEMS"):
             add_cells(cells, tags, lines.table(int(value)), tag if key == "MARKER_ELEMS" else 0)
     blocks = [(kind, np.array(rows, dtype=int)) for kind, rows in cells.items()]
-    if not blocks:
-        raise BadFile("the mesh has no cells")
-    if min(corners.min() for _, corners in blocks) < 0 or max(corners.max() for _, corners in blocks) >= len(points):
-        raise BadFile("a cell has a point that is not in the file")
-    numbers = np.concatenate([tags[kind] for kind, _ in blocks]).astype(np.int32)
+    numbers = np.concatenate([[], *(tags[kind] for kind, _ in blocks)]).astype(np.int32)
     return Mesh(points, blocks, {}, {TAGS: numbers}, groups)
 
 
