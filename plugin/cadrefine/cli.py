@@ -4,9 +4,10 @@ import json
 import time
 
 import cadrefine.options
-from cadrefine import output, pictures, plot
+from cadrefine import output, plot
 from cadrefine import report as reporting
 from cadrefine import session
+from cadrefine.pictures import Pictures
 from cadrefine.pipeline import Pipeline
 from cadrefine.results import Results
 from cadrefine.session import Failure
@@ -21,7 +22,7 @@ class Steps:
         self.pipeline = pipeline
         self.report = report
         self.results = results
-        self.largest_error = None  # Of a cell at the start: all pictures have the same colours.
+        self.pictures = Pictures(options)
 
     def end(self, kind):
         """Writes the mesh, and the report up to here: the last ones become the results, also where a signal ends the
@@ -30,9 +31,7 @@ class Steps:
         if self.options.output:
             self.write()
         self.report.tell_step()
-        if self.largest_error is None:
-            self.largest_error = pictures.largest_error(self.pipeline.mesh)
-            self.draw(self.options.screenshot_start)
+        self.pictures.begin(self.pipeline)
 
     def write(self):
         place = self.options.output
@@ -41,10 +40,6 @@ class Steps:
         write_report(self.options, self.report.content(self.pipeline, "ended by a signal"), self.results)
         self.results.keep_on_signal([result for result in (place, self.options.report) if result],
                                     f"the mesh after step {self.report.steps[-1]['step']}")
-
-    def draw(self, place):
-        if place:
-            pictures.screenshot(self.pipeline.mesh, self.results.path(place), self.options, self.largest_error)
 
 
 def run(options, results, terminal, started):
@@ -69,7 +64,7 @@ def run(options, results, terminal, started):
     report.tell_why_stopped()
 
     content = report.content(pipeline, report.stopped)
-    steps.draw(options.screenshot)
+    steps.pictures.draw(pipeline, results)
     write_report(options, content, results)
     write_file(options.plot, lambda path: plot.plot(content, path, other), results)
     results.keep()

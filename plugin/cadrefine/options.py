@@ -156,13 +156,16 @@ def add_results(group):
     group.add_argument("--plot", metavar="FILE.png", help="draw the global error over the number of vertices")
     group.add_argument("--compare-report", metavar="FILE.json", help="draw another run's report into the plot")
     group.add_argument("--screenshot", metavar="FILE.png",
-                       help="picture of the last mesh, coloured by the geometric error; needs a display")
-    group.add_argument("--screenshot-start", metavar="FILE.png", help="the same of the projected mesh")
+                       help="picture of the last mesh: its facets on the CAD, coloured by their distance from it, "
+                       "plane ones grey; needs a display")
+    group.add_argument("--screenshot-start", metavar="FILE.png",
+                       help="the same of the projected mesh, from the same side and on the same scale")
     group.add_argument("--focus", type=coordinate, nargs=6, metavar=BOX,
-                       help="box that the pictures show, lengths (default: all that lies on the CAD)")
+                       help="box that the pictures show, lengths (default: the curved faces of the CAD, without a "
+                       "far field)")
     group.add_argument("--view", type=coordinate, nargs=3, metavar=("X", "Y", "Z"),
-                       help="direction from the mesh to the eye in the pictures; z is up (default -0.6 -0.64 0.48, of "
-                       "a mesh in the plane 0 0 1)")
+                       help="direction from the mesh to the eye in the pictures; z is up (default: -0.6 -0.64 0.48 "
+                       "with the signs that show most of the error, of a mesh in the plane 0 0 1)")
     group.add_argument("--strict", action="store_true", help="make each warning an error")
     group.add_argument("--quiet", action="store_true", help="print nothing but errors")
     group.add_argument("-h", "--help", action="store_true", help="print this help, and do nothing else")

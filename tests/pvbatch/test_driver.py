@@ -12,6 +12,7 @@ import driver
 import meshes
 import meshio
 import numpy as np
+from matplotlib.image import imread
 
 RANKS = int(sys.argv.pop()) if sys.argv[-1].isdigit() else 1
 WING = (driver.data("naca0012_coarse.vtu"), driver.data("naca0012_sharp.igs"))
@@ -122,13 +123,18 @@ class Results(Case):
     def test_screenshots(self):
         for case in (WING, ARCS):
             pictures = self.path("start.png"), self.path("end.png")
-            run = driver.Run(RANKS, *case, "--steps", "1", "--screenshot-start", pictures[0],
+            run = driver.Run(RANKS, *case, "--steps", "1", "--method", "uniform", "--screenshot-start", pictures[0],
                              "--screenshot", pictures[1], display=True)
             self.assertEqual((run.status, run.errors), (0, []))
             for picture in pictures:
                 with open(picture, "rb") as file:
                     self.assertEqual(file.read(8), PNG)
                     self.assertGreater(os.path.getsize(picture), 10000, "an empty picture")
+            start, end = map(imread, pictures)
+            bar = start.shape[1] // 8
+            np.testing.assert_array_equal(start[:, :bar], end[:, :bar], "two scales")
+            self.assertGreater(np.abs(start - end).mean(), 0.005, "one picture")
+            for picture in pictures:
                 os.remove(picture)
 
     def test_plot_and_table(self):
