@@ -140,6 +140,8 @@ tidy: build-all ## Run clang-tidy on the sources
 pictures: build ## Make the pictures of the documentation anew (docs/images)
 	@.ci/install-packages tests tools
 	@xvfb-run --auto-servernum --server-args="-screen 0 1280x1024x24 -noreset" pvpython docs/pictures.py
+	@xvfb-run --auto-servernum --server-args="-screen 0 1280x1024x24 -noreset" pvpython docs/triangle_pictures.py
+	@/usr/bin/python3 -B docs/gallery/gallery.py --publish
 	@/usr/bin/python3 -B docs/window_pictures.py
 	@dot -Tsvg docs/images/architecture.dot -o docs/images/architecture.svg
 

@@ -1,4 +1,6 @@
-"""Makes the pictures of the pages of filters and of the tutorial: xvfb-run -a pvpython docs/pictures.py [NAME...]
+"""Makes the pictures of the pages of filters and of the tutorial:
+
+    xvfb-run -a pvpython docs/pictures.py [NAME...]
 
 Runs from the repository's root after `make build`; `make pictures` does it.
 """
@@ -21,16 +23,16 @@ BEARING = "/usr/share/opencascade/data/iges/bearing.iges"
 GREY, DARK = (0.82, 0.84, 0.87), (0.15, 0.15, 0.2)
 HEAT = ((0.96, 0.96, 0.96), (0.98, 0.7, 0.25), (0.7, 0.05, 0.1))
 DECADES = 4  # Of a logarithmic scale.
-COLORS = 160  # Of a saved picture.
 
 
 def data(name):
     return OpenDataFile(os.path.join(ROOT, "data", name))
 
 
-def load_plugin():
+def load_plugin(names):
+    """Its filters go into `names`, as globals() of a module."""
     plugins = glob.glob(os.path.join(ROOT, "build", "release", "lib", "*", "CADRefine", "CADRefine.so"))
-    LoadPlugin(plugins[0], remote=True, ns=globals())
+    LoadPlugin(plugins[0], remote=True, ns=names)
 
 
 class Scene:
@@ -92,6 +94,10 @@ class Scene:
             self.view.CameraFocalPoint = list(centre)
             self.view.CameraPosition = [p + s for p, s in zip(self.view.CameraPosition, shift)]
         self.view.CameraParallelScale /= closer
+        return self.picture()
+
+    def picture(self):
+        """What the view shows, from where its camera is."""
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "view.png")
             SaveScreenshot(path, self.view, ImageResolution=self.view.ViewSize, OverrideColorPalette="")
@@ -99,14 +105,14 @@ class Scene:
 
 
 def save(name, *images):
-    """Images side by side, in few colours."""
+    """Images side by side."""
     whole = Image.new("RGB", (sum(image.width for image in images), max(image.height for image in images)), "white")
     left = 0
     for image in images:
         whole.paste(image, (left, 0))
         left += image.width
     path = os.path.join(IMAGES, name + ".png")
-    whole.quantize(COLORS, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE).save(path, optimize=True)
+    whole.save(path, optimize=True)
     print(f"{path}: {os.path.getsize(path)} bytes", flush=True)
 
 
@@ -277,11 +283,12 @@ PICTURES = (cad_reader, project_onto_cad, cad_geometric_error, refine_with_cad, 
 
 
 def main():
-    load_plugin()
+    load_plugin(globals())
     wanted = sys.argv[1:] or [picture.__name__ for picture in PICTURES]
     for picture in PICTURES:
         if picture.__name__ in wanted:
             picture()
 
 
-main()
+if __name__ == "__main__":
+    main()

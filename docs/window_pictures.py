@@ -22,7 +22,7 @@ from window import Window, event, python
 
 IMAGES = os.path.join(ROOT, "docs", "images")
 STEP = "/usr/share/opencascade/data/step/linkrods.step"
-WIDTH, COLORS = 900, 160  # Of a saved picture.
+WIDTH = 900  # Of a saved picture.
 TIMEOUT = 300
 
 
@@ -82,7 +82,7 @@ def save(name, path):
     image = Image.open(path).convert("RGB")
     image = image.resize((WIDTH, image.height * WIDTH // image.width), Image.Resampling.LANCZOS)
     path = os.path.join(IMAGES, name + ".png")
-    image.quantize(COLORS, dither=Image.Dither.NONE).save(path, optimize=True)
+    image.save(path, optimize=True)
     print(f"{path}: {os.path.getsize(path)} bytes")
 
 

@@ -20,15 +20,9 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 FOLDER = os.path.join("build", "gallery")  # As the page names it.
 DRIVER = "plugin/cadrefine.py"
 
-VIEWS = {  # Case: the driver's options for its pictures.
+VIEWS = {  # Case: the driver's options for its pictures, where its own are not the best.
     "naca": "--view -0.45 -0.85 0.3 --focus 0 0.55 0 0.3 -0.16 0.16",
-    "nose": "--view -0.5 -0.8 0.35 --focus 0.075 0.155 -0.06 0 0.04 0.1",
     "bow": "--view -0.5 0.7 0.3",
-    "bearing": "--view -0.3 -0.7 0.5 --focus -0.013 0.013 -0.068 -0.045 0 0.02",
-    "arcs": "",
-    "linkrods": "",
-    "tee": "--view -0.55 -0.7 0.45",
-    "ball": "",
 }
 FURTHER_PICTURES = {  # Case: commands in its folder that draw more.
     "tee": "pvpython {here}/groups.py mesh.vtu gmsh:physical groups.png -0.55 -0.7 0.45 "
@@ -61,7 +55,7 @@ class Run:
         if not self.options.pictures:
             return words
         return words + ["--screenshot-start", self.path("first.png"), "--screenshot", self.path("last.png"),
-                        *VIEWS[self.case.name].split()]
+                        *VIEWS.get(self.case.name, "").split()]
 
     def run(self):
         """Returns the report."""
@@ -69,11 +63,12 @@ class Run:
         print(f"\n{self.case.name}: {self.case.title}", flush=True)
         for words in self.commands():
             self.execute(words, page.ROOT)
+        if self.options.pictures:
+            page.side_by_side(self.path("first.png"), self.path("last.png"), self.path("both.png"))
         if self.options.pictures and self.case.name in FURTHER_PICTURES:
             self.execute(shlex.split(FURTHER_PICTURES[self.case.name].format(here=HERE)), self.path(""))
         with open(self.path("report.json"), encoding="utf-8") as file:
             return json.load(file)
-
 
     def execute(self, words, folder):
         print(f"$ {shlex.join(words)}", flush=True)

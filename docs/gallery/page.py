@@ -3,11 +3,15 @@
 import os
 import re
 
+from PIL import Image
+
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 PAGE = os.path.join(ROOT, "docs", "gallery.md")
 IMAGES = os.path.join(ROOT, "docs", "images")
-PICTURE_SIZE = (700, 450)
-LARGEST = 80_000  # Bytes of a picture in the page.
+BEFORE_AFTER = os.path.join(IMAGES, "before_after.png")
+SCALE = 2  # How many times smaller pictures are in the pages.
+BAR_SHARE = 0.16  # Of the width of the driver's pictures: the colour bar, on the left.
+FIRST_PAGE = "linkrods"  # The case whose two pictures, side by side, README.md begins with.
 
 SECTION = re.compile(r"^## (?P<name>\w+): (?P<title>.*)\n(?P<text>(?:(?!^## ).*\n)*)", re.MULTILINE)
 BLOCK = re.compile(r"^```console\n(.*?)^```$", re.MULTILINE | re.DOTALL)
@@ -46,8 +50,10 @@ def cases():
 def publish(run, report, seconds):
     """Puts the pictures of a run beside the page, and its figures into it; `seconds` are those of the processor."""
     for name in sorted(os.listdir(run.path(""))):
-        if name.endswith(".png"):
+        if name.endswith(".png") and name != "both.png":
             shrink(run.path(name), os.path.join(IMAGES, f"gallery_{run.case.name}_{name}"))
+    if run.case.name == FIRST_PAGE:
+        shrink(run.path("both.png"), BEFORE_AFTER)
 
     def with_figures(section):
         if section["name"] != run.case.name:
@@ -59,18 +65,20 @@ def publish(run, report, seconds):
         file.write(text)
 
 
-def shrink(picture, path):
-    """A smaller picture, of as many colours as LARGEST allows."""
-    from PIL import Image
+def side_by_side(first, last, path):
+    """Two pictures of the driver with the colour bar once: they have the same one."""
+    with Image.open(first) as left, Image.open(last) as right:
+        right = right.crop((round(BAR_SHARE * right.width), 0, right.width, right.height))
+        both = Image.new("RGB", (left.width + right.width, left.height), "white")
+        both.paste(left, (0, 0))
+        both.paste(right, (left.width, 0))
+    both.save(path)
 
+
+def shrink(picture, path):
     with Image.open(picture) as image:
-        small = image.convert("RGB").resize(PICTURE_SIZE, Image.Resampling.LANCZOS)
-    for colours in (256, 128, 64):
-        reduced = small.quantize(colours, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
-        reduced.save(path, optimize=True)
-        if os.path.getsize(path) < LARGEST:
-            return
-    raise RuntimeError(f"{path}: is larger than {LARGEST} bytes; take fewer steps or look closer")
+        size = image.width // SCALE, image.height // SCALE
+        image.convert("RGB").resize(size, Image.Resampling.LANCZOS).save(path, optimize=True)
 
 
 def table(report, seconds):

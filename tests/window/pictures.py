@@ -15,7 +15,6 @@ from window import Window, event, python
 
 SIZE = (1000, 660)
 TIMEOUT = 150
-COLOURS = 64
 
 
 def look_from(x, y, z, zoom=1):
@@ -60,7 +59,7 @@ def main():
         for name in ("window_cad", "window_region", "window_error"):
             picture = Image.open(window.path(name + ".png")).convert("RGB")
             target = os.path.join(folder, name + ".png")
-            picture.quantize(COLOURS, dither=Image.Dither.NONE).save(target, optimize=True)
+            picture.save(target, optimize=True)
             print(f"{target}: {os.path.getsize(target)} bytes")
 
 
