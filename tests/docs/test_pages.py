@@ -54,6 +54,7 @@ class Pages(unittest.TestCase):
             new = {file for path in new for file in links.get(path, ())} - reached
         self.every(page.name for page in PAGES if page.path.startswith(pages.DOCS) and page.path not in reached)
 
+
 def load(*names):
     with open(os.path.join(pages.ROOT, *names), encoding="utf-8") as file:
         return yaml.safe_load(file)
@@ -83,6 +84,29 @@ class Metadata(unittest.TestCase):
                 ids = [item["id"] for item in form["body"] if item["type"] != "markdown"]
                 self.assertEqual(len(ids), len(set(ids)))
                 self.assertTrue(all(item["attributes"] for item in form["body"]))
+
+    def test_workflow(self):
+        """It runs .ci/run on both releases of Debian."""
+        jobs = load(".github", "workflows", "ci.yml")["jobs"]
+        job = jobs["debian"]
+        self.assertEqual(job["strategy"]["matrix"]["debian"], [12, 13])
+        self.assertEqual(job["container"]["image"], "debian:${{ matrix.debian }}")
+        self.assertIn(".ci/run", [step.get("run") for step in job["steps"]])
+
+    def test_recipes_name_the_version(self):
+        version = load("CITATION.cff")["version"]
+        for path, line in (("Dockerfile", f'org.opencontainers.image.version="{version}"'),
+                           ("plugin/package/spack/package.py", f'version("{version}")'),
+                           ("plugin/package/conda/meta.yaml", f'set version = "{version}"')):
+            with open(os.path.join(pages.ROOT, path), encoding="utf-8") as file:
+                text = file.read()
+            self.assertIn(line, text, path)
+            if path.endswith(".py"):
+                compile(text, path, "exec")
+            elif path.endswith(".yaml"):
+                plain = re.sub(r"{{.*?}}", "x", re.sub(r"{%.*?%}", "", text))
+                self.assertEqual(set(yaml.safe_load(plain)),
+                                 {"package", "source", "build", "requirements", "test", "about"})
 
     def test_changes_name_the_version(self):
         page = next(page for page in PAGES if page.name == "CHANGELOG.md")
