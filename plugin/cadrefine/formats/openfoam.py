@@ -81,6 +81,8 @@ class File:
                 corners.append(values[at + 1:at + 1 + sizes[face]])
                 at += 1 + sizes[face]
             corners = np.concatenate(corners)
+        if min(sizes, default=0) < 0 or sum(sizes) != len(corners):
+            raise BadFile("constant/polyMesh/faces is cut short")
         table = np.full((len(sizes), max(sizes, default=0)), -1)
         table[np.arange(table.shape[1]) < sizes[:, np.newaxis]] = corners
         return table
@@ -119,7 +121,9 @@ def read_folder(folder):
     points = File(folder, "points").list("scalar", 3)
     faces = File(folder, "faces").faces()
     owner, neighbour = (File(folder, name).list("label") for name in ("owner", "neighbour"))
-    if len(owner) != len(faces) or faces.max(initial=-1) >= len(points):
+    cells = np.concatenate([owner, neighbour])
+    if len(owner) != len(faces) or faces.max(initial=-1) >= len(points) or len(neighbour) > len(owner) or not (
+            0 <= cells.min(initial=0) <= cells.max(initial=0) < len(faces)):
         raise BadFile("constant/polyMesh/owner, faces and points do not fit together")
     cells = tetrahedra(points, faces, owner, neighbour)
     patches = list(patches_of(File(folder, "boundary")))
