@@ -109,15 +109,18 @@ class BadFormats(unittest.TestCase):
 
     def test_writing(self):
         """Whatever fails, the results of the run before stay as they were, and there is nothing beside them."""
-        results = {ending: self.path("out" + ending) for ending in (".vtu", ".pvtu", ".msh", ".xdmf")}
+        results = {ending: self.path("out" + ending) for ending in (".vtu", ".pvtu", ".msh", ".xdmf", ".foam")}
         steps = [*WING, "--steps", "0", "--output"]
         made, _ = driver.many(RANKS, self.folder, [{"arguments": [*steps, path]} for path in results.values()])
         self.assertEqual(made, [None] * len(results))
         before = self.contents()
-        self.assertLessEqual({"out.vtu", "out.pvtu", "out/out_0.vtu", "out.msh", "out.xdmf", "out.h5"}, set(before))
+        self.assertLessEqual({"out.vtu", "out.pvtu", "out/out_0.vtu", "out.msh", "out.xdmf", "out.h5", "out.foam"},
+                             set(before))
+        self.assertIn("constant/polyMesh/boundary", before)
         steps[-2] = "1"
         broken = {".vtu": "cadrefine.pieces.write_grid", ".msh": "cadrefine.formats.msh_writing.write",
-                  ".xdmf": "cadrefine.formats.xdmf.arrange"}
+                  ".xdmf": "cadrefine.formats.xdmf.arrange",
+                  ".foam": "cadrefine.formats.openfoam_writing.write_patches"}
         runs = [{"arguments": [*steps, results[ending]], "fails": function} for ending, function in broken.items()]
         late = ["--plot", self.path("plot.png")]
         runs += [{"arguments": [*steps, path, *late], "fails": "cadrefine.plot.plot"} for path in results.values()]
