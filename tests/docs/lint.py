@@ -8,7 +8,7 @@ import sys
 import pages
 
 LANGUAGES = {"bash", "python", "console", "text", "json", "xml", "cmake", "cpp", "c", "yaml", "make"}
-LARGEST_PICTURE = 500_000  # Bytes; in full colours.
+LARGEST_PICTURE = 600_000  # Bytes; in full colours.
 WIDTH = 120
 
 
