@@ -20,7 +20,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 IMAGES = os.path.join(ROOT, "docs", "images")
 ROD = "/usr/share/opencascade/data/step/linkrods.step"
 BEARING = "/usr/share/opencascade/data/iges/bearing.iges"
-GREY, DARK = (0.82, 0.84, 0.87), (0.15, 0.15, 0.2)
+GREY, DARK, EDGE = (0.9, 0.91, 0.93), (0.15, 0.15, 0.2), (0.3, 0.3, 0.36)
 HEAT = ((0.96, 0.96, 0.96), (0.98, 0.7, 0.25), (0.7, 0.05, 0.1))
 DECADES = 4  # Of a logarithmic scale.
 
@@ -50,7 +50,8 @@ class Scene:
         display.SetRepresentationType(kind)
         display.ColorArrayName = [None, ""]
         display.AmbientColor = display.DiffuseColor = list(color)
-        display.EdgeColor = list(DARK)
+        display.EdgeColor = list(EDGE)
+        display.Ambient, display.Diffuse = 0.6, 0.45
         for name, value in settings.items():
             setattr(display, name, value)
         return display
@@ -270,8 +271,8 @@ def tutorial_meshes():
         for steps in (0, 6):
             adapted = AdaptToCAD(Input=mesh, CAD=cad, ErrorMarking="Bulk", MaximumSteps=steps)
             top = top or largest(adapted)
-            scene = Scene((470, 360), (0.5, -0.6, 0.75))
-            shown = scene.show(ExtractSurface(Input=adapted), "Surface With Edges")
+            scene = Scene((640, 480), (0.5, -0.6, 0.75))
+            shown = scene.show(ExtractSurface(Input=adapted), "Surface With Edges", LineWidth=0.6)
             scene.color(shown, "CELLS", "GeometricError", heat=(top * 10.0**-DECADES, top), logarithmic=True,
                         bar=not images)
             images.append(scene.image(1.3))

@@ -22,7 +22,6 @@ TRIANGLE = ((0.0, 0.75, 0.0), (0.15, 0.75, 0.107), (0.0, 0.0, 0.0))  # Its corne
 THRESHOLD = 4e-4  # Of the error: the triangles at the leading edge have more.
 SIZE, EYE, MIDDLE, HALF_HEIGHT = (640, 420), (-0.3, -1.0, 0.24), (0.1, 0.36, 0.03), 0.24
 MESH, MARKED, CAD, WAY = (0.92, 0.93, 0.95), (1.0, 0.68, 0.3), (0.3, 0.65, 0.4), (0.85, 0.1, 0.1)
-BRIGHT = {"Ambient": 0.6, "Diffuse": 0.45}
 BALL = 0.009
 
 
@@ -90,12 +89,12 @@ class Stage(Scene):
         super().__init__(SIZE, EYE)
         front = Clip(Input=blocks(cad)[0], ClipType="Box", Exact=1)
         front.ClipType.Position, front.ClipType.Length = [-0.1, -0.1, -0.3], [0.46, 0.86, 0.6]
-        self.show(front, color=CAD, Opacity=0.22, **BRIGHT)
+        self.show(front, color=CAD, Opacity=0.22)
 
     def mesh(self, points, triangles, orange):
         for chosen, color in ((~orange, MESH), (orange, MARKED)):
             if chosen.any():
-                self.show(source(points, triangles[chosen]), "Surface With Edges", color=color, LineWidth=2, **BRIGHT)
+                self.show(source(points, triangles[chosen]), "Surface With Edges", color=color, LineWidth=2)
 
     def balls(self, points, color=DARK):
         balls = Glyph(Input=source(points), GlyphType="Sphere", GlyphMode="All Points", ScaleFactor=BALL)
@@ -155,7 +154,7 @@ class Story:
         stage.mesh(first.points, first.triangles, self.one)
         flat, four = halved(self.corners)
         roof = nearest(flat, self.cad)
-        stage.show(source(roof, four), "Surface With Edges", color=MARKED, Opacity=0.6, LineWidth=2, **BRIGHT)
+        stage.show(source(roof, four), "Surface With Edges", color=MARKED, Opacity=0.6, LineWidth=2)
         stage.ways(flat[3:], roof[3:])
         stage.balls(roof[3:])
         stage.save("measured")
