@@ -27,8 +27,8 @@ FILES = (
     ("with_cad.json, without_cad.json", "the reports"),
     ("refined.vtu", "the last mesh, to look at in ParaView"),
     ("convergence.png", "global error over the number of vertices, with and without CAD"),
-    ("leading_edge_coarse.png", "the projected mesh, coloured by local error"),
-    ("leading_edge_refined.png", "the last mesh, coloured by local error"),
+    ("leading_edge_coarse.png", "the projected mesh, coloured by its distance from the CAD"),
+    ("leading_edge_refined.png", "the last mesh, on the same scale"),
 )
 
 
