@@ -43,7 +43,8 @@ def text(source, name):
 def charts():
     # Of each line chart: what it draws, and the series that are shown.
     return [{"type": item.Input.GetXMLName(), "port": item.Input.Port, "series": list(item.SeriesVisibility),
-             "over": str(item.XArrayName).strip("'"), "log": [int(view.LeftAxisLogScale), int(view.BottomAxisLogScale)]}
+             "over": str(item.XArrayName).strip("'"), "log": [int(view.LeftAxisLogScale), int(view.BottomAxisLogScale)],
+             "titles": [str(view.LeftAxisTitle), str(view.BottomAxisTitle)]}
             for view in simple.GetViews() if view.GetXMLName() == "XYChartView" for item in view.Representations]
 
 def display_of_cad():
@@ -52,7 +53,10 @@ def display_of_cad():
     display = simple.GetDisplayProperties(reader, view)
     return {"array": list(display.ColorArrayName), "mapped": display.MapScalars, "blocks": list(display.BlockColors)}
 
-report = {"cad": display_of_cad(), "charts": charts(), "sources": {key[0]: describe(source) for key, source in simple.GetSources().items()},
+adapted = [source for source in simple.GetSources().values() if source.GetXMLName() == "AdaptToCAD"][0]
+report = {"scale": list(simple.GetColorTransferFunction("GeometricError").RGBPoints)[0::4],
+          "largest": adapted.CellData["GeometricError"].GetRange()[1], "cad": display_of_cad(), "charts": charts(),
+          "sources": {key[0]: describe(source) for key, source in simple.GetSources().items()},
           "menu": {name: definition("filters", name) for name in FILTERS},
           "functions": [name for name in FUNCTIONS if hasattr(simple, name)], "help": simple.AdaptToCAD.__doc__}
 with open(FILE, "w") as file:
@@ -224,7 +228,10 @@ def check_adaptation(report):
     assert adapt["cells"] > by_type(report, "ProjectOntoCAD")["cells"]
     assert len(report["charts"]) == 1, report["charts"]
     assert report["charts"][0] == {"type": "AdaptToCAD", "port": 1, "series": ["GlobalGeometricError"],
-                                   "over": "GlobalCells", "log": [1, 1]}, report["charts"]
+                                   "over": "GlobalCells", "log": [1, 1],
+                                   "titles": ["Global geometric error (area or volume)", "Cells"]}, report["charts"]
+    ends = report["scale"][0] / report["largest"], report["scale"][-1] / report["largest"]
+    assert abs(ends[0] - 1e-4) < 1e-9 and abs(ends[1] - 1) < 1e-9, f"the scale has {ends} of the largest error"
 
 
 def check_pictures(pictures):
