@@ -1,6 +1,8 @@
 """What VTK says on each rank: errors, and warnings of the filters. Every rank has this module, also those that run no
 script."""
 
+import re
+
 from vtkmodules.util.misc import calldata_type
 from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow, vtkUnsignedCharArray
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
@@ -9,6 +11,10 @@ from vtkmodules.vtkParallelCore import vtkMultiProcessController
 WARNING = ("vtkAdaptToCAD",)
 # VTK writes ranges of arrays into its files, and cannot read them where they are infinite; the arrays it can.
 HARMLESS = "Error reading InformationKey element for vtkDataArray::"
+# What the filters say of their properties, and what it is called here.
+WORDINGS = ((r"\(Region\)", "(--region)"), (r"\(Faces\)", "(--faces)"),
+            (r"\bMaximumDistance\b", "--maximum-distance"), (r"\bchoose Quadratic Cells\b", "give --quadratic"),
+            (r"set Unit of the CAD Reader to \w+ \(driver: (--cad-unit \w+)\)", r"give \1"))
 errors = []  # Of this rank since they were last taken.
 warnings = []  # Of this rank, each once.
 everywhere = []  # Errors of all ranks, after share().
@@ -58,4 +64,7 @@ def reason_of(text):
     head, separator, tail = text.partition("): ")
     if separator and head.startswith("vtk") and " (0x" in head and "\n" not in head:
         text = tail
-    return " ".join(text.split())
+    text = " ".join(text.split())
+    for wording, ours in WORDINGS:
+        text = re.sub(wording, ours, text)
+    return text

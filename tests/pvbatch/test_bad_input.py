@@ -225,6 +225,11 @@ class BadInput(Case):
         path = os.path.join(self.folder, "none", "out.vtu")
         self.assert_fails(self.mesh, self.cad, "--output", path, names="out.vtu: there is no folder")
 
+    def test_region_beside_the_mesh(self):
+        """What a filter says of its property is said of the option."""
+        self.assert_fails(self.mesh, self.cad, "--region", "50", "51", "50", "51", "50", "51",
+                          names="the region (--region) contains no boundary vertex")
+
     def test_missing_indicator(self):
         self.assert_fails(self.mesh, self.cad, "--indicator", "velocity", "--indicator-threshold", "1",
                           names="naca0012_coarse.vtu: there is no cell array velocity (--indicator); cell arrays there: ")
