@@ -78,7 +78,7 @@ std::vector<std::string> vtkRefinementAlgorithm::GetCellArraysRead() const
   if (std::any_of(faces.begin(), faces.end(),
         [](const std::string& face) { return face.find('=') != std::string::npos; }))
   {
-    names.push_back(cadrefine::arrays::chordError); // for tolerances of their own
+    names.emplace_back(cadrefine::arrays::chordError); // for tolerances of their own
   }
   return options.uniform ? std::vector<std::string>{} : names;
 }

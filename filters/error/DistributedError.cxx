@@ -218,8 +218,8 @@ void Deviation::add(const Deviation& other)
 }
 
 MeshError measureError(RankExchange& exchange, const DistributedMesh& mesh,
-  ClassifiedBoundary& classified, const Classification& classification, int depth,
-  const std::vector<unsigned char>& counted, BoundaryCache& cache, bool remember)
+  ClassifiedBoundary& classified, const Classification& classification, const ErrorScope& scope,
+  BoundaryCache& cache, bool remember)
 {
   const SimplexMesh& piece = mesh.mesh();
   const DistributedBoundary& boundary = classified.boundary;
@@ -231,8 +231,8 @@ MeshError measureError(RankExchange& exchange, const DistributedMesh& mesh,
       facets.push_back(f);
     }
   }
-  const bool isAutomatic = depth == 0;
-  const int levels = isAutomatic ? automaticDepth : depth;
+  const bool isAutomatic = scope.depth == 0;
+  const int levels = isAutomatic ? automaticDepth : scope.depth;
   const auto answers =
     measureFacets(exchange, mesh, classified, classification, facets, levels, cache);
   if (remember && !mesh.converted.midNodes)
@@ -247,7 +247,7 @@ MeshError measureError(RankExchange& exchange, const DistributedMesh& mesh,
   std::vector<double> addends;
   for (std::size_t i = 0; i < facets.size(); ++i)
   {
-    if (!counted.empty() && !counted[facets[i]])
+    if (!scope.counted.empty() && !scope.counted[facets[i]])
     {
       continue;
     }

@@ -38,18 +38,24 @@ struct MeshError
   WorkBalance balance; ///< Of the boundary edges over the ranks; of second order of the facets.
 };
 
+/// What of the boundary is measured, and how.
+struct ErrorScope
+{
+  int depth = 1;                      ///< 0: automatic.
+  std::vector<unsigned char> counted; ///< A flag for each facet that is added up; empty: all are.
+};
+
 /// Error of every facet on the CAD, added up for its cell (see geometricErrors; of a mesh of second
 /// order curvedError, and the classification has entries for mid nodes after those of vertices).
-/// `depth` 0: automatic, the extrapolation (see extrapolatedMeasure) of a small depth. The global
-/// sum is bit for bit the same for every partition. `counted`, a flag for each facet, or none:
-/// those that are added up. Fills classified.midpoints. `cache` is that of the boundary before;
-/// with `remember` it becomes that of this one (not of second order).
+/// Automatic depth: the extrapolation (see extrapolatedMeasure) of a small one. The global sum is
+/// bit for bit the same for every partition. Fills classified.midpoints. `cache` is that of the
+/// boundary before; with `remember` it becomes that of this one (not of second order).
 ///
 /// Collective. Work: the projections of geometricErrors, or of curvedError, shared out evenly over
 /// ranks and threads. Messages: those of mapBalanced for each level of depth, and a few reductions
 /// of up to four numbers.
 MeshError measureError(RankExchange& exchange, const DistributedMesh& mesh,
-  ClassifiedBoundary& classified, const Classification& classification, int depth,
-  const std::vector<unsigned char>& counted, BoundaryCache& cache, bool remember);
+  ClassifiedBoundary& classified, const Classification& classification, const ErrorScope& scope,
+  BoundaryCache& cache, bool remember);
 
 } // namespace cadrefine

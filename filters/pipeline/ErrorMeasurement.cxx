@@ -55,8 +55,8 @@ void measureMesh(const PipelineContext& context, MeshState& state, int recursion
   ClassifiedBoundary& boundary = boundaryOf(context, state);
   const Progress::Part part(context.exchange.progress(), 0.2, 1);
   const MeshError error =
-    measureError(context.exchange, state.mesh, boundary, *state.classification, recursionDepth,
-      facetsOn(context, state, faces), state.cache, state.remembers);
+    measureError(context.exchange, state.mesh, boundary, *state.classification,
+      { recursionDepth, facetsOn(context, state, faces) }, state.cache, state.remembers);
   recordBalance(context.statistics, "error", error.balance);
   addErrors(state, error);
 }
