@@ -68,7 +68,7 @@ def option_parser():
                        ".su2 .foam; see below")
     files.add_argument("--boundary-cells", action=argparse.BooleanOptionalAction, default=True,
                        help="write the boundary's triangles (in 2D, lines) too, each with its CAD face: cell arrays "
-                       "CADEntity, CADName, ... (default)")
+                       "CADEntity, CADDimension and CADColor (default)")
     files.add_argument("--msh-version", choices=MSH_VERSIONS, default=MSH_VERSIONS[0],
                        help="of a .msh file: 2.2, which all programs know that take .msh (default), or 4.1")
     files.add_argument("--ascii", action="store_true", help="write a .msh file as text, not binary")

@@ -105,9 +105,17 @@ def safe_writer(grid):
     writer.SetDataModeToAppended()
     writer.Write()
     writer.WriteToOutputStringOff()
-    writer.SetInputData(grid)
+    writer.SetInputData(without_names(grid))
     writer.SetDataModeToBinary()
     return writer
+
+
+def without_names(grid):
+    """Without the names of the CAD's faces: meshio reads no file with an array of text."""
+    result = grid.NewInstance()
+    result.ShallowCopy(grid)
+    result.GetCellData().RemoveArray("CADName")
+    return result
 
 
 def index_of(grid, pieces):
