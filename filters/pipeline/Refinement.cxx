@@ -146,14 +146,16 @@ private:
     return { planLongestEdge(exchange_, state_.mesh, marks, toCut ? &*toCut : nullptr), marked };
   }
 
-  /// 1 for cells with a facet of these, given a flag for each facet.
-  std::vector<unsigned char> cellsAt(const std::vector<unsigned char>& facets) const
+  /// 1 for cells with a facet whose CAD entity `isWanted`, given those of the facets.
+  template<class IsWanted>
+  std::vector<unsigned char> cellsAt(
+    const std::vector<EntityId>& entities, const IsWanted& isWanted) const
   {
     const SimplexMesh& mesh = state_.mesh.mesh();
     std::vector<unsigned char> cells(state_.mesh.converted.cellIds[mesh.dimension].size(), 0);
-    for (std::size_t f = 0; f < facets.size(); ++f)
+    for (std::size_t f = 0; f < entities.size(); ++f)
     {
-      if (facets[f])
+      if (isWanted(entities[f]))
       {
         cells[state_.boundary->boundary.facets[f].cell] = 1;
       }
@@ -169,33 +171,35 @@ private:
       return marks;
     }
     const EntitySelection faces = selectFaces(context_, state_, options_.faces);
+    if (!options_.onlyAtFaces && !faces.hasTolerances())
+    {
+      return marks;
+    }
     if (options_.criteria.empty() && faces.hasTolerances())
     {
       std::fill(marks.begin(), marks.end(), 0);
     }
+    const std::vector<EntityId> entities = entitiesOfFacets(context_, state_);
     if (options_.onlyAtFaces)
     {
-      const auto there = cellsAt(facetsOn(context_, state_, options_.faces));
+      const auto there = cellsAt(
+        entities, [&](EntityId entity) { return faces.contains(context_.model.nurbs(), entity); });
       std::transform(marks.begin(), marks.end(), there.begin(), marks.begin(), std::bit_and<>());
     }
-    markByTolerances(faces, marks);
+    markByTolerances(faces, entities, marks);
     return marks;
   }
 
   /// Cells whose chord error is larger than the tolerance of a face that they are at.
-  void markByTolerances(const EntitySelection& faces, std::vector<unsigned char>& marks)
+  void markByTolerances(const EntitySelection& faces, const std::vector<EntityId>& entities,
+    std::vector<unsigned char>& marks)
   {
     std::set<double> tolerances(faces.chordTolerances.begin(), faces.chordTolerances.end());
     tolerances.erase(0);
-    const std::vector<EntityId> entities =
-      tolerances.empty() ? std::vector<EntityId>() : entitiesOfFacets(context_, state_);
     for (const double tolerance : tolerances)
     {
-      const auto has = [&](EntityId entity)
-      { return entity && faces.chordTolerances[entity.index] == tolerance; };
-      std::vector<unsigned char> facets(entities.size());
-      std::transform(entities.begin(), entities.end(), facets.begin(), has);
-      const auto there = cellsAt(facets);
+      const auto there = cellsAt(entities, [&](EntityId entity)
+        { return entity && faces.chordTolerances[entity.index] == tolerance; });
       const auto large = markCells(exchange_, state_.mesh, state_.arrays,
         { { arrays::chordError, MarkingCriterion::Strategy::Threshold, tolerance } });
       for (std::size_t c = 0; c < marks.size(); ++c)
