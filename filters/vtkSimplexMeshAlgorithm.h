@@ -73,9 +73,8 @@ public:
   /**
    * Of the filters that put out the mesh and have a CAD: whether its boundary goes with it as cells
    * of one dimension less, after those that it has. Cell arrays CADDimension, CADEntity, CADName
-   * (if the CAD has names) and CADColor then tell the CAD face (in the plane, the edge) of each;
-   * other cell arrays are 0 on cells that are added. See vtkCADBoundary for the boundary alone.
-   * Default off.
+   * and CADColor then tell the CAD face (in the plane, the edge) of each; other cell arrays are 0
+   * on cells that are added. See vtkCADBoundary for the boundary alone. Default off.
    */
   vtkSetMacro(BoundaryCells, bool);
   vtkGetMacro(BoundaryCells, bool);

@@ -85,28 +85,6 @@ void writeAttributes(
   writeColours(ofCells, arrays::colour, model, entities);
 }
 
-/// Whether the CAD file gives any entity of this dimension a name.
-bool hasNames(const CADModel& model, int dimension)
-{
-  bool any = false;
-  for (int index = 0; !any && index < model.count(dimension); ++index)
-  {
-    any = !model.attributes({ static_cast<std::int8_t>(dimension), index }).name.empty();
-  }
-  return any;
-}
-
-/// Without names where the CAD has none: other programs read no files with arrays of text.
-void writeBeside(const PipelineContext& context, int dimension,
-  const std::vector<EntityId>& entities, vtkCellData* ofCells)
-{
-  writeAttributes(context.model, entities, ofCells);
-  if (!hasNames(context.model, dimension))
-  {
-    ofCells->RemoveArray(arrays::name);
-  }
-}
-
 /// What is known of the sides of a rank's cells: its facets first, then its listed cells of their
 /// dimension.
 struct Sides
@@ -200,8 +178,8 @@ ArraySelection selectionWithout(vtkIdType count, vtkIdType added, vtkIdType cell
 /// See makeDataSetWithBoundary. Added facets begin at their smallest id, as VTK has the sides of
 /// cells when it draws them: both are drawn alike, then, and colours are those of the cells.
 ///
-/// `listed`: the mesh's cells of the facets' dimension; `edges`:
-/// theirs in the table of the mid nodes.
+/// `listed`: the mesh's cells of the facets' dimension; `edges`: theirs in the table of the mid
+/// nodes.
 template<std::size_t N, class Edges>
 MeshWithBoundary makeWithFacets(const PipelineContext& context, MeshState& state,
   const std::vector<EntityId>& ofFacets, Simplices<N>& listed, std::vector<Edges> EdgeTable::*edges)
@@ -231,7 +209,7 @@ MeshWithBoundary makeWithFacets(const PipelineContext& context, MeshState& state
     sides.entities.end(), entities.begin() + firstListed);
   std::transform(unlisted.begin(), unlisted.end(), next, [&](Index f) { return ofFacets[f]; });
   MeshArrays arrays = select(state.arrays, result.selection);
-  writeBeside(context, dimension, entities, arrays.ofCells);
+  writeAttributes(context.model, entities, arrays.ofCells);
 
   append(converted.cellIds[dimension], newIds(context.exchange, state.mesh, added));
   append(listed, added);
@@ -265,7 +243,7 @@ MeshWithBoundary makeWithFaces(
     entities[firstCellOfDimension(mesh, 2) + triangle] = ofFacets[f];
   }
   MeshWithBoundary result{ makeDataSet(state), {} };
-  writeBeside(context, 2, entities, result.mesh->GetCellData());
+  writeAttributes(context.model, entities, result.mesh->GetCellData());
   return result;
 }
 

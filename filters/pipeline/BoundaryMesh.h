@@ -26,9 +26,8 @@ struct MeshWithBoundary
 
 /// The mesh as a data set (see makeDataSet), with the facets of its boundary (see findBoundary)
 /// that are not listed as cells already. The cell arrays of boundaryMesh tell the CAD face or edge
-/// of all facets, listed ones too; other cells have none: -1, no name, white. Without names in the
-/// CAD there is no CADName. Of a mesh of triangles in space, whose facets are its cells, the arrays
-/// alone are added. Other cell arrays are 0 on added cells: no tag, no error. Ids of these come
+/// of all facets, listed ones too; other cells have none: -1, no name, white. Of a mesh of triangles
+/// in space, whose facets are its cells, the arrays alone are added. Other cell arrays are 0 on added cells: no tag, no error. Ids of these come
 /// after those of the other cells, by those of their vertices. Of a mesh of second order they have
 /// mid nodes too. The mesh is classified, and stays as it is.
 ///
