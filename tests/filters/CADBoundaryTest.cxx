@@ -191,12 +191,8 @@ TEST(CADBoundary, hasTheNamesAndColoursOfTheFile)
   cadtest::addSquare(file, { 0, 0, 1 }, {});
   file.write(folder.file("squares.igs"));
   const cadtest::FilterRun filters(folder.file("squares.igs"));
-  SimplexMesh mesh;
-  mesh.dimension = 2;
-  mesh.points = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, { 1, 0, 1 },
-    { 1, 1, 1 }, { 0, 1, 1 } };
-  mesh.triangles = { { 0, 1, 2 }, { 0, 2, 3 }, { 4, 5, 6 }, { 4, 6, 7 } };
-  const auto boundary = boundaryOf(filters, filters.project(cadtest::toPolyData(mesh)));
+  const auto squares = cadtest::toPolyData(cadtest::twoSquaresMesh());
+  const auto boundary = boundaryOf(filters, filters.project(squares));
   ASSERT_EQ(boundary->GetNumberOfCells(), 4);
   auto* const names =
     vtkStringArray::SafeDownCast(boundary->GetCellData()->GetAbstractArray("CADName"));

@@ -5,6 +5,7 @@
 #include "IgesCases.h"
 #include "MeshChecks.h"
 #include "TestFiles.h"
+#include "TestMeshes.h"
 #include "TestShapes.h"
 
 #include <cadrefine/cad/model/CADModel.h>
@@ -287,15 +288,11 @@ TEST(FaceNames, arePatternsAndNumbers)
   cadtest::addSquare(file, { 0, 0, 1 }, attributes);
   file.write(folder.file("squares.igs"));
   const cadtest::FilterRun filters(folder.file("squares.igs"));
-  SimplexMesh mesh;
-  mesh.dimension = 2;
-  mesh.points = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, { 1, 0, 1 },
-    { 1, 1, 1 }, { 0, 1, 1 } };
-  mesh.triangles = { { 0, 1, 2 }, { 0, 2, 3 }, { 4, 5, 6 }, { 4, 6, 7 } };
+  const auto squares = cadtest::toPolyData(cadtest::twoSquaresMesh());
   const auto projectedOn = [&](const Names& faces)
   {
     const auto projected = filters.run<vtkProjectOntoCAD>(
-      cadtest::toPolyData(mesh), [&](vtkProjectOntoCAD* filter) { Faces::choose(filter, faces); });
+      squares, [&](vtkProjectOntoCAD* filter) { Faces::choose(filter, faces); });
     std::string found;
     for (const vtkIdType point : { 0, 4 })
     {

@@ -341,6 +341,16 @@ SimplexMesh discInRingMesh(double radius, double offset, int corners)
   return mesh;
 }
 
+SimplexMesh twoSquaresMesh()
+{
+  SimplexMesh mesh;
+  mesh.dimension = 2;
+  mesh.points = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, { 1, 0, 1 },
+    { 1, 1, 1 }, { 0, 1, 1 } };
+  mesh.triangles = { { 0, 1, 2 }, { 0, 2, 3 }, { 4, 5, 6 }, { 4, 6, 7 } };
+  return mesh;
+}
+
 namespace
 {
 

@@ -40,6 +40,8 @@ cadrefine::SimplexMesh discMesh(double radius, double offset, int corners);
 /// That disc, its first triangles, in a ring of three times its size; the segments between the two
 /// are listed.
 cadrefine::SimplexMesh discInRingMesh(double radius, double offset, int corners);
+/// The unit squares of four corners at z = 0 and z = 1, of two triangles each, the lower one first.
+cadrefine::SimplexMesh twoSquaresMesh();
 
 /// Two unit cubes of n * n * n boxes that have an edge in common and nothing else.
 cadrefine::SimplexMesh cubesAtAnEdgeMesh(int n);
