@@ -46,13 +46,8 @@ def as_grid(data):
 
 def set_cells(result, grid, order, new_number):
     """Cells `order` of `grid`, with their points renumbered."""
-    offsets = vtk_to_numpy(grid.GetCells().GetOffsetsArray())
-    corners = vtk_to_numpy(grid.GetCells().GetConnectivityArray())
-    sizes = np.diff(offsets)[order]
-    new_offsets = np.concatenate([[0], np.cumsum(sizes)])
-    within = np.arange(new_offsets[-1]) - np.repeat(new_offsets[:-1], sizes)
-    connectivity = new_number[corners[np.repeat(offsets[:-1][order], sizes) + within]]
-    grids.set_cells(result, vtk_to_numpy(grid.GetCellTypesArray())[order], new_offsets, connectivity)
+    offsets, corners = grids.corners_of(grid, order)
+    grids.set_cells(result, vtk_to_numpy(grid.GetCellTypesArray())[order], offsets, new_number[corners])
 
 
 def take(source, target, chosen):

@@ -14,7 +14,7 @@ from paraview import simple
 from vtkmodules.vtkCommonCore import vtkIntArray, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkUnstructuredGrid
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
-from vtkmodules.vtkParallelCore import vtkCommunicator, vtkMultiProcessController
+from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
 from cadrefine.merge import as_grid
 
@@ -54,16 +54,19 @@ def piece_path(path, rank):
 def write_piece(data, path):
     """This rank's, unless it is empty. All ranks do so together, and know then of each other's."""
     controller = vtkMultiProcessController.GetGlobalController()
-    ranks = controller.GetNumberOfProcesses() if controller else 1
     rank = controller.GetLocalProcessId() if controller else 0
-    mine, worst = vtkIntArray(), vtkIntArray()
-    for array in (mine, worst):
-        array.SetNumberOfValues(ranks)
-        array.Fill(NOTHING)
-    mine.SetValue(rank, state_of_piece(data, piece_path(path, rank)))
-    if ranks > 1:
-        controller.AllReduce(mine, worst, vtkCommunicator.MAX_OP)
-    states[:] = [(worst if ranks > 1 else mine).GetValue(i) for i in range(ranks)]
+    states[:] = of_all_ranks(state_of_piece(data, piece_path(path, rank)))
+
+
+def of_all_ranks(value):
+    """The integers that the ranks gave, on each of them. Collective."""
+    controller = vtkMultiProcessController.GetGlobalController()
+    if controller is None or controller.GetNumberOfProcesses() == 1:
+        return [value]
+    mine, all_values = vtkIntArray(), vtkIntArray()
+    mine.InsertNextValue(value)
+    controller.AllGather(mine, all_values)
+    return [all_values.GetValue(rank) for rank in range(all_values.GetNumberOfValues())]
 
 
 def state_of_piece(data, path):

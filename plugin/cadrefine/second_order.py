@@ -3,12 +3,12 @@
 import numpy as np
 from paraview import simple
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkIntArray, vtkPoints
+from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkUnstructuredGrid
-from vtkmodules.vtkParallelCore import vtkCommunicator, vtkMultiProcessController
 
 from cadrefine.formats import grid as grids
 from cadrefine.merge import take
+from cadrefine.pieces import of_all_ranks
 
 # VTK's types of cells of second order: the linear type, and its corners, which come first.
 LINEAR = {21: (3, 2), 22: (5, 3), 34: (5, 3), 23: (9, 4), 28: (9, 4), 24: (10, 4), 25: (12, 8), 29: (12, 8),
@@ -38,16 +38,9 @@ def with_corners_alone(proxy):
 
 def look(data):
     global found
-    mine, most = vtkIntArray(), vtkIntArray()
-    for array in (mine, most):
-        array.InsertNextValue(0)
-    if data.IsA("vtkUnstructuredGrid") and data.GetNumberOfCells():
-        mine.SetValue(0, int(np.isin(vtk_to_numpy(data.GetCellTypesArray()), list(LINEAR)).any()))
-    controller = vtkMultiProcessController.GetGlobalController()
-    if controller is not None and controller.GetNumberOfProcesses() > 1:
-        controller.AllReduce(mine, most, vtkCommunicator.MAX_OP)
-        mine = most
-    found = bool(mine.GetValue(0))
+    here = data.IsA("vtkUnstructuredGrid") and data.GetNumberOfCells() \
+        and np.isin(vtk_to_numpy(data.GetCellTypesArray()), list(LINEAR)).any()
+    found = max(of_all_ranks(int(here))) == 1
 
 
 def by_corners(data):
@@ -58,18 +51,15 @@ def by_corners(data):
     for kind, (of_corners, corners) in LINEAR.items():
         linear[kind], count[kind] = of_corners, corners
     types = vtk_to_numpy(data.GetCellTypesArray())
-    offsets = vtk_to_numpy(data.GetCells().GetOffsetsArray())
-    sizes = np.minimum(np.diff(offsets), count[types])
-    new_offsets = np.concatenate([[0], np.cumsum(sizes)])
-    within = np.arange(new_offsets[-1]) - np.repeat(new_offsets[:-1], sizes)
-    corners = vtk_to_numpy(data.GetCells().GetConnectivityArray())[np.repeat(offsets[:-1], sizes) + within]
+    sizes = np.minimum(np.diff(vtk_to_numpy(data.GetCells().GetOffsetsArray())), count[types])
+    offsets, corners = grids.corners_of(data, np.arange(len(types)), sizes)
     kept, corners = np.unique(corners, return_inverse=True)
 
     result = vtkUnstructuredGrid()
     points = vtkPoints()
     points.SetData(grids.to_vtk("Points", vtk_to_numpy(data.GetPoints().GetData())[kept]))
     result.SetPoints(points)
-    grids.set_cells(result, linear[types], new_offsets, corners)
+    grids.set_cells(result, linear[types], offsets, corners)
     take(data.GetPointData(), result.GetPointData(), kept)
     result.GetCellData().ShallowCopy(data.GetCellData())
     result.SetFieldData(data.GetFieldData())

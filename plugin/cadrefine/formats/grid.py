@@ -88,6 +88,15 @@ def set_cells(grid, types, offsets, corners):
     grid.SetCells(numpy_to_vtk(types.astype(np.uint8), deep=True), cells)
 
 
+def corners_of(grid, cells, sizes=None):
+    """Offsets and points of `cells` (their numbers) of a VTK grid: of each its first points, `sizes` of them or all."""
+    offsets = vtk_to_numpy(grid.GetCells().GetOffsetsArray())
+    sizes = np.diff(offsets)[cells] if sizes is None else sizes
+    new_offsets = np.concatenate([[0], np.cumsum(sizes)])
+    places = np.repeat(offsets[:-1][cells] - new_offsets[:-1], sizes) + np.arange(new_offsets[-1])
+    return new_offsets, vtk_to_numpy(grid.GetCells().GetConnectivityArray())[places]
+
+
 def to_vtk(name, values):
     array = numpy_to_vtk(np.ascontiguousarray(values), deep=True)
     array.SetName(name)
