@@ -26,10 +26,11 @@ struct MeshWithBoundary
 
 /// The mesh as a data set (see makeDataSet), with the facets of its boundary (see findBoundary)
 /// that are not listed as cells already. The cell arrays of boundaryMesh tell the CAD face or edge
-/// of all facets, listed ones too; other cells have none: -1, no name, white. Of a mesh of triangles
-/// in space, whose facets are its cells, the arrays alone are added. Other cell arrays are 0 on added cells: no tag, no error. Ids of these come
-/// after those of the other cells, by those of their vertices. Of a mesh of second order they have
-/// mid nodes too. The mesh is classified, and stays as it is.
+/// of all facets, listed ones too; other cells have none: -1, no name, white. Of a mesh of
+/// triangles in space, whose facets are its cells, the arrays alone are added. Other cell arrays
+/// are 0 on added cells: no tag, no error. Ids of these come after those of the other cells, by
+/// those of their vertices. Of a mesh of second order they have mid nodes too. The mesh is
+/// classified, and stays as it is.
 ///
 /// Collective. Work: that of boundaryMesh, of sorting the facets, and of makeDataSet; messages as
 /// findSharedSimplices.
