@@ -81,7 +81,6 @@ benchmarks: build-all ## Measure against other programs: tables of rates and rat
 	@/usr/bin/python3 tests/benchmarks/projection.py
 	@/usr/bin/python3 tests/benchmarks/adaptivity.py
 	@/usr/bin/python3 tests/benchmarks/experiments.py
-	@.ci/install-packages python3-dolfinx
 	@/usr/bin/python3 tests/benchmarks/refinement.py
 
 .PHONY: load

@@ -28,6 +28,38 @@ with df.XDMFFile(folder + "/dolfin.xdmf") as file:
 with df.XDMFFile(folder + "/square.xdmf") as file:
     file.write(df.UnitSquareMesh(3, 3))
 """
+DOLFINX = """
+import sys
+import dolfinx
+import numpy as np
+from dolfinx import fem
+from dolfinx.io import XDMFFile
+from dolfinx.mesh import create_unit_cube, locate_entities, meshtags
+from mpi4py import MPI
+
+def tags_of(name, dimension, *places):
+    found = [locate_entities(mesh, dimension, where) for where, _ in places]
+    values = np.repeat(np.int32([tag for _, tag in places]), [len(entities) for entities in found])
+    order = np.argsort(np.concatenate(found))
+    tags = meshtags(mesh, dimension, np.concatenate(found)[order], values[order])
+    tags.name = name
+    return tags
+
+mesh = create_unit_cube(MPI.COMM_WORLD, 2, 2, 2)
+mesh.topology.create_connectivity(2, 3)
+space = (fem.functionspace if hasattr(fem, "functionspace") else fem.FunctionSpace)(mesh, ("Lagrange", 1))
+height = fem.Function(space)
+height.name = "height"
+height.interpolate(lambda x: x[2])
+geometry = [] if dolfinx.__version__ < "0.7" else [mesh.geometry]
+with XDMFFile(MPI.COMM_WORLD, sys.argv[1] + "/dolfinx.xdmf", "w") as file:
+    file.write_mesh(mesh)
+    file.write_function(height, 0.0)
+    file.write_function(height, 1.0)
+    file.write_meshtags(tags_of("layers", 3, (lambda x: x[2] < 0.6, 3), (lambda x: x[2] > 0.4, 4)), *geometry)
+    file.write_meshtags(tags_of("below", 2, (lambda x: np.isclose(x[2], 0), 1)), *geometry)
+    file.write_meshtags(tags_of("above", 2, (lambda x: np.isclose(x[2], 1), 2)), *geometry)
+"""
 
 
 def write_gmsh(cad, folder):
@@ -80,6 +112,11 @@ def write_meshio(folder):
 def write_dolfin(folder):
     """Tetrahedra, and in a second grid tags of all faces: 5 below, 0 on the others; and a square of triangles."""
     subprocess.run([sys.executable, "-c", DOLFIN, folder], check=True, capture_output=True)
+
+
+def write_dolfinx(folder):
+    """A cube of tetrahedra with tags of cells, tags of facets twice (1 below; 2 above), and a function at two times."""
+    subprocess.run([sys.executable, "-c", DOLFINX, folder], check=True, capture_output=True)
 
 
 def write_exodus(folder):

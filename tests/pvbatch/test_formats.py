@@ -60,6 +60,7 @@ class Formats(unittest.TestCase):
         meshes.write_gmsh(CAD, cls.folder)
         meshes.write_meshio(cls.folder)
         meshes.write_dolfin(cls.folder)
+        meshes.write_dolfinx(cls.folder)
         meshes.write_plane(cls.folder)
         cls.exodus = meshes.write_exodus(cls.folder)
         cls.coarse = meshio.gmsh.read(cls.path("gmsh2text.msh"))
@@ -172,14 +173,28 @@ class Formats(unittest.TestCase):
         self.assertEqual(fine.min(), coarse.min())
         self.assertEqual(fine.max(), coarse.max())
 
-    def test_triangles_of_dolfin(self):
-        """DOLFIN orders the corners by number, so half of them go round the wrong way."""
+    def read_xdmf(self, name):
         program = os.path.join(driver.ROOT, "plugin")
         sys.path.insert(0, program)
         self.addCleanup(sys.path.remove, program)
         from cadrefine.formats import grid, xdmf
 
-        mesh = grid.from_grid(xdmf.read(self.path("square.xdmf")))
+        return grid.from_grid(xdmf.read(self.path(name)))
+
+    def test_tags_and_functions_of_dolfinx(self):
+        """Tags of the same cells are in grids of their own, and most elements point to those of the first grid."""
+        mesh = self.read_xdmf("dolfinx.xdmf")
+        self.assertEqual([(kind, len(corners)) for kind, corners in mesh.blocks], [(5, 16), (10, 48)])
+        tags, others = mesh.cell_data["gmsh:physical"], mesh.cell_data["above"]
+        heights = [mesh.points[corners, 2].mean(axis=1) for _, corners in mesh.blocks]
+        np.testing.assert_array_equal(tags[:16], np.where(heights[0] == 0, 1, 0))
+        np.testing.assert_array_equal(others[:16], np.where(heights[0] == 1, 2, 0))
+        np.testing.assert_array_equal(tags[16:], np.where(heights[1] < 0.5, 3, 4))
+        np.testing.assert_allclose(mesh.point_data["height"].ravel(), mesh.points[:, 2], atol=1e-12)
+
+    def test_triangles_of_dolfin(self):
+        """DOLFIN orders the corners by number, so half of them go round the wrong way."""
+        mesh = self.read_xdmf("square.xdmf")
         (kind, corners), = mesh.blocks
         self.assertEqual((kind, len(corners)), (5, 18))
         sides = mesh.points[corners[:, 1:], :2] - mesh.points[corners[:, :1], :2]

@@ -270,6 +270,16 @@ class Groups(unittest.TestCase):
         names = meshio.xdmf.read(self.path("alone.xdmf")).field_data
         self.assertEqual({name: pair.tolist() for name, pair in names.items()}, {"steel": [1, 3], "air": [2, 3]})
 
+    def test_xdmf_with_arrays_of_points_and_of_cells(self):
+        """They may have one name, as those of the CAD entities do."""
+        points = np.arange(len(self.mesh.points), dtype=np.int32)
+        cells = np.arange(len(self.mesh.blocks[-1][1]), dtype=np.int32)
+        mesh = grid.Mesh(self.mesh.points, self.mesh.blocks[-1:], {"CADEntity": points}, {"CADEntity": cells})
+        xdmf.write(self.path("both.xdmf"), mesh)
+        back = meshio.xdmf.read(self.path("both.xdmf"))
+        np.testing.assert_array_equal(back.point_data["CADEntity"], points)
+        np.testing.assert_array_equal(back.cell_data["CADEntity"][0], cells)
+
     def test_openfoam(self):
         os.makedirs(self.path("case"))
         mesh = dataclasses.replace(self.mesh, patch_types={"wall": "wall", "Face_1": "cyclic"})

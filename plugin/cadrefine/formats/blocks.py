@@ -2,28 +2,77 @@
 
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkUnstructuredGrid
 from vtkmodules.vtkFiltersCore import vtkAppendFilter
 
-from cadrefine.formats.grid import to_vtk
+from cadrefine.formats.grid import arrays_of, corners_of, set_cells, to_vtk
+from cadrefine.formats.sides import same_corners, same_rows
 
 VERTEX, POLY_VERTEX, LINE, POLY_LINE, TRIANGLE, TETRAHEDRON = 1, 2, 3, 4, 5, 10  # VTK's types of cells.
 
 
 def joined(data):
-    """One vtkUnstructuredGrid. Points with the same coordinates become one. Where a block lacks an array, its points
-    and cells have 0 there: no tag."""
+    """One vtkUnstructuredGrid. Points of several blocks with the same coordinates become one, with the arrays of all.
+    Where a block lacks an array, its points and cells have 0 there: no tag."""
     blocks = [block for block in leaves(data) if block.GetNumberOfCells() > 0]
     for attribute in (vtkDataObject.POINT, vtkDataObject.CELL):
         complete([(block.GetAttributes(attribute), block.GetNumberOfElements(attribute)) for block in blocks])
     append = vtkAppendFilter()
-    append.SetMergePoints(len(blocks) > 1)
     for block in blocks:
         append.AddInputData(block)
     if not blocks:
         return vtkUnstructuredGrid()
     append.Update()
-    return with_plain_cells(append.GetOutput())
+    grid = with_plain_cells(append.GetOutput())
+    return with_points_once(grid) if len(blocks) > 1 else grid
+
+
+def with_points_once(grid):
+    points = vtk_to_numpy(grid.GetPoints().GetData())
+    classes, first = in_order(same_rows(points))
+    result = vtkUnstructuredGrid()
+    result.SetPoints(vtkPoints())
+    result.GetPoints().SetData(to_vtk("Points", points[first]))
+    offsets, corners = corners_of(grid, np.arange(grid.GetNumberOfCells()))
+    set_cells(result, vtk_to_numpy(grid.GetCellTypesArray()), offsets, classes[corners])
+    combine(grid.GetPointData(), result.GetPointData(), classes)
+    result.GetCellData().ShallowCopy(grid.GetCellData())
+    return result
+
+
+def with_cells_once(grid):
+    """Cells that are listed more than once become one, with the arrays of all."""
+    offsets, corners = corners_of(grid, np.arange(grid.GetNumberOfCells()))
+    rows = np.full((len(offsets) - 1, np.diff(offsets).max(initial=0)), -1)
+    rows[np.arange(rows.shape[1]) < np.diff(offsets)[:, np.newaxis]] = corners
+    classes, first = in_order(same_corners(rows))
+    if len(first) == len(rows):
+        return grid
+    result = vtkUnstructuredGrid()
+    result.SetPoints(grid.GetPoints())
+    set_cells(result, vtk_to_numpy(grid.GetCellTypesArray())[first], *corners_of(grid, first))
+    result.GetPointData().ShallowCopy(grid.GetPointData())
+    combine(grid.GetCellData(), result.GetCellData(), classes)
+    return result
+
+
+def in_order(found):
+    """Classes by the order of their first members, and these."""
+    classes, count = found
+    first = np.full(count, len(classes))
+    np.minimum.at(first, classes, np.arange(len(classes)))
+    numbers = np.empty(count, dtype=int)
+    numbers[np.argsort(first)] = np.arange(count)
+    return numbers[classes], np.sort(first)
+
+
+def combine(source, target, classes):
+    """Gives `target` the arrays of `source`: of each class the first tuple that is not 0, if any is not."""
+    for name, values in arrays_of(source).items():
+        is_zero = (values.reshape(len(values), -1) == 0).all(axis=1)
+        order = np.lexsort((is_zero, classes))
+        target.AddArray(to_vtk(name, values[order[np.flatnonzero(np.diff(classes[order], prepend=-1))]]))
 
 
 def with_plain_cells(grid):

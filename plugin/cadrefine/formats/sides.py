@@ -131,9 +131,12 @@ def padded(side):
 
 def same_corners(rows):
     """A number for each row, the same where the corners are the same in whatever order; and how many there are."""
-    ordered = np.sort(rows, axis=1)
-    order = np.lexsort(ordered.T)
-    changes = (ordered[order][1:] != ordered[order][:-1]).any(axis=1)
+    return same_rows(np.sort(rows, axis=1))
+
+
+def same_rows(rows):
+    order = np.lexsort(rows.T)
+    changes = (rows[order][1:] != rows[order][:-1]).any(axis=1)
     classes = np.empty(len(rows), dtype=int)
     classes[order] = np.concatenate([[0], np.cumsum(changes)])[:len(rows)]
     return classes, int(classes.max(initial=-1)) + 1

@@ -1,6 +1,7 @@
 """Reads and writes XDMF files with their HDF5 files, as meshio, DOLFIN, DOLFINx and ParaView have them."""
 
 import contextlib
+import copy
 import os
 import xml.etree.ElementTree as ElementTree
 
@@ -9,12 +10,13 @@ from vtkmodules.vtkCommonDataModel import vtkMultiBlockDataSet, vtkUnstructuredG
 from vtkmodules.vtkIOXdmf2 import vtkXdmfReader, vtkXdmfWriter
 
 from cadrefine.formats import BadFile
-from cadrefine.formats.blocks import joined, orient
-from cadrefine.formats.grid import SERIAL, TYPES, Mesh, arrays_of, tag_array, to_grid, to_vtk
+from cadrefine.formats.blocks import joined, orient, with_cells_once
+from cadrefine.formats.grid import PHYSICAL, SERIAL, TYPES, Mesh, arrays_of, tag_array, to_grid, to_vtk
 from cadrefine.formats.groups import grouped
 
 FACET_TAGS = "facet_tags"
 PLANE = "plane"  # Points in the plane, two coordinates: DOLFIN takes them for a mesh of two dimensions.
+INCLUDE = "{http://www.w3.org/2001/XInclude}include"
 ORDER = ("mesh", "facets", "edges", "vertices")
 
 OVERHEAD = 1 << 20  # Bytes of an HDF5 file beside its numbers, more or less.
@@ -24,6 +26,7 @@ KINDS = {1: "Scalar", 3: "Vector", 6: "Tensor6", 9: "Tensor"}  # Of attributes, 
 def read(path):
     """All grids of the file's domain as one, of a series the first time step. Throws BadFile."""
     tree = parse(path)
+    resolve_includes(tree)
     if tree.find(".//Grid/Topology") is None or tree.find(".//Grid/Geometry") is None:
         raise BadFile("it holds no grid of cells")  # VTK's reader would crash.
     folder = os.path.dirname(os.path.abspath(path))
@@ -45,12 +48,46 @@ def read(path):
     reader.Update()
     if reader.GetOutputDataObject(0) is None:
         raise BadFile("it holds no grid that can be read")
-    grid = joined(reader.GetOutputDataObject(0))
-    grid.GetCellData().RemoveArray(FACET_TAGS)
+    grid = with_cells_once(joined(reader.GetOutputDataObject(0)))
+    if grid.GetCellData().HasArray(PHYSICAL):
+        grid.GetCellData().RemoveArray(FACET_TAGS)
     for name, pair in names_of(tree).items():
         grid.GetFieldData().AddArray(to_vtk(name, np.int32([pair])))
     orient(grid)  # DOLFIN orders the corners of a cell by their numbers.
     return grid
+
+
+def resolve_includes(tree):
+    """DOLFINx writes the mesh first; its tags are grids that include the geometry of that one, with an array of
+    integers. The first tags of each type of cells are those of groups."""
+    tagged = set()
+    for grid in [grid for grid in tree.iter("Grid") if grid.find(INCLUDE) is not None]:
+        included = [element for include in grid.findall(INCLUDE) for element in elements_at(tree, include)]
+        for include in grid.findall(INCLUDE):
+            grid.remove(include)
+        grid[:0] = copy.deepcopy(included)
+        topology, attribute = grid.find("Topology"), grid.find("Attribute[@Center='Cell']")
+        if topology in included or attribute is None:
+            continue  # It is a function on the mesh.
+        attribute.find("DataItem").set("NumberType", "Int")
+        if topology.get("TopologyType") not in tagged:
+            attribute.set("Name", PHYSICAL)
+            tagged.add(topology.get("TopologyType"))
+
+
+def elements_at(tree, include):
+    """What an XInclude of DOLFINx or DOLFIN points to: `xpointer(/Xdmf/Domain/Grid/Geometry)`, or
+    `xpointer(/Xdmf/Domain/Grid[@GridType='Uniform'][1]/*[self::Topology or self::Geometry])`."""
+    path = include.get("xpointer", "").removeprefix("xpointer(").removesuffix(")")
+    path, _, names = path.partition("/*")
+    path = "." + path.removeprefix("/Xdmf")
+    try:
+        found = tree.getroot().find(path)
+    except SyntaxError:
+        found = None
+    if found is None:
+        raise BadFile(f"it includes {include.get('xpointer')}, which is not there")
+    return [part for part in found if part.tag in names] if names else [found]
 
 
 def names_of(tree):
@@ -146,9 +183,9 @@ def arrange(path, grid_names, array_names, mesh):
     dimensions = {"mesh": highest, "facets": highest - 1, "edges": 1, "vertices": 0}
     for grid_name, grid in zip(grid_names, grids):
         grid.set("Name", grid_name)
-        attributes = {array_names[item.get("Name")]: item for item in grid.findall("Attribute")}
-        for name, attribute in attributes.items():
-            name_attribute(attribute, name)
+        for attribute in grid.findall("Attribute"):
+            name_attribute(attribute, array_names[attribute.get("Name")])
+        attributes = {item.get("Name"): item for item in grid.findall("Attribute")}  # Some of points and of cells.
         if PLANE in attributes:
             geometry = grid.find("Geometry")
             geometry.set("GeometryType", "XY")
