@@ -3,9 +3,10 @@
  * @brief reads IGES, STEP and BREP files
  *
  * Output: a vtkPartitionedDataSetCollection of the partitioned data sets Faces, Edges and Vertices
- * (poly data to look at, with the cell array CADEntity, each rank its share; empty without
- * Drawing), with the exact model as field data (see vtkCADModelCache), which every rank holds.
- * Where the file has them, names and colours of faces and edges are the cell arrays Name and Color.
+ * (poly data to look at, with the cell arrays CADDimension and CADEntity, each rank its share;
+ * empty without Drawing), with the exact model as field data (see vtkCADModelCache), which every
+ * rank holds. Where the file has them, names and colours of faces and edges are the cell arrays
+ * Name and Color.
  *
  * Field arrays tell of the file: CADCounts, the numbers of vertices, edges and faces; CADUnit, the
  * unit of length; CADUnread, what could not be read; CADLeftOut, what by the rules of the format is

@@ -5,7 +5,6 @@
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkFloatArray.h>
-#include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -79,13 +78,8 @@ public:
     (dimension == 0)   ? result->SetVerts(cells_)
     : (dimension == 1) ? result->SetLines(cells_)
                        : result->SetPolys(cells_);
-    vtkNew<vtkIntArray> indices;
-    indices->SetName(arrays::entity);
-    for (const EntityId entity : entities_)
-    {
-      indices->InsertNextValue(entity.index);
-    }
-    result->GetCellData()->SetScalars(indices);
+    writeEntities(result->GetCellData(), entities_);
+    result->GetCellData()->SetActiveScalars(arrays::entity);
     addAttributes(dimension, *result->GetCellData());
     if (model_.count(2) > 0)
     {

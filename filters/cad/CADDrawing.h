@@ -11,9 +11,9 @@ namespace cadrefine
 {
 
 /// The share of the entities of a dimension that `drawing` has, as vertices, lines or triangles
-/// with the cell array CADEntity, and with the normals of the faces if there are. Where the file
-/// names or colours any entity of the dimension, there are cell arrays Name (strings) and Color
-/// (red, green, blue, 0 to 255; white where it has none).
+/// with the cell arrays CADDimension and CADEntity, and with the normals of the faces if there are.
+/// Where the file names or colours any entity of the dimension, there are cell arrays Name
+/// (strings) and Color (red, green, blue, 0 to 255; white where it has none).
 vtkSmartPointer<vtkPolyData> draw(
   const CADModel& model, const ModelDrawing& drawing, int dimension, const DrawingShare& share);
 

@@ -16,13 +16,6 @@ namespace cadrefine
 namespace
 {
 
-/// Whether all vertices of all ranks have a coordinate in common.
-bool liesInCoordinatePlane(RankExchange& exchange, const SimplexMesh& mesh)
-{
-  const auto [low, high] = findBounds(exchange, mesh);
-  return low[0] == high[0] || low[1] == high[1] || low[2] == high[2];
-}
-
 void listEdges(const SimplexMesh& mesh, DistributedBoundary& boundary)
 {
   boundary.edges = EdgeList(mesh.ids);
@@ -78,13 +71,18 @@ struct SentRecord
 
 } // namespace
 
+bool isPlanar(const MeshBounds& bounds, const CADModel& model)
+{
+  const auto& [low, high] = bounds;
+  return model.count(2) == 0 || low[0] == high[0] || low[1] == high[1] || low[2] == high[2];
+}
+
 DistributedBoundary findBoundary(RankExchange& exchange, const DistributedMesh& mesh,
   const CADModel& model, const std::vector<unsigned char>& among)
 {
   DistributedBoundary boundary;
   const SimplexMesh& piece = mesh.mesh();
-  const bool planar =
-    piece.dimension == 2 && (model.count(2) == 0 || liesInCoordinatePlane(exchange, piece));
+  const bool planar = piece.dimension == 2 && isPlanar(findBounds(exchange, piece), model);
   boundary.kind = planar ? BoundaryKind::Segments : BoundaryKind::Triangles;
   if (piece.dimension == 3 || planar)
   {

@@ -39,11 +39,14 @@ struct DistributedBoundary
   int facetCorners() const { return kind == BoundaryKind::Triangles ? 3 : 2; }
 };
 
+/// Whether a mesh of triangles within these bounds is planar, and compared with the edges of the
+/// model: if this has no faces, or if all vertices have one coordinate in common.
+bool isPlanar(const MeshBounds& bounds, const CADModel& model);
+
 /// Boundary of the mesh: of a mesh of tetrahedra, or a planar one of triangles, the sides met once
-/// and listed interior ones (see findBoundaryFacets); of triangles in space, all triangles. A mesh
-/// of triangles is planar if the model has no faces or if all of its vertices have one coordinate
-/// in common. `among`: see findBoundaryFacets. Collective; messages in proportion to the interface
-/// between pieces.
+/// and listed interior ones (see findBoundaryFacets); of triangles in space, all triangles.
+/// `among`: see findBoundaryFacets. Collective; messages in proportion to the interface between
+/// pieces.
 DistributedBoundary findBoundary(RankExchange& exchange, const DistributedMesh& mesh,
   const CADModel& model, const std::vector<unsigned char>& among = {});
 

@@ -162,4 +162,12 @@ EntitySelection selectEntities(const CADModel& model, int dimension,
   return selection;
 }
 
+std::string entryOf(const CADModel& model, EntityId entity)
+{
+  const std::string& name = model.attributes(entity).name;
+  const bool isPlain = name.find_first_of("*?[]\\=") == std::string::npos && name[0] != '!';
+  const bool isItsOwn = !name.empty() && findEntities(model, entity.dimension, name).size() == 1;
+  return isPlain && isItsOwn ? name : std::to_string(entity.index);
+}
+
 } // namespace cadrefine

@@ -29,4 +29,9 @@ struct EntitySelection
 EntitySelection selectEntities(const CADModel& model, int dimension,
   const std::vector<std::string>& wanted, const std::string& property);
 
+/// The entry of selectEntities that stands for this entity alone: its name, or its index where the
+/// name is missing, or is not its own, or would be read as something else (a pattern, a tolerance).
+/// (No entry does where such an index is another one's name.)
+std::string entryOf(const CADModel& model, EntityId entity);
+
 } // namespace cadrefine

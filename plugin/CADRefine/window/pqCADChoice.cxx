@@ -1,64 +1,23 @@
 #include "pqCADChoice.h"
 
-#include <pqApplicationCore.h>
-#include <pqOutputPort.h>
-#include <pqPipelineFilter.h>
-#include <pqServerManagerModel.h>
-#include <vtkDataObject.h>
-#include <vtkPVDataInformation.h>
-#include <vtkSMInputProperty.h>
-#include <vtkSMPropertyHelper.h>
-#include <vtkSMProxy.h>
+#include "pqPipelineCAD.h"
 
-#include <string>
+#include <pqApplicationCore.h>
+#include <pqPipelineSource.h>
+#include <pqServerManagerModel.h>
+#include <vtkSMInputProperty.h>
+#include <vtkSMProxy.h>
 
 namespace
 {
 
-struct Output
+pqPipelineCAD findOnlyCAD(pqServer* server)
 {
-  vtkSMProxy* source = nullptr;
-  unsigned int port = 0;
-};
-
-Output inputOf(vtkSMProxy* filter, const char* property)
-{
-  if (!vtkSMInputProperty::SafeDownCast(filter->GetProperty(property)))
-  {
-    return {};
-  }
-  const vtkSMPropertyHelper input(filter, property);
-  return { input.GetAsProxy(), input.GetOutputPort() };
-}
-
-/// The CAD of the nearest filter above that has one.
-Output findCADAbove(vtkSMProxy* filter)
-{
-  Output cad;
-  for (vtkSMProxy* above = inputOf(filter, "Input").source; above && !cad.source;
-       above = inputOf(above, "Input").source)
-  {
-    cad = inputOf(above, "CAD");
-  }
-  return cad;
-}
-
-/// Whether the source is a CAD Reader, which may not have read yet, or reads a saved CAD.
-bool isCAD(pqPipelineSource* source)
-{
-  return !qobject_cast<pqPipelineFilter*>(source) &&
-         (std::string(source->getProxy()->GetXMLName()) == "CADReader" ||
-           source->getOutputPort(0)->getDataInformation()->GetArrayInformation(
-             "CADModel", vtkDataObject::FIELD));
-}
-
-Output findOnlyCAD(pqServer* server)
-{
-  Output only;
+  pqPipelineCAD only;
   const auto* model = pqApplicationCore::instance()->getServerManagerModel();
   for (pqPipelineSource* source : model->findItems<pqPipelineSource*>(server))
   {
-    if (isCAD(source))
+    if (pqPipelineCAD::isCAD(source))
     {
       if (only.source)
       {
@@ -95,7 +54,7 @@ void pqCADChoice::onAdded(pqPipelineSource* filter)
   {
     return;
   }
-  Output cad = findCADAbove(proxy);
+  pqPipelineCAD cad = pqPipelineCAD::findFor(proxy);
   if (!cad.source)
   {
     cad = findOnlyCAD(filter->getServer());
