@@ -20,5 +20,5 @@ cadrefine::PipelineResult vtkCADBoundary::Execute(
   cadrefine::MeshState state =
     cadrefine::readMesh(exchange, input, cadrefine::CellOrder::FirstOrSecond);
   cadrefine::readClassification(context, input, state);
-  return cadrefine::resultOf(cadrefine::boundaryMesh(context, std::move(state)));
+  return cadrefine::resultOf(cadrefine::boundaryMesh(context, std::move(state), this->GetFaces()));
 }

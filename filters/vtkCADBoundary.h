@@ -11,7 +11,8 @@
  * from the CAD), CADEntity (index of the CAD face or edge; -1), CADName (of the face or edge in the
  * CAD file; empty if it has none) and CADColor (red, green, blue; white if it has none). The cell
  * arrays of the mesh are those of the cell that the facet is a side of; point arrays and ids stay.
- * Of a mesh of second order the facets have their corners alone.
+ * Of a mesh of second order the facets have their corners alone. With Faces there are the facets on
+ * these faces alone; none is an error.
  *
  * Cost: that of classifying the boundary; in the plane a projection a segment.
  */

@@ -18,13 +18,21 @@ namespace cadrefine
 namespace
 {
 
+/// Facets with so many corners each, and what they lie on.
+struct ClassifiedFacets
+{
+  int corners = 3;
+  std::vector<Facet> facets;
+  std::vector<EntityId> entities;
+};
+
 /// The vertices that facets use, ascending.
-std::vector<Index> verticesOf(const DistributedBoundary& boundary, std::size_t vertexCount)
+std::vector<Index> verticesOf(const ClassifiedFacets& chosen, std::size_t vertexCount)
 {
   std::vector<unsigned char> used(vertexCount, 0);
-  for (const Facet& facet : boundary.facets)
+  for (const Facet& facet : chosen.facets)
   {
-    for (int k = 0; k < boundary.facetCorners(); ++k)
+    for (int k = 0; k < chosen.corners; ++k)
     {
       used[facet.vertices[k]] = 1;
     }
@@ -33,7 +41,7 @@ std::vector<Index> verticesOf(const DistributedBoundary& boundary, std::size_t v
 }
 
 SimplexMesh facetsAsCells(
-  const SimplexMesh& mesh, const DistributedBoundary& boundary, const std::vector<Index>& vertices)
+  const SimplexMesh& mesh, const ClassifiedFacets& chosen, const std::vector<Index>& vertices)
 {
   SimplexMesh result;
   std::vector<Index> placeOf(mesh.points.size(), -1);
@@ -43,8 +51,8 @@ SimplexMesh facetsAsCells(
     result.points.push_back(mesh.points[vertex]);
     result.ids.push_back(mesh.ids[vertex]);
   }
-  result.dimension = boundary.facetCorners() - 1;
-  for (const Facet& facet : boundary.facets)
+  result.dimension = chosen.corners - 1;
+  for (const Facet& facet : chosen.facets)
   {
     const auto& [a, b, c] = facet.vertices;
     if (result.dimension == 2)
@@ -67,6 +75,26 @@ std::vector<Value> taken(const std::vector<Value>& values, const std::vector<Pla
   std::transform(places.begin(), places.end(), std::back_inserter(result),
     [&](Place place) { return values[place]; });
   return result;
+}
+
+/// Those on these faces; all where none are named. Collective.
+ClassifiedFacets facetsAmong(
+  const PipelineContext& context, MeshState& state, const std::vector<std::string>& faces)
+{
+  const std::vector<EntityId> entities = entitiesOfFacets(context, state);
+  const DistributedBoundary& boundary = state.boundary->boundary;
+  if (faces.empty())
+  {
+    return { boundary.facetCorners(), boundary.facets, entities };
+  }
+  const EntitySelection selection = selectFaces(context, state, faces);
+  const std::vector<Index> chosen = indicesWhere(entities.size(),
+    [&](std::size_t f) { return selection.contains(context.model.nurbs(), entities[f]); });
+  if (!context.exchange.any(!chosen.empty()))
+  {
+    throw Error("none of the boundary's facets lies on the chosen faces (Faces)");
+  }
+  return { boundary.facetCorners(), taken(boundary.facets, chosen), taken(entities, chosen) };
 }
 
 void checkForBoundary(const SimplexMesh& mesh)
@@ -249,18 +277,18 @@ MeshWithBoundary makeWithFaces(
 
 } // namespace
 
-MeshState boundaryMesh(const PipelineContext& context, MeshState state)
+MeshState boundaryMesh(
+  const PipelineContext& context, MeshState state, const std::vector<std::string>& faces)
 {
   const SimplexMesh& mesh = state.mesh.mesh();
   checkForBoundary(mesh);
-  const std::vector<EntityId> entities = entitiesOfFacets(context, state);
-  const DistributedBoundary& boundary = state.boundary->boundary;
-  const std::vector<Index> vertices = verticesOf(boundary, mesh.points.size());
+  const ClassifiedFacets chosen = facetsAmong(context, state, faces);
+  const std::vector<Index> vertices = verticesOf(chosen, mesh.points.size());
 
   MeshState result;
   result.parallelFor = state.parallelFor;
   result.prototype = state.prototype;
-  result.mesh.converted.mesh = facetsAsCells(mesh, boundary, vertices);
+  result.mesh.converted.mesh = facetsAsCells(mesh, chosen, vertices);
   result.mesh.shared = findShared(context.exchange, result.mesh.mesh());
   result.mesh.vertexIdBound = state.mesh.vertexIdBound;
   numberCells(context.exchange, result.mesh);
@@ -273,13 +301,13 @@ MeshState boundaryMesh(const PipelineContext& context, MeshState state)
   ArraySelection selection;
   selection.points.emplace(vertices.begin(), vertices.end());
   const vtkIdType first = firstCellOfDimension(mesh, mesh.dimension);
-  std::transform(boundary.facets.begin(), boundary.facets.end(),
+  std::transform(chosen.facets.begin(), chosen.facets.end(),
     std::back_inserter(selection.cells.emplace()),
     [&](const Facet& facet) { return first + facet.cell; });
   result.arrays = select(state.arrays, selection);
   result.mapping = std::move(state.mapping);
   result.mapping.convert(std::move(selection));
-  writeAttributes(context.model, entities, result.arrays.ofCells);
+  writeAttributes(context.model, chosen.entities, result.arrays.ofCells);
   result.arrays.ofCells->SetActiveScalars(arrays::entity);
   return result;
 }

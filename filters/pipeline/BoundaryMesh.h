@@ -4,6 +4,9 @@
 #include "pipeline/MeshState.h"
 #include "pipeline/PipelineContext.h"
 
+#include <string>
+#include <vector>
+
 namespace cadrefine
 {
 
@@ -12,10 +15,12 @@ namespace cadrefine
 /// ids by those of their vertices. Cell arrays are those of the cell that a facet is a side of, and
 /// CADDimension, CADEntity (the face, or of a segment the edge, that it lies on; -1 where it does
 /// not lie on the CAD), CADName and CADColor of that. A facet that spans several faces is given the
-/// one nearest to its centroid. Of a mesh of second order, facets have corners alone.
+/// one nearest to its centroid. Of a mesh of second order, facets have corners alone. With `faces`
+/// (see selectFaces) the facets on these alone; none there is an Error.
 ///
 /// Collective. Work: that of classifying the boundary, and in the plane one projection a segment.
-MeshState boundaryMesh(const PipelineContext& context, MeshState state);
+MeshState boundaryMesh(
+  const PipelineContext& context, MeshState state, const std::vector<std::string>& faces);
 
 /// A data set with cells that the mesh does not have.
 struct MeshWithBoundary

@@ -208,6 +208,53 @@ TEST(CADBoundary, hasTheNamesAndColoursOfTheFile)
   }
 }
 
+/// Of a part with a cavity: on one face, on all but one, and on one where no facet is.
+TEST(CADBoundary, takesFacets)
+{
+  const cadtest::TemporaryFolder folder;
+  const cadtest::FilterRun filters(cadtest::writeInto(folder, cadtest::partWithCavity(), ".step"));
+  const auto projected = filters.project(cadtest::readGrid(CADREFINE_DATA "/part_coarse.vtu"));
+  const auto whole = boundaryOf(filters, projected);
+  const auto facetsOf = [](vtkPointSet* boundary, auto isWanted)
+  {
+    std::set<std::vector<double>> facets;
+    for (vtkIdType cell = 0; cell < boundary->GetNumberOfCells(); ++cell)
+    {
+      const EntityId entity = entityOf(boundary, cell);
+      const Vector3 centroid = centroidOf(boundary, cell);
+      if (isWanted(entity))
+      {
+        facets.insert({ centroid[0], centroid[1], centroid[2], 1.0 * entity.index });
+      }
+    }
+    return facets;
+  };
+  const auto with = [&](const char* face)
+  {
+    return filters.attempt<vtkCADBoundary>(
+      projected, [&](vtkCADBoundary* filter) { filter->AddFace(face); });
+  };
+  const auto all = [](EntityId) { return true; };
+  for (const bool excluded : { false, true })
+  {
+    const auto chosen = with(excluded ? "!1" : "1");
+    ASSERT_TRUE(chosen.succeeded);
+    const auto expected =
+      facetsOf(whole, [&](EntityId entity) { return entity && (entity.index == 1) != excluded; });
+    EXPECT_GT(expected.size(), 0u);
+    EXPECT_EQ(facetsOf(chosen.pointSet(), all), expected);
+    EXPECT_EQ(chosen.pointSet()->GetNumberOfCells(), static_cast<vtkIdType>(expected.size()));
+  }
+  const auto none = filters.attempt<vtkCADBoundary>(
+    filters.run<vtkProjectOntoCAD>(cadtest::readGrid(CADREFINE_DATA "/part_coarse.vtu"),
+      [](vtkProjectOntoCAD* filter) { filter->AddFace("0"); }),
+    [](vtkCADBoundary* filter) { filter->AddFace("1"); });
+  EXPECT_FALSE(none.succeeded);
+  ASSERT_EQ(none.errors.size(), 1u);
+  EXPECT_NE(none.errors[0].find("none of the boundary's facets"), std::string::npos)
+    << none.errors[0];
+}
+
 /// A ball in a shell: the triangles between the two, which the mesh lists, lie on the sphere; those
 /// of the outer border do not lie on the CAD.
 TEST(CADBoundary, hasListedFacetsBetweenMaterials)
