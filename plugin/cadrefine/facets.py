@@ -5,6 +5,8 @@ import functools
 import numpy as np
 from paraview import simple
 from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkFiltersExtraction import vtkExtractCellsByType
+from vtkmodules.vtkFiltersGeometry import vtkUnstructuredGridGeometryFilter
 
 from cadrefine.input import local_output
 from cadrefine.merge import merged_grid
@@ -14,29 +16,38 @@ from cadrefine.pipeline import field_values
 CELL_TYPES = {2: (5, 22), 3: (10, 24)}  # Of a mesh's dimension, VTK's types of simplices, linear and quadratic.
 FACE = 2  # CADDimension of what lies on a CAD face.
 
-# Runs on every rank: the facets of these types of cells; quadratic ones stay quadratic. Cells of lower dimension, which
-# carry tags, have no error and would hide them.
+# Runs on every rank.
 TAKE_FACETS = """
-from vtkmodules.vtkFiltersExtraction import vtkExtractCellsByType
-from vtkmodules.vtkFiltersGeometry import vtkUnstructuredGridGeometryFilter
-last = vtkExtractCellsByType()
-last.SetInputData(self.GetInputDataObject(0, 0))
-for cell_type in {types}:
-    last.AddCellType(cell_type)
-if self.GetInputDataObject(0, 0).IsA("vtkUnstructuredGrid"):
-    last, chosen = vtkUnstructuredGridGeometryFilter(), last
-    last.SetInputConnection(chosen.GetOutputPort())
-last.Update()
-self.GetOutputDataObject(0).ShallowCopy(last.GetOutput())
+from cadrefine import facets
+self.GetOutputDataObject(0).ShallowCopy(facets.of_dimension({dimension}, self.GetInputDataObject(0, 0)))
 """
+
+
+def of_dimension(dimension, mesh):
+    """The facets of the cells of this dimension; quadratic ones stay quadratic. Cells of lower dimension, which carry
+    tags, have no error and would hide them."""
+    last = vtkExtractCellsByType()
+    last.SetInputData(mesh)
+    for cell_type in CELL_TYPES[dimension]:
+        last.AddCellType(cell_type)
+    if mesh.IsA("vtkUnstructuredGrid"):
+        last, chosen = vtkUnstructuredGridGeometryFilter(), last
+        last.SetInputConnection(chosen.GetOutputPort())
+    last.Update()
+    return last.GetOutput()
+
+
+def is_flat(mesh):
+    """Whether the mesh is one in the plane."""
+    bounds = mesh.GetDataInformation().GetBounds()
+    return bounds[4] == bounds[5]
 
 
 def gather(mesh, cad, quadratic):
     """The facets of all ranks, on rank 0. `quadratic`: whether cells are of second order."""
-    bounds = mesh.GetDataInformation().GetBounds()
-    flat, dimension = bounds[4] == bounds[5], field_values(local_output(mesh))["MeshDimension"]
+    flat, dimension = is_flat(mesh), field_values(local_output(mesh))["MeshDimension"]
     if flat or quadratic:
-        source = simple.ProgrammableFilter(Input=mesh, Script=TAKE_FACETS.format(types=CELL_TYPES[dimension]))
+        source = simple.ProgrammableFilter(Input=mesh, Script=TAKE_FACETS.format(dimension=dimension))
     else:
         source = simple.CADBoundary(Input=mesh, CAD=cad)
     grid = merged_grid(gathered(source))

@@ -245,6 +245,8 @@ TEST(CADBoundary, takesFacets)
     EXPECT_EQ(facetsOf(chosen.pointSet(), all), expected);
     EXPECT_EQ(chosen.pointSet()->GetNumberOfCells(), static_cast<vtkIdType>(expected.size()));
   }
+  EXPECT_EQ(facetsOf(with("*").pointSet(), all),
+    facetsOf(whole, [](EntityId entity) { return bool(entity); })); // which have no names
   const auto none = filters.attempt<vtkCADBoundary>(
     filters.run<vtkProjectOntoCAD>(cadtest::readGrid(CADREFINE_DATA "/part_coarse.vtu"),
       [](vtkProjectOntoCAD* filter) { filter->AddFace("0"); }),

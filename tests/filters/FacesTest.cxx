@@ -302,10 +302,10 @@ TEST(FaceNames, arePatternsAndNumbers)
     return found;
   };
   const bool deckFirst = vtkCADModelCache::Get(filters.cad())->attributes({ 2, 0 }).name == "DECK";
-  for (const auto& [faces, expected] :
-    std::vector<std::pair<Names, std::string>>{ { {}, "xx" }, { { "DECK" }, "x-" },
-      { { "D*" }, "x-" }, { { "?EE[A-L]" }, "-x" }, { { "!D*" }, "-x" }, { { "*", "!KEEL" }, "x-" },
-      { { "DECK", "KEEL" }, "xx" }, { { deckFirst ? "0" : "1" }, "x-" }, { { "KEEL=0.1" }, "-x" } })
+  for (const auto& [faces, expected] : std::vector<std::pair<Names, std::string>>{ { {}, "xx" },
+         { { "DECK" }, "x-" }, { { "D*" }, "x-" }, { { "?EE[A-L]" }, "-x" }, { { "!D*" }, "-x" },
+         { { "*", "!KEEL" }, "x-" }, { { "DECK", "KEEL" }, "xx" }, { { "*" }, "xx" },
+         { { deckFirst ? "0" : "1" }, "x-" }, { { "KEEL=0.1" }, "-x" } })
   {
     EXPECT_EQ(projectedOn(faces), expected) << testing::PrintToString(faces);
   }

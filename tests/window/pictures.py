@@ -10,6 +10,9 @@ import tempfile
 
 from PIL import Image
 
+from test_client_server import write
+from test_faces import HELPERS, MIDDLE, add_to, look_at, select, show_alone
+from test_ready_view import SHOW
 from test_window import APPLY, PANEL, choose_from_menu, open_file
 from window import Window, event, python
 
@@ -48,6 +51,22 @@ def play_error(window):
     window.picture("window_error")
 
 
+def play_faces(window, data):
+    """In a window whose Python has the helpers of test_faces."""
+    window.play(python(f"exec(open({write(window.path('helpers.py'), HELPERS)!r}).read(), globals())"),
+                python("simple.ResetSession()"), *open_file(os.path.join(data, "cylinder.brep")), APPLY,
+                *open_file(os.path.join(data, "cylinder_coarse.vtu")), APPLY, *choose_from_menu("ProjectOntoCAD"),
+                show_alone("cylinder.brep"), *look_at((0, 0, 2)), *select(*MIDDLE), *add_to("ProjectOntoCAD1"))
+    window.picture("window_faces")
+
+
+def play_facets(window, data):
+    window.play(python("simple.ResetSession()"), *open_file(os.path.join(data, "aeroplane.igs")), APPLY,
+                *open_file(os.path.join(data, "aeroplane_coarse.vtu")), APPLY, *choose_from_menu("ProjectOntoCAD"),
+                APPLY, *choose_from_menu("CADGeometricError"), APPLY, SHOW)
+    window.picture("window_facets")
+
+
 def main():
     plugin, data, folder = map(os.path.abspath, sys.argv[1:])
     with tempfile.TemporaryDirectory() as output:
@@ -55,8 +74,10 @@ def main():
         play_cad(window, data)
         play_region(window, data)
         play_error(window)
+        play_faces(window, data)
+        play_facets(window, data)
         window.run_well(TIMEOUT)
-        for name in ("window_cad", "window_region", "window_error"):
+        for name in ("window_cad", "window_region", "window_error", "window_faces", "window_facets"):
             picture = Image.open(window.path(name + ".png")).convert("RGB")
             target = os.path.join(folder, name + ".png")
             picture.save(target, optimize=True)

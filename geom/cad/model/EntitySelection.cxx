@@ -90,7 +90,7 @@ std::vector<int> findEntities(const CADModel& model, int dimension, const std::s
     {
       exact.push_back(index);
     }
-    else if (!its.empty() && fnmatch(name.c_str(), its.c_str(), 0) == 0)
+    else if ((!its.empty() || name == "*") && fnmatch(name.c_str(), its.c_str(), 0) == 0)
     {
       alike.push_back(index);
     }

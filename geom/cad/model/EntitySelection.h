@@ -22,10 +22,10 @@ struct EntitySelection
 };
 
 /// The entities that `wanted` names: each entry a name in the CAD file, a pattern of names as in a
-/// shell (`*`, `?`, `[...]`), or an index, if no name is like that. `!` before it takes these away
-/// (from all, if it is the first entry), `=` and a length after it is their chord tolerance. Throws
-/// Error, which begins with `property`, for an entry that fits nothing and for a tolerance that is
-/// no positive number; it lists what there is.
+/// shell (`*`, `?`, `[...]`; `*` alone is all, those without a name too), or an index, if no name
+/// is like that. `!` before it takes these away (from all, if it is the first entry), `=` and a
+/// length after it is their chord tolerance. Throws Error, which begins with `property`, for an
+/// entry that fits nothing and for a tolerance that is no positive number; it lists what there is.
 EntitySelection selectEntities(const CADModel& model, int dimension,
   const std::vector<std::string>& wanted, const std::string& property);
 
