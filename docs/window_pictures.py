@@ -44,7 +44,7 @@ for (name, _), source in simple.GetSources().items():
 shown = simple.FindSource({name!r})
 display = simple.Show(shown, view)
 simple.ColorBy(display, ({association!r}, {array!r}))
-display.SetRepresentationType("Surface With Edges")
+display.SetRepresentationType({representation!r})
 display.EdgeColor = [0.25, 0.25, 0.25]
 display.LineWidth = 0.5
 display.SetScalarBarVisibility(view, True)
@@ -58,10 +58,10 @@ def select(name):
     return [python("from paraview import simple"), python(f"simple.SetActiveSource(simple.FindSource({name!r}))")]
 
 
-def show(window, name, association, array):
+def show(window, name, association, array, representation):
     script = window.path(f"show_{array}.py")
     with open(script, "w", encoding="utf-8") as file:
-        file.write(SHOW.format(name=name, association=association, array=array))
+        file.write(SHOW.format(name=name, association=association, array=array, representation=representation))
     return python(f"exec(open({script!r}).read(), {{}})")
 
 
@@ -70,11 +70,11 @@ def play(window, mesh):
     window.picture("tutorial_cad")
     window.play(*open_file(mesh), APPLY, *choose_from_menu("ProjectOntoCAD"))
     window.picture("tutorial_inputs")
-    window.play(APPLY, show(window, "ProjectOntoCAD1", "POINTS", "CADDimension"))
+    window.play(APPLY, show(window, "ProjectOntoCAD1", "POINTS", "CADDimension", "Surface With Edges"))
     window.picture("tutorial_projected")
     window.play(*select("rod.vtk"), *choose_from_menu("AdaptToCAD"),
                 event(PANEL + "MaximumSteps/LineEdit0", "set_string", "6"), APPLY,
-                show(window, "AdaptToCAD1", "CELLS", "GeometricError"))
+                show(window, "AdaptToCAD1", "CELLS", "GeometricError", "Surface"))  # Its edges would hide the colours.
     window.picture("tutorial_adapted")
 
 
