@@ -1,10 +1,15 @@
 """What VTK says on each rank: errors, and warnings of the filters. Every rank has this module, also those that run no
 script."""
 
+import contextlib
+import ctypes
+import io
+import os
 import re
+import sys
 
 from vtkmodules.util.misc import calldata_type
-from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow, vtkUnsignedCharArray
+from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow, vtkStringOutputWindow, vtkUnsignedCharArray
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
 # The filter whose warnings are for the user. (What the CAD Reader warns of is in its field data.)
@@ -39,9 +44,53 @@ def observe():
 
 def take():
     """This rank's errors, as lines; they are forgotten."""
-    lines = [reason_of(text) for text in errors if text.strip() and HARMLESS not in text]
+    lines = reasons(errors)
     errors.clear()
+    return lines
+
+
+def reasons(texts):
+    """VTK's errors as lines, without those that only follow from others."""
+    lines = [reason_of(text) for text in texts if text.strip() and HARMLESS not in text]
     return [line for line in lines if "returned failure for request" not in line] or lines
+
+
+@contextlib.contextmanager
+def silence():
+    """Libraries write their own warnings and errors, from Python and from C; ours is one line. What VTK says is wrong
+    goes to the list that is given, and to nobody else."""
+    said = []
+
+    @calldata_type("string0")
+    def collect(_window, _event, text):
+        said.append(text)
+
+    flush()
+    window, before = vtkStringOutputWindow(), vtkOutputWindow.GetInstance()
+    window.AddObserver("ErrorEvent", collect)
+    kept = {number: os.dup(number) for number in (1, 2)}
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    try:
+        vtkOutputWindow.SetInstance(window)
+        for number in kept:
+            os.dup2(nowhere, number)
+        with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
+            yield said
+    finally:
+        flush()
+        for number, copy in kept.items():
+            os.dup2(copy, number)
+            os.close(copy)
+        os.close(nowhere)
+        vtkOutputWindow.SetInstance(before)
+
+
+def flush():
+    """What was printed goes out now: Python's, and C's, in whose buffer flush() of ParaView 5.13 leaves it where
+    standard output is no terminal. A process that a signal ends would lose it."""
+    sys.stdout.flush()
+    sys.stderr.flush()
+    ctypes.CDLL(None).fflush(None)
 
 
 def share():

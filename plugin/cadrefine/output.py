@@ -1,14 +1,13 @@
 """Writes the last mesh, in the format that the file's name tells."""
 
-import importlib
 import os
 
 from paraview import servermanager, simple
 
-from cadrefine import pieces, session
+from cadrefine import files, pieces, session
 from cadrefine.formats import BadFile, library, openfoam_writing
-from cadrefine.formats.grid import SERIAL, from_grid
-from cadrefine.input import local_output, silence
+from cadrefine.formats.grid import SERIAL
+from cadrefine.input import local_output
 from cadrefine.merge import merged_grid
 from cadrefine.parts import parts_of
 from cadrefine.session import Failure
@@ -24,8 +23,6 @@ NOT_KEPT = {
     ".foam": "arrays, but for groups",
 }
 FORMATS = (".vtu", ".pvtu", *NOT_KEPT)
-WRITERS = {".msh": "msh_writing", ".xdmf": "xdmf", ".med": "med", ".exo": "exodus_writing", ".e": "exodus_writing",
-           ".inp": "abaqus", ".su2": "su2", ".foam": "openfoam_writing"}  # Modules of cadrefine.formats.
 NEEDED = {".med": "h5py", ".exo": "scipy", ".e": "scipy"}  # Python packages.
 LINEAR_ONLY = {".su2": "SU2", ".foam": "OpenFOAM"}
 
@@ -97,11 +94,8 @@ def write(proxy, path, options):
 def write_grid(grid, path, options):
     if path.endswith(".vtu"):
         pieces.write_grid(grid, path)
-        return
-    module = importlib.import_module("cadrefine.formats." + WRITERS[ending(path)])
-    how = {"version": options.msh_version, "ascii": options.ascii} if path.endswith(".msh") else {}
-    with silence():
-        module.write(path, from_grid(grid), **how)
+    else:
+        files.write_grid(grid, path, options.msh_version, options.ascii)
 
 
 def gathered(proxy):

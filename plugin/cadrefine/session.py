@@ -10,6 +10,7 @@ from paraview import simple
 from paraview.modules.vtkRemotingCore import vtkProcessModule
 
 from cadrefine import messages
+from cadrefine.messages import flush
 from cadrefine.parts import polymesh_of
 
 PLUGIN = "CADRefine.so"
@@ -94,14 +95,6 @@ def raise_errors(path):
 def raise_first(errors, path):
     if errors:
         raise Failure(errors[0] if path in errors[0] else f"{path}: {errors[0]}")
-
-
-def flush():
-    """What was printed goes out now: Python's, and C's, in whose buffer flush() of ParaView 5.13 leaves it where
-    standard output is no terminal. A process that a signal ends would lose it."""
-    sys.stdout.flush()
-    sys.stderr.flush()
-    ctypes.CDLL(None).fflush(None)
 
 
 def fail(reason):
