@@ -66,7 +66,7 @@ with open(FILE, "w") as file:
 FILTERS = {"ProjectOntoCAD": "Project Onto CAD", "CADGeometricError": "CAD Geometric Error",
            "RefineWithCAD": "Refine With CAD", "CADBoundary": "CAD Boundary", "MeshValidity": "Mesh Validity",
            "AdaptToCAD": "Adapt To CAD"}
-FUNCTIONS = ["CADReader"] + [label.replace(" ", "") for label in FILTERS.values()]
+FUNCTIONS = ["CADReader", "MeshReader"] + [label.replace(" ", "") for label in FILTERS.values()]
 FUNCTIONS += ["ProjectontoCAD", "RefinewithCAD", "AdapttoCAD"]  # The old names.
 
 

@@ -16,7 +16,7 @@ void pqErrorLines::startup()
   }
   QStringList beginnings;
   for (const char* filter : { "AdaptToCAD", "CADBoundary", "CADGeometricError", "CADReader",
-         "CADSelectedFaces", "MeshValidity", "ProjectOntoCAD", "RefineWithCAD" })
+         "CADSelectedFaces", "MeshReader", "MeshValidity", "ProjectOntoCAD", "RefineWithCAD" })
   {
     beginnings << QString("Algorithm vtk%1 (").arg(filter);
   }
