@@ -17,8 +17,8 @@ PART = re.compile(r"<\?part (\w+)([^?]*)\?>")  # As filters/ServerManagerXMLs.cm
 def proxies():
     for path in sorted(glob.glob(os.path.join(pages.ROOT, "xml", "*.xml"))):
         root = ElementTree.fromstring(PART.sub(part, text_of(path)))
-        for proxy in root.iterfind("ProxyGroup[@name!='internal_filters']/SourceProxy"):
-            if not proxy.get("base_proxyname"):  # Else an old name.
+        for proxy in root.iterfind("ProxyGroup[@name!='internal_filters']/*"):
+            if proxy.tag in ("SourceProxy", "WriterProxy") and not proxy.get("base_proxyname"):  # Else an old name.
                 yield proxy
 
 

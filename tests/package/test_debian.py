@@ -47,7 +47,8 @@ class Debian(unittest.TestCase):
         runtime, development = files_in(self.unpack(self.runtime)), files_in(self.unpack(self.development))
         self.assertEqual(set(runtime) & set(development), set())
         for name in ("usr/bin/cadrefine", "usr/share/cadrefine/plugin/cadrefine.py", "usr/lib/libCADRefineFilters.so",
-                     "usr/lib/cadrefine/cadrefine-read-cad", "usr/share/doc/cadrefine/copyright"):
+                     "usr/lib/cadrefine/cadrefine-read-cad", "usr/lib/cadrefine/python",
+                     "usr/share/doc/cadrefine/copyright"):
             self.assertIn(name, runtime)
         for name in ("usr/include/cadrefine/cad/model/CADModel.h", "usr/lib/cmake/CADRefine/CADRefineConfig.cmake"):
             self.assertIn(name, development)

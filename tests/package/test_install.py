@@ -12,6 +12,14 @@ import installed
 import meshio
 from installed import Installation, files_in, loaded_libraries, only_one, run
 
+TRIANGLE = """$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n$EndNodes
+$Elements\n1\n1 2 2 1 1 1 2 3\n$EndElements\n"""
+READ = """from paraview import simple
+mesh = simple.OpenDataFile({path!r})
+mesh.UpdatePipeline()
+import cadrefine.files
+from cadrefine import vtkMeshReader
+print(mesh.GetDataInformation().GetNumberOfCells(), cadrefine.files.__file__)"""
 PYTHON_EXAMPLE = os.path.join(installed.ROOT, "docs", "examples", "python", "adapt.py")
 
 
@@ -71,6 +79,18 @@ class Install(unittest.TestCase):
                                 ("PV_PLUGIN_PATH", self.installation.path("bin", "plugins")),
                                 ("PV_PLUGIN_CONFIG_FILE", configuration)):
             self.assertIn("CADReader True", run("pvpython", "-c", script, **{variable: value}), (variable, value))
+
+    def test_mesh_files_by_the_package_beside_the_library(self):
+        """Also where the package of VTK's classes, which has the same name, is there already."""
+        path = self.installation.scratch("one.msh")
+        with open(path, "w", encoding="ascii") as file:
+            file.write(TRIANGLE)
+        for first in ("", "import cadrefine\n"):
+            output = run("pvpython", "-c", first + READ.format(path=path),
+                         PV_PLUGIN_PATH=self.installation.plugin_folder(), PYTHONPATH=self.installation.python_path())
+            cells, place = output.split()[-2:]
+            self.assertEqual(cells, "1")
+            self.assertTrue(place.startswith(os.path.realpath(self.installation.path("share", "cadrefine"))), output)
 
     def test_python_example_in_pvpython_and_in_python(self):
         mesh, cad = self.installation.data("cylinder_coarse.vtu"), self.installation.data("cylinder.brep")
