@@ -16,7 +16,7 @@ from cadrefine.formats.groups import grouped
 
 FACET_TAGS = "facet_tags"
 PLANE = "plane"  # Points in the plane, two coordinates: DOLFIN takes them for a mesh of two dimensions.
-INCLUDE = "{http://www.w3.org/2001/XInclude}include"
+INCLUDE = "{*}include"  # DOLFINx 0.5 and 0.9 have different names for the name space.
 ORDER = ("mesh", "facets", "edges", "vertices")
 
 OVERHEAD = 1 << 20  # Bytes of an HDF5 file beside its numbers, more or less.
@@ -27,8 +27,9 @@ def read(path):
     """All grids of the file's domain as one, of a series the first time step. Throws BadFile."""
     tree = parse(path)
     resolve_includes(tree)
-    if tree.find(".//Grid/Topology") is None or tree.find(".//Grid/Geometry") is None:
-        raise BadFile("it holds no grid of cells")  # VTK's reader would crash.
+    grids = [grid for grid in tree.iter("Grid") if grid.find("Grid") is None]
+    if not grids or any(grid.find(part) is None for grid in grids for part in ("Topology", "Geometry")):
+        raise BadFile("it holds no grid of cells, or one without them")  # VTK's reader would crash.
     folder = os.path.dirname(os.path.abspath(path))
     for item in tree.iter("DataItem"):
         if item.get("Format", "XML").upper() != "HDF" or ":" not in (item.text or ""):
