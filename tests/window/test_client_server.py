@@ -30,9 +30,10 @@ def adapted_values(source):
     return {name: source.FieldData[name].GetRange(0)[0] for name in fields}
 
 def largest_rank(source):
-    ranks = simple.ProcessIdScalars(Input=source)
+    is_new = hasattr(simple, "ProcessIds")  # Since ParaView 5.12; the older one is deprecated with a warning there.
+    ranks = (simple.ProcessIds if is_new else simple.ProcessIdScalars)(Input=source)
     ranks.UpdatePipeline()
-    return ranks.PointData["ProcessId"].GetRange(0)[1]
+    return ranks.PointData["PointProcessIds" if is_new else "ProcessId"].GetRange(0)[1]
 """
 
 CLIENT = """
