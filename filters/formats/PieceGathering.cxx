@@ -19,7 +19,7 @@ namespace
 
 vtkSmartPointer<vtkPointSet> withoutGhosts(vtkPointSet* piece)
 {
-  const auto result = vtk::TakeSmartPointer(piece->NewInstance());
+  auto result = vtk::TakeSmartPointer(piece->NewInstance());
   result->ShallowCopy(piece);
   if (auto* grid = vtkUnstructuredGrid::SafeDownCast(result))
   {

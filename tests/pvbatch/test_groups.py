@@ -193,7 +193,7 @@ class Groups(unittest.TestCase):
 
     def test_facets_in_no_group(self):
         """Also those that are no cells of the mesh are in a marker."""
-        alone = grid.Mesh(self.mesh.points, self.mesh.blocks[-1:])
+        alone = grid.Mesh(self.mesh.points, [(1, np.array([[0]])), (3, np.array([[0, 1]])), *self.mesh.blocks[-1:]])
         su2.write(self.path("alone.su2"), alone)
         self.assertEqual(self.counts(grouped(su2.read(self.path("alone.su2")))), {("boundary", 2): 10 * 14})
 

@@ -22,6 +22,7 @@ TYPES = {  # VTK's number of a type of cell: its name in meshio, its dimension, 
     12: ("hexahedron", 3, 8), 13: ("wedge", 3, 6), 14: ("pyramid", 3, 5), 21: ("line3", 1, 3),
     22: ("triangle6", 2, 6), 24: ("tetra10", 3, 10),
 }
+QUADRATIC = (21, 22, 24)
 TYPE_OF_NAME = {name: number for number, (name, _, _) in TYPES.items()}
 
 

@@ -5,14 +5,13 @@ import os
 import numpy as np
 
 from cadrefine.formats import BadFile
-from cadrefine.formats.grid import PHYSICAL
+from cadrefine.formats.grid import PHYSICAL, QUADRATIC
 from cadrefine.formats.groups import NAME, group_names, grouped
 from cadrefine.formats.sides import sides_of, tagged
 
 FOLDER = "constant/polyMesh"
 FILES = ("points", "faces", "owner", "neighbour", "boundary", "cellZones", "faceZones")
 TYPES = ("wall", "symmetry", "symmetryPlane")  # Of patches, which need nothing but their name.
-LINEAR = (10, 12, 13, 14)  # VTK's types of cells of three dimensions.
 HEADER = """FoamFile
 {{
     version 2.0;
@@ -29,7 +28,7 @@ def check(mesh):
     dimensions = mesh.cell_dimensions()
     if dimensions.max(initial=0) < 3:
         raise BadFile("OpenFOAM has meshes of volume cells alone; extrude the plane by one layer first")
-    if any(kind not in LINEAR for kind, corners in mesh.blocks if len(corners) and kind > 5 and kind != 9):
+    if any(kind in QUADRATIC for kind, _ in mesh.blocks):
         raise BadFile("OpenFOAM has no quadratic cells")
 
 

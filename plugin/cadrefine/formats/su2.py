@@ -3,7 +3,7 @@
 import numpy as np
 
 from cadrefine.formats import BadFile
-from cadrefine.formats.grid import TYPES, Mesh
+from cadrefine.formats.grid import QUADRATIC, TYPES, Mesh
 from cadrefine.formats.groups import NAME, group_names, grouped
 from cadrefine.formats.sides import sides_of, tagged
 
@@ -84,7 +84,7 @@ def add_cells(cells, tags, rows, tag):
 
 def check(mesh):
     """Throws BadFile where the format cannot hold the mesh."""
-    if any(kind not in LINEAR for kind, _ in mesh.blocks):
+    if any(kind in QUADRATIC for kind, _ in mesh.blocks):
         raise BadFile("SU2 has no quadratic cells")
     if mesh.cell_dimensions().max(initial=0) < dimension_of(mesh):
         raise BadFile("SU2 has no meshes of surfaces in space")
