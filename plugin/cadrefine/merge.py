@@ -1,9 +1,8 @@
 """Joins the pieces of a mesh, as they come from the ranks, to one grid without double points."""
 
 import numpy as np
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkIdList, vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkUnstructuredGrid
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkIdList
 from vtkmodules.vtkFiltersCore import vtkAppendFilter
 
 from cadrefine.formats import grid as grids
@@ -24,11 +23,9 @@ def merged_grid(data):
     count = grid.GetNumberOfCells()
     order = np.unique(vtk_to_numpy(cell_ids), return_index=True)[1] if cell_ids else np.arange(count)
 
-    result = vtkUnstructuredGrid()
-    points = vtkPoints()
-    points.SetData(numpy_to_vtk(vtk_to_numpy(grid.GetPoints().GetData())[kept], deep=True))
-    result.SetPoints(points)
-    set_cells(result, grid, order, new_number)
+    offsets, corners = grids.corners_of(grid, order)
+    result = grids.make_grid(vtk_to_numpy(grid.GetPoints().GetData())[kept],
+                             vtk_to_numpy(grid.GetCellTypesArray())[order], offsets, new_number[corners])
     take(grid.GetPointData(), result.GetPointData(), kept)
     take(grid.GetCellData(), result.GetCellData(), order)
     result.SetFieldData(grid.GetFieldData())
@@ -42,12 +39,6 @@ def as_grid(data):
     append.SetInputData(data)
     append.Update()
     return append.GetOutput()
-
-
-def set_cells(result, grid, order, new_number):
-    """Cells `order` of `grid`, with their points renumbered."""
-    offsets, corners = grids.corners_of(grid, order)
-    grids.set_cells(result, vtk_to_numpy(grid.GetCellTypesArray())[order], offsets, new_number[corners])
 
 
 def take(source, target, chosen):

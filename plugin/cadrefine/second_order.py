@@ -3,8 +3,6 @@
 import numpy as np
 from paraview import simple
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkUnstructuredGrid
 
 from cadrefine.formats import grid as grids
 from cadrefine.merge import take
@@ -55,11 +53,7 @@ def by_corners(data):
     offsets, corners = grids.corners_of(data, np.arange(len(types)), sizes)
     kept, corners = np.unique(corners, return_inverse=True)
 
-    result = vtkUnstructuredGrid()
-    points = vtkPoints()
-    points.SetData(grids.to_vtk("Points", vtk_to_numpy(data.GetPoints().GetData())[kept]))
-    result.SetPoints(points)
-    grids.set_cells(result, linear[types], offsets, corners)
+    result = grids.make_grid(vtk_to_numpy(data.GetPoints().GetData())[kept], linear[types], offsets, corners)
     take(data.GetPointData(), result.GetPointData(), kept)
     result.GetCellData().ShallowCopy(data.GetCellData())
     result.SetFieldData(data.GetFieldData())

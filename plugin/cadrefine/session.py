@@ -1,9 +1,7 @@
 """What the driver needs of ParaView as a whole: ranks, the plugin, and errors that end every rank with one line."""
 
-import ctypes
 import glob
 import os
-import sys
 import traceback
 
 from paraview import simple

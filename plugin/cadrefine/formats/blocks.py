@@ -2,11 +2,10 @@
 
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkUnstructuredGrid
 from vtkmodules.vtkFiltersCore import vtkAppendFilter
 
-from cadrefine.formats.grid import arrays_of, corners_of, set_cells, to_vtk
+from cadrefine.formats.grid import arrays_of, corners_of, make_grid, to_vtk
 from cadrefine.formats.sides import same_corners, same_rows
 
 VERTEX, POLY_VERTEX, LINE, POLY_LINE, TRIANGLE, TETRAHEDRON = 1, 2, 3, 4, 5, 10  # VTK's types of cells.
@@ -25,23 +24,20 @@ def joined(data):
         return vtkUnstructuredGrid()
     append.Update()
     grid = with_plain_cells(append.GetOutput())
-    return with_points_once(grid) if len(blocks) > 1 else grid
+    return merge_points(grid) if len(blocks) > 1 else grid
 
 
-def with_points_once(grid):
+def merge_points(grid):
     points = vtk_to_numpy(grid.GetPoints().GetData())
     classes, first = in_order(same_rows(points))
-    result = vtkUnstructuredGrid()
-    result.SetPoints(vtkPoints())
-    result.GetPoints().SetData(to_vtk("Points", points[first]))
     offsets, corners = corners_of(grid, np.arange(grid.GetNumberOfCells()))
-    set_cells(result, vtk_to_numpy(grid.GetCellTypesArray()), offsets, classes[corners])
+    result = make_grid(points[first], vtk_to_numpy(grid.GetCellTypesArray()), offsets, classes[corners])
     combine(grid.GetPointData(), result.GetPointData(), classes)
     result.GetCellData().ShallowCopy(grid.GetCellData())
     return result
 
 
-def with_cells_once(grid):
+def merge_cells(grid):
     """Cells that are listed more than once become one, with the arrays of all."""
     offsets, corners = corners_of(grid, np.arange(grid.GetNumberOfCells()))
     rows = np.full((len(offsets) - 1, np.diff(offsets).max(initial=0)), -1)
@@ -49,9 +45,8 @@ def with_cells_once(grid):
     classes, first = in_order(same_corners(rows))
     if len(first) == len(rows):
         return grid
-    result = vtkUnstructuredGrid()
-    result.SetPoints(grid.GetPoints())
-    set_cells(result, vtk_to_numpy(grid.GetCellTypesArray())[first], *corners_of(grid, first))
+    result = make_grid(vtk_to_numpy(grid.GetPoints().GetData()), vtk_to_numpy(grid.GetCellTypesArray())[first],
+                       *corners_of(grid, first))
     result.GetPointData().ShallowCopy(grid.GetPointData())
     combine(grid.GetCellData(), result.GetCellData(), classes)
     return result

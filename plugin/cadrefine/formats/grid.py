@@ -56,15 +56,11 @@ def check(mesh):
 
 def to_grid(mesh):
     """A vtkUnstructuredGrid. Names of groups become field data: two integers, the tag and the dimension."""
-    grid = vtkUnstructuredGrid()
-    points = vtkPoints()
-    points.SetData(to_vtk("Points", in_space(mesh.points)))
-    grid.SetPoints(points)
     sizes = [np.full(len(corners), corners.shape[1]) for _, corners in mesh.blocks]
     offsets = np.concatenate([[0], np.cumsum(np.concatenate(sizes or [[]]))])
     corners = np.concatenate([corners.ravel() for _, corners in mesh.blocks] or [[]])
     types = np.concatenate([np.full(len(corners), number) for number, corners in mesh.blocks] or [[]])
-    set_cells(grid, types, offsets, corners)
+    grid = make_grid(in_space(mesh.points), types, offsets, corners)
     for data, arrays in ((grid.GetPointData(), mesh.point_data), (grid.GetCellData(), mesh.cell_data),
                          (grid.GetFieldData(), {name: np.int32([pair]) for name, pair in mesh.groups.items()})):
         for name, values in arrays.items():
@@ -82,11 +78,17 @@ def texts(name, values):
     return array
 
 
-def set_cells(grid, types, offsets, corners):
+def make_grid(coordinates, types, offsets, corners):
+    """A vtkUnstructuredGrid: of cell i, VTK's type and points corners[offsets[i]:offsets[i + 1]]."""
+    grid = vtkUnstructuredGrid()
+    points = vtkPoints()
+    points.SetData(to_vtk("Points", coordinates))
+    grid.SetPoints(points)
     cells = vtkCellArray()
     cells.SetData(numpy_to_vtkIdTypeArray(offsets.astype(np.int64), deep=True),
                   numpy_to_vtkIdTypeArray(corners.astype(np.int64), deep=True))
     grid.SetCells(numpy_to_vtk(types.astype(np.uint8), deep=True), cells)
+    return grid
 
 
 def corners_of(grid, cells, sizes=None):

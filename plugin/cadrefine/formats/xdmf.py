@@ -10,7 +10,7 @@ from vtkmodules.vtkCommonDataModel import vtkMultiBlockDataSet, vtkUnstructuredG
 from vtkmodules.vtkIOXdmf2 import vtkXdmfReader, vtkXdmfWriter
 
 from cadrefine.formats import BadFile
-from cadrefine.formats.blocks import joined, orient, with_cells_once
+from cadrefine.formats.blocks import joined, merge_cells, orient
 from cadrefine.formats.grid import PHYSICAL, SERIAL, TYPES, Mesh, arrays_of, tag_array, to_grid, to_vtk
 from cadrefine.formats.groups import grouped
 
@@ -49,7 +49,7 @@ def read(path):
     reader.Update()
     if reader.GetOutputDataObject(0) is None:
         raise BadFile("it holds no grid that can be read")
-    grid = with_cells_once(joined(reader.GetOutputDataObject(0)))
+    grid = merge_cells(joined(reader.GetOutputDataObject(0)))
     if grid.GetCellData().HasArray(PHYSICAL):
         grid.GetCellData().RemoveArray(FACET_TAGS)
     for name, pair in names_of(tree).items():
