@@ -47,15 +47,19 @@ def tags_of(name, dimension, *places):
 
 mesh = create_unit_cube(MPI.COMM_WORLD, 2, 2, 2)
 mesh.topology.create_connectivity(2, 3)
-space = (fem.functionspace if hasattr(fem, "functionspace") else fem.FunctionSpace)(mesh, ("Lagrange", 1))
-height = fem.Function(space)
+space = fem.functionspace if hasattr(fem, "functionspace") else fem.FunctionSpace
+height = fem.Function(space(mesh, ("Lagrange", 1)))
 height.name = "height"
 height.interpolate(lambda x: x[2])
+volume = fem.Function(space(mesh, ("DG", 0)))
+volume.name = "volume"
+volume.x.array[:] = 1 / 48
 geometry = [] if dolfinx.__version__ < "0.7" else [mesh.geometry]
 with XDMFFile(MPI.COMM_WORLD, sys.argv[1] + "/dolfinx.xdmf", "w") as file:
     file.write_mesh(mesh)
     file.write_function(height, 0.0)
     file.write_function(height, 1.0)
+    file.write_function(volume, 0.0)
     file.write_meshtags(tags_of("layers", 3, (lambda x: x[2] < 0.6, 3), (lambda x: x[2] > 0.4, 4)), *geometry)
     file.write_meshtags(tags_of("below", 2, (lambda x: np.isclose(x[2], 0), 1)), *geometry)
     file.write_meshtags(tags_of("above", 2, (lambda x: np.isclose(x[2], 1), 2)), *geometry)
@@ -115,7 +119,8 @@ def write_dolfin(folder):
 
 
 def write_dolfinx(folder):
-    """A cube of tetrahedra with tags of cells, tags of facets twice (1 below; 2 above), and a function at two times."""
+    """A cube of tetrahedra with tags of cells, tags of facets twice (1 below; 2 above), a function at two times, and
+    one that is constant in each cell."""
     subprocess.run([sys.executable, "-c", DOLFINX, folder], check=True, capture_output=True)
 
 

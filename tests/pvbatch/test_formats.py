@@ -191,6 +191,7 @@ class Formats(unittest.TestCase):
         np.testing.assert_array_equal(others[:16], np.where(heights[0] == 1, 2, 0))
         np.testing.assert_array_equal(tags[16:], np.where(heights[1] < 0.5, 3, 4))
         np.testing.assert_allclose(mesh.point_data["height"].ravel(), mesh.points[:, 2], atol=1e-12)
+        np.testing.assert_allclose(mesh.cell_data["volume"].ravel()[16:], 1 / 48)
 
     def test_triangles_of_dolfin(self):
         """DOLFIN orders the corners by number, so half of them go round the wrong way."""

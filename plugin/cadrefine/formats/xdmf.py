@@ -63,12 +63,11 @@ def resolve_includes(tree):
     integers. The first tags of each type of cells are those of groups."""
     tagged = set()
     for grid in [grid for grid in tree.iter("Grid") if grid.find(INCLUDE) is not None]:
-        included = [element for include in grid.findall(INCLUDE) for element in elements_at(tree, include)]
+        topology, attribute = grid.find("Topology"), grid.find("Attribute[@Center='Cell']")
         for include in grid.findall(INCLUDE):
             grid.remove(include)
-        grid[:0] = copy.deepcopy(included)
-        topology, attribute = grid.find("Topology"), grid.find("Attribute[@Center='Cell']")
-        if topology in included or attribute is None:
+            grid.extend(copy.deepcopy(elements_at(tree, include)))
+        if topology is None or attribute is None:
             continue  # It is a function on the mesh.
         attribute.find("DataItem").set("NumberType", "Int")
         if topology.get("TopologyType") not in tagged:
