@@ -31,7 +31,7 @@ from cadrefine import ready_view
 ready_view.show()
 )";
 
-/// As a literal of Python.
+/// As a literal of Python: the folder `python` beside that of the plugin.
 QString driverFolder()
 {
   Dl_info info{};
@@ -39,7 +39,7 @@ QString driverFolder()
   std::error_code error;
   const auto plugin = std::filesystem::canonical(info.dli_fname ? info.dli_fname : "", error);
   const auto folder =
-    std::filesystem::weakly_canonical(plugin.parent_path() / CADREFINE_DRIVER, error);
+    std::filesystem::canonical(plugin.parent_path().parent_path() / "python", error);
   QString text = QString::fromStdString(folder.string());
   return '"' + text.replace('\\', "\\\\").replace('"', "\\\"") + '"';
 }
