@@ -216,12 +216,17 @@ DistributedMesh makeDistributedMesh(RankExchange& exchange, vtkPointSet* input, 
   return result;
 }
 
-MeshBounds findBounds(RankExchange& exchange, const SimplexMesh& mesh)
+MeshBounds combineBounds(RankExchange& exchange, const MeshBounds& bounds)
 {
-  const auto [low, high] = boundsOf(mesh.points);
+  const auto& [low, high] = bounds;
   const auto least = exchange.min(std::vector<double>(low.begin(), low.end()));
   const auto largest = exchange.max(std::vector<double>(high.begin(), high.end()));
   return { { least[0], least[1], least[2] }, { largest[0], largest[1], largest[2] } };
+}
+
+MeshBounds findBounds(RankExchange& exchange, const SimplexMesh& mesh)
+{
+  return combineBounds(exchange, boundsOf(mesh.points));
 }
 
 MeshCounts countMesh(RankExchange& exchange, const DistributedMesh& mesh)

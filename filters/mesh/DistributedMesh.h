@@ -65,7 +65,9 @@ struct MeshBounds
   Point3 high;
 };
 
-/// Collective; two reductions of three numbers.
+/// That of all ranks' boxes. Collective; two reductions of three numbers.
+MeshBounds combineBounds(RankExchange& exchange, const MeshBounds& bounds);
+/// Collective; see combineBounds.
 MeshBounds findBounds(RankExchange& exchange, const SimplexMesh& mesh);
 
 /// Counts of the whole mesh, no vertex or cell twice.
