@@ -374,10 +374,7 @@ int vtkCADReader::RequestData(
   catch (...)
   {
     output->Initialize();
-    if (!this->Controller || this->Controller->GetLocalProcessId() == 0)
-    {
-      vtkErrorMacro(<< cadrefine::caughtReason());
-    }
+    cadrefine::reportOnce(this, this->Controller);
     return 0;
   }
 }

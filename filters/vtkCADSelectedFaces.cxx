@@ -102,10 +102,7 @@ int FindDimension(
     bounds.low[k] = box[2 * k];
     bounds.high[k] = box[2 * k + 1];
   }
-  const auto low = exchange.min(std::vector<double>(bounds.low.begin(), bounds.low.end()));
-  const auto high = exchange.max(std::vector<double>(bounds.high.begin(), bounds.high.end()));
-  std::copy(low.begin(), low.end(), bounds.low.begin());
-  std::copy(high.begin(), high.end(), bounds.high.begin());
+  bounds = cadrefine::combineBounds(exchange, bounds);
   return exchange.max(dimension) == 2 && cadrefine::isPlanar(bounds, model) ? 1 : 2;
 }
 
@@ -201,10 +198,7 @@ int vtkCADSelectedFaces::RequestData(
   catch (...)
   {
     output->Initialize();
-    if (!this->Controller || this->Controller->GetLocalProcessId() == 0)
-    {
-      vtkErrorMacro(<< cadrefine::caughtReason());
-    }
+    cadrefine::reportOnce(this, this->Controller);
     return 0;
   }
 }

@@ -75,10 +75,7 @@ int vtkMeshReader::RequestData(
   catch (...)
   {
     output->Initialize();
-    if (!this->Controller || this->Controller->GetLocalProcessId() == 0)
-    {
-      vtkErrorMacro(<< cadrefine::caughtReason());
-    }
+    cadrefine::reportOnce(this, this->Controller);
     return 0;
   }
 }

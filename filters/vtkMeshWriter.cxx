@@ -84,10 +84,7 @@ void vtkMeshWriter::WriteData()
   catch (...)
   {
     this->SetErrorCode(vtkErrorCode::CannotOpenFileError);
-    if (!this->Controller || this->Controller->GetLocalProcessId() == 0)
-    {
-      vtkErrorMacro(<< cadrefine::caughtReason());
-    }
+    cadrefine::reportOnce(this, this->Controller);
   }
 }
 

@@ -235,10 +235,7 @@ int vtkSimplexMeshAlgorithm::RequestData(
     {
       vtkDataObject::GetData(outputs, port)->Initialize();
     }
-    if (!this->Controller || this->Controller->GetLocalProcessId() == 0)
-    {
-      vtkErrorMacro(<< cadrefine::caughtReason());
-    }
+    cadrefine::reportOnce(this, this->Controller);
     return 0;
   }
 }

@@ -1,5 +1,8 @@
 #include "comm/CollectiveErrors.h"
 
+#include <vtkMultiProcessController.h>
+#include <vtkObject.h>
+
 #include <cxxabi.h>
 
 #include <cstdlib>
@@ -43,6 +46,14 @@ std::string caughtReason()
   catch (...)
   {
     return "unknown failure (" + caughtType() + ")";
+  }
+}
+
+void reportOnce(vtkObject* object, vtkMultiProcessController* controller)
+{
+  if (!controller || controller->GetLocalProcessId() == 0)
+  {
+    vtkErrorWithObjectMacro(object, << caughtReason());
   }
 }
 

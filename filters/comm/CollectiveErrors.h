@@ -5,6 +5,9 @@
 
 #include <string>
 
+class vtkMultiProcessController;
+class vtkObject;
+
 namespace cadrefine
 {
 
@@ -51,5 +54,9 @@ void runCollectively(RankExchange& exchange, const Work& work)
     throw Error(reason);
   }
 }
+
+/// Of the exception that is being handled, on all ranks: rank 0 reports its reason as an error of
+/// the object.
+void reportOnce(vtkObject* object, vtkMultiProcessController* controller);
 
 } // namespace cadrefine
