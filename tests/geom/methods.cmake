@@ -12,6 +12,9 @@ cadrefine_geom_test(method_tests
     motion/PatchOptimiserTest.cxx
     motion/ShapeEnergyTest.cxx
     motion/ThreadsTest.cxx
+    operations/ImprovementTest.cxx
+    operations/OperationsTest.cxx
+    operations/SurfaceRuleTest.cxx
     quadratic/CurvedCellsTest.cxx
     quadratic/MidNodeGuardTest.cxx
     refinement/BisectionTest.cxx

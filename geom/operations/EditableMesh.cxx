@@ -1,0 +1,261 @@
+#include <cadrefine/operations/EditableMesh.h>
+
+#include <cadrefine/mesh/Orientation.h>
+#include <cadrefine/mesh/Quality.h>
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
+
+namespace cadrefine
+{
+namespace
+{
+
+template<std::size_t Corners>
+bool has(const std::array<Index, Corners>& corners, Index vertex)
+{
+  return std::find(corners.begin(), corners.end(), vertex) != corners.end();
+}
+
+/// Of segments that are not listed.
+constexpr Index ownLabel = -1;
+
+} // namespace
+
+void Cavity::clear()
+{
+  cells.clear();
+  facets.clear();
+  segments.clear();
+  newCells.clear();
+  newFacets.clear();
+  newSegments.clear();
+}
+
+template<std::size_t Corners>
+Index SimplexStore<Corners>::add(const Simplex& simplex)
+{
+  const auto number = static_cast<Index>(simplices_.size());
+  simplices_.push_back(simplex);
+  exists_.push_back(1);
+  for (const Index vertex : simplex.corners)
+  {
+    at_[vertex].push_back(number);
+  }
+  return number;
+}
+
+template<std::size_t Corners>
+void SimplexStore<Corners>::remove(Index simplex)
+{
+  if (!exists_[simplex])
+  {
+    return;
+  }
+  exists_[simplex] = 0;
+  for (const Index vertex : simplices_[simplex].corners)
+  {
+    std::vector<Index>& list = at_[vertex];
+    list.erase(std::find(list.begin(), list.end(), simplex));
+  }
+}
+
+template<std::size_t Corners>
+void SimplexStore<Corners>::restore(Index simplex)
+{
+  exists_[simplex] = 1;
+  for (const Index vertex : simplices_[simplex].corners)
+  {
+    at_[vertex].push_back(simplex);
+  }
+}
+
+template<std::size_t Corners>
+void SimplexStore<Corners>::truncate(std::size_t count)
+{
+  while (size() > count)
+  {
+    remove(static_cast<Index>(size()) - 1);
+    simplices_.pop_back();
+    exists_.pop_back();
+  }
+}
+
+template<std::size_t Corners>
+std::vector<Index> SimplexStore<Corners>::at(Index a, Index b) const
+{
+  std::vector<Index> result;
+  std::copy_if(at_[a].begin(), at_[a].end(), std::back_inserter(result),
+    [&](Index simplex) { return has(simplices_[simplex].corners, b); });
+  return result;
+}
+
+template class SimplexStore<2>;
+template class SimplexStore<3>;
+template class SimplexStore<4>;
+
+Index EditableMesh::addVertex(const Vertex& vertex)
+{
+  vertices_.push_back(vertex);
+  cells_.addVertex();
+  facets_.addVertex();
+  segments_.addVertex();
+  return static_cast<Index>(vertices_.size()) - 1;
+}
+
+void EditableMesh::closeFacets()
+{
+  for (std::size_t f = 0; f < facets_.size(); ++f)
+  {
+    const auto& corners = facets_[static_cast<Index>(f)].corners;
+    for (int k = 0; k < 3; ++k)
+    {
+      const Index a = corners[k];
+      const Index b = corners[(k + 1) % 3];
+      const std::vector<Index> around = facets_.at(a, b);
+      const bool areAlike =
+        around.size() == 2 && facets_[around[0]].label == facets_[around[1]].label;
+      if (!areAlike && segmentOf(a, b) < 0)
+      {
+        addSegment({ { a, b }, ownLabel });
+      }
+    }
+  }
+}
+
+void EditableMesh::setVertex(Index v, const Vertex& vertex)
+{
+  if (isTrial_)
+  {
+    changes_.push_back({ {}, {}, v, vertices_[v] });
+  }
+  vertices_[v] = vertex;
+}
+
+void EditableMesh::moveVertex(Index v, const Point3& point)
+{
+  Vertex vertex = vertices_[v];
+  vertex.point = point;
+  vertex.wanted = point;
+  setVertex(v, vertex);
+}
+
+EditableMesh::Freedom EditableMesh::freedomOf(Index v) const
+{
+  const std::vector<Index>& segments = segments_.at(v);
+  const std::vector<Index>& cells = cells_.at(v);
+  const bool isOfOne = std::all_of(cells.begin(), cells.end(),
+    [&](Index cell) { return cells_[cell].label == cells_[cells.front()].label; });
+  if (vertices_[v].stays || vertices_[v].isOnRim || !isOfOne)
+  {
+    return Freedom::None;
+  }
+  if (segments.empty())
+  {
+    return facets_.at(v).empty() ? Freedom::Space : Freedom::Facet;
+  }
+  const bool continues = segments.size() == 2 && segments_[segments[0]].label != ownLabel &&
+                         segments_[segments[0]].label == segments_[segments[1]].label;
+  return continues ? Freedom::Segment : Freedom::None;
+}
+
+bool EditableMesh::hasFacet(const std::array<Index, 3>& corners) const
+{
+  const std::vector<Index>& list = facets_.at(corners[0]);
+  return std::any_of(list.begin(), list.end(),
+    [&](Index facet)
+    { return has(facets_[facet].corners, corners[1]) && has(facets_[facet].corners, corners[2]); });
+}
+
+Index EditableMesh::segmentOf(Index a, Index b) const
+{
+  const std::vector<Index>& list = segments_.at(a);
+  const auto found = std::find_if(
+    list.begin(), list.end(), [&](Index segment) { return has(segments_[segment].corners, b); });
+  return found == list.end() ? -1 : *found;
+}
+
+double EditableMesh::quality(const std::array<Index, 4>& cell) const
+{
+  return meanRatio(vertices_[cell[0]].wanted, vertices_[cell[1]].wanted, vertices_[cell[2]].wanted,
+    vertices_[cell[3]].wanted);
+}
+
+bool EditableMesh::isValid(const std::array<Index, 4>& cell) const
+{
+  return orientation(vertices_[cell[0]].point, vertices_[cell[1]].point, vertices_[cell[2]].point,
+           vertices_[cell[3]].point) > 0;
+}
+
+double EditableMesh::worst(const std::vector<Index>& cells) const
+{
+  double result = std::numeric_limits<double>::infinity();
+  for (const Index cell : cells)
+  {
+    result = std::min(result, quality(cells_[cell].corners));
+  }
+  return result;
+}
+
+void EditableMesh::replace(const Cavity& cavity)
+{
+  if (isTrial_)
+  {
+    changes_.push_back({ cavity, { cells_.size(), facets_.size(), segments_.size() }, -1, {} });
+  }
+  const auto exchange = [](auto& store, const auto& removed, const auto& added)
+  {
+    for (const Index simplex : removed)
+    {
+      store.remove(simplex);
+    }
+    for (const auto& simplex : added)
+    {
+      store.add(simplex);
+    }
+  };
+  exchange(cells_, cavity.cells, cavity.newCells);
+  exchange(facets_, cavity.facets, cavity.newFacets);
+  exchange(segments_, cavity.segments, cavity.newSegments);
+}
+
+void EditableMesh::beginTrial()
+{
+  isTrial_ = true;
+  verticesBefore_ = vertices_.size();
+}
+
+void EditableMesh::endTrial(bool keep)
+{
+  const auto undo = [](auto& store, const std::vector<Index>& removed, std::size_t count)
+  {
+    store.truncate(count);
+    for (const Index simplex : removed)
+    {
+      store.restore(simplex);
+    }
+  };
+  for (; !keep && !changes_.empty(); changes_.pop_back())
+  {
+    const Change& change = changes_.back();
+    if (change.vertex >= 0)
+    {
+      vertices_[change.vertex] = change.before;
+      continue;
+    }
+    undo(cells_, change.cavity.cells, change.counts[0]);
+    undo(facets_, change.cavity.facets, change.counts[1]);
+    undo(segments_, change.cavity.segments, change.counts[2]);
+  }
+  for (; !keep && vertices_.size() > verticesBefore_; vertices_.pop_back())
+  {
+    cells_.removeLastVertex();
+    facets_.removeLastVertex();
+    segments_.removeLastVertex();
+  }
+  changes_.clear();
+  isTrial_ = false;
+}
+
+} // namespace cadrefine

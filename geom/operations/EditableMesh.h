@@ -1,0 +1,147 @@
+// A mesh of tetrahedra whose cells may be exchanged for others.
+#pragma once
+
+#include <cadrefine/base/EntityId.h>
+#include <cadrefine/mesh/SimplexMesh.h>
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace cadrefine
+{
+
+/// A cell, facet or segment with what it inherits from those that it replaces.
+template<std::size_t Corners>
+struct LabelledSimplex
+{
+  std::array<Index, Corners> corners;
+  Index label = 0;   ///< What lies on either side of a change of labels stays apart.
+  Index parent = -1; ///< Of the mesh that was there at first; -1: none.
+};
+
+/// What an operation takes out of a mesh, and what it puts there.
+struct Cavity
+{
+  std::vector<Index> cells;
+  std::vector<Index> facets;
+  std::vector<Index> segments;
+  std::vector<LabelledSimplex<4>> newCells;
+  std::vector<LabelledSimplex<3>> newFacets;
+  std::vector<LabelledSimplex<2>> newSegments;
+
+  void clear();
+};
+
+/// Simplices that come and go, each known to its corners. Numbers are not used again.
+template<std::size_t Corners>
+class SimplexStore
+{
+public:
+  using Simplex = LabelledSimplex<Corners>;
+
+  Index add(const Simplex& simplex);
+  void remove(Index simplex);
+  /// One that was removed.
+  void restore(Index simplex);
+  /// Takes the last ones away, so that so many are left.
+  void truncate(std::size_t count);
+  void addVertex() { at_.emplace_back(); }
+  void removeLastVertex() { at_.pop_back(); }
+
+  std::size_t size() const { return simplices_.size(); }
+  bool exists(Index simplex) const { return exists_[simplex] != 0; }
+  const Simplex& operator[](Index simplex) const { return simplices_[simplex]; }
+  /// Those at a vertex, in the order in which they came.
+  const std::vector<Index>& at(Index vertex) const { return at_[vertex]; }
+  /// Those at both vertices, in this order.
+  std::vector<Index> at(Index a, Index b) const;
+
+private:
+  std::vector<Simplex> simplices_;
+  std::vector<unsigned char> exists_;
+  std::vector<std::vector<Index>> at_;
+};
+
+/// Tetrahedra, the facets that are to be kept up (of the boundary, and others that are listed) and
+/// the segments along which facets must not be joined: creases, the rims of facets, where labels
+/// change, and listed ones. Vertices have two places: where they are, and where they are wanted
+/// (on the CAD). There cells are valid, here their shape is judged.
+class EditableMesh
+{
+public:
+  struct Vertex
+  {
+    Point3 point;
+    Point3 wanted;
+    EntityId entity;      ///< Of the CAD; none: not on it.
+    bool stays = false;   ///< It is not moved or taken out.
+    bool isOnRim = false; ///< It has cells beyond this mesh, and stays.
+  };
+
+  /// How freely a vertex may be moved or taken out: in space, on facets of one label, along
+  /// segments of one label, or not at all.
+  enum class Freedom
+  {
+    None,
+    Segment,
+    Facet,
+    Space
+  };
+
+  Index addVertex(const Vertex& vertex);
+  void addCell(const LabelledSimplex<4>& cell) { cells_.add(cell); }
+  void addFacet(const LabelledSimplex<3>& facet) { facets_.add(facet); }
+  void addSegment(const LabelledSimplex<2>& segment) { segments_.add(segment); }
+  /// Once all are there: adds a segment wherever the facets at an edge are not two of one label.
+  void closeFacets();
+
+  std::size_t vertexCount() const { return vertices_.size(); }
+  const Vertex& vertex(Index v) const { return vertices_[v]; }
+  void setVertex(Index v, const Vertex& vertex);
+  /// Of a vertex that is not on the CAD.
+  void moveVertex(Index v, const Point3& point);
+  const SimplexStore<4>& cells() const { return cells_; }
+  const SimplexStore<3>& facets() const { return facets_; }
+  const SimplexStore<2>& segments() const { return segments_; }
+
+  Freedom freedomOf(Index v) const;
+  bool hasFacet(const std::array<Index, 3>& corners) const;
+  /// The segment between two vertices; -1: none.
+  Index segmentOf(Index a, Index b) const;
+
+  /// Mean ratio with the vertices where they are wanted, negative where it is inverted.
+  double quality(const std::array<Index, 4>& cell) const;
+  /// With the vertices where they are; exact.
+  bool isValid(const std::array<Index, 4>& cell) const;
+  /// The smallest quality; infinite of none.
+  double worst(const std::vector<Index>& cells) const;
+
+  /// The numbers of the new cells are the last ones.
+  void replace(const Cavity& cavity);
+
+  /// From here on all changes are kept in mind, to be undone or not.
+  void beginTrial();
+  /// With `keep` false the mesh is as it was where the trial began.
+  void endTrial(bool keep);
+
+private:
+  /// A change of a trial: what was replaced, or where a vertex was.
+  struct Change
+  {
+    Cavity cavity;
+    std::array<std::size_t, 3> counts{}; ///< Of cells, facets and segments before.
+    Index vertex = -1;
+    Vertex before;
+  };
+
+  std::vector<Vertex> vertices_;
+  SimplexStore<4> cells_;
+  SimplexStore<3> facets_;
+  SimplexStore<2> segments_;
+  bool isTrial_ = false;
+  std::size_t verticesBefore_ = 0;
+  std::vector<Change> changes_;
+};
+
+} // namespace cadrefine

@@ -1,0 +1,548 @@
+#include <cadrefine/operations/Improvement.h>
+
+#include <cadrefine/mesh/Quality.h>
+#include <cadrefine/motion/ShapeEnergy.h>
+#include <cadrefine/operations/Operations.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <unordered_map>
+#include <utility>
+
+namespace cadrefine
+{
+namespace
+{
+
+/// What the worst cell must gain, of what it lacks.
+constexpr double leastGain = 0.01;
+/// As PatchOptimiser's.
+constexpr double smallMeasure = 0.002;
+constexpr int newtonSteps = 4;
+constexpr int longestDetour = 20; ///< Operations.
+constexpr int mostPasses = 10;
+constexpr double shortestStep = 1.0 / 8;
+
+using Cells = std::vector<std::array<Index, 4>>;
+
+/// Of the cells at a vertex, as a function of where that is.
+class Star
+{
+public:
+  Star(const EditableMesh& mesh, Index vertex, const Cells& cells)
+    : mesh_(mesh), vertex_(vertex), cells_(cells)
+  {
+  }
+
+  /// The smallest quality with the vertex there; -2 where a cell is invalid.
+  double worstAt(EditableMesh& mesh, const Point3& point) const
+  {
+    mesh.moveVertex(vertex_, point);
+    double worst = std::numeric_limits<double>::infinity();
+    for (const auto& cell : cells_)
+    {
+      if (!mesh.isValid(cell))
+      {
+        return -2;
+      }
+      worst = std::min(worst, mesh.quality(cell));
+    }
+    return worst;
+  }
+
+  ShapeEnergy energy() const
+  {
+    double smallest = 1;
+    std::vector<double> sizes;
+    for (const auto& cell : cells_)
+    {
+      sizes.push_back(equilateralMeasure(3, squaredLengths(cell)));
+      const double measure = sixfoldVolume(at(cell[0]), at(cell[1]), at(cell[2]), at(cell[3]));
+      smallest = sizes.back() > 0 ? std::min(smallest, measure / sizes.back()) : smallest;
+    }
+    const double delta =
+      smallest < smallMeasure ? std::sqrt(smallMeasure * (smallMeasure - smallest)) : 0;
+    ShapeEnergy energy(3);
+    for (std::size_t c = 0; c < cells_.size(); ++c)
+    {
+      const auto& cell = cells_[c];
+      const auto& face =
+        tetrahedronFaces[std::find(cell.begin(), cell.end(), vertex_) - cell.begin()];
+      energy.addTetrahedron(
+        at(cell[face[0]]), at(cell[face[2]]), at(cell[face[1]]), delta * sizes[c]);
+    }
+    return energy;
+  }
+
+private:
+  const Point3& at(Index v) const { return mesh_.vertex(v).wanted; }
+
+  double squaredLengths(const std::array<Index, 4>& cell) const
+  {
+    double sum = 0;
+    for (const auto& [i, j] : tetrahedronEdges)
+    {
+      sum += squaredNorm(at(cell[i]) - at(cell[j]));
+    }
+    return sum;
+  }
+
+  const EditableMesh& mesh_;
+  Index vertex_;
+  const Cells& cells_;
+};
+
+/// Moves a vertex inside the mesh to where the worst of these cells, all that are to be at it, is
+/// better. Returns that one's quality.
+double relocate(EditableMesh& mesh, Index vertex, const Cells& cells)
+{
+  const Star star(mesh, vertex, cells);
+  Point3 best = mesh.vertex(vertex).point;
+  double worst = star.worstAt(mesh, best);
+  for (int k = 0; k < newtonSteps; ++k)
+  {
+    const ShapeEnergy energy = star.energy();
+    if (!std::isfinite(energy.at(best)))
+    {
+      break;
+    }
+    const Vector3 step = energy.step(best, Directions::everywhere());
+    const Point3 from = best;
+    for (double length = 1; length >= shortestStep && best == from && step != Vector3{};
+         length *= 0.5)
+    {
+      const Point3 next = from + length * step;
+      const double there = star.worstAt(mesh, next);
+      if (there > worst)
+      {
+        worst = there;
+        best = next;
+      }
+    }
+    mesh.moveVertex(vertex, best);
+    if (best == from)
+    {
+      break;
+    }
+  }
+  return worst;
+}
+
+class Improver
+{
+public:
+  Improver(EditableMesh& mesh, const SurfaceRule* rule, const ImprovementLimits& limits)
+    : mesh_(mesh), rule_(rule), limits_(limits)
+  {
+  }
+
+  /// One round over all cells below the floor. Returns whether something was done.
+  bool pass()
+  {
+    std::vector<std::pair<double, Index>> bad;
+    for (std::size_t c = 0; c < mesh_.cells().size(); ++c)
+    {
+      const auto cell = static_cast<Index>(c);
+      if (mesh_.cells().exists(cell))
+      {
+        const double quality = mesh_.quality(mesh_.cells()[cell].corners);
+        if (quality < limits_.floor)
+        {
+          bad.emplace_back(quality, cell);
+        }
+      }
+    }
+    std::sort(bad.begin(), bad.end());
+    bool changed = false;
+    for (const auto& [quality, cell] : bad)
+    {
+      if (isWorthATry(cell))
+      {
+        ++result_.counts.cells;
+        const bool improves = improve(cell) || (quality < limits_.detour && improveByDetour(cell));
+        changed = changed || improves;
+        if (!improves)
+        {
+          tried_[cell] = now_;
+        }
+      }
+    }
+    return changed;
+  }
+
+  ImprovementResult result() { return std::move(result_); }
+
+private:
+  using Count = std::int64_t OperationCounts::*;
+
+  /// The best operation so far.
+  struct Best
+  {
+    Cavity cavity;
+    double worst = -std::numeric_limits<double>::infinity();
+    Count count = nullptr;
+    Index moved = -1;
+    Point3 place{};
+    AddedVertex added{}; ///< Where an edge is halved.
+    EditableMesh::Vertex middle;
+  };
+
+  /// Whether a cell is there, bad, and not as it was when nothing helped.
+  bool isWorthATry(Index cell) const
+  {
+    if (!mesh_.cells().exists(cell))
+    {
+      return false;
+    }
+    const auto& corners = mesh_.cells()[cell].corners;
+    const auto last = tried_.find(cell);
+    return mesh_.quality(corners) < limits_.floor &&
+           (last == tried_.end() ||
+             std::any_of(corners.begin(), corners.end(),
+               [&](Index vertex) { return changedAt(vertex) > last->second; }));
+  }
+
+  /// When the cells at a vertex last changed.
+  std::int64_t changedAt(Index vertex) const
+  {
+    const auto v = static_cast<std::size_t>(vertex);
+    return v < changes_.size() ? changes_[v] : 0;
+  }
+
+  /// Of these cells.
+  template<class Cells>
+  void noteChange(const Cells& cells)
+  {
+    changes_.resize(std::max(changes_.size(), mesh_.vertexCount()), 0);
+    for (const auto& cell : cells)
+    {
+      for (const Index vertex : cell.corners)
+      {
+        changes_[vertex] = now_;
+      }
+    }
+  }
+
+  std::vector<LabelledSimplex<4>> cellsOf(const std::vector<Index>& numbers) const
+  {
+    std::vector<LabelledSimplex<4>> cells;
+    for (const Index number : numbers)
+    {
+      cells.push_back(mesh_.cells()[number]);
+    }
+    return cells;
+  }
+
+  /// One operation, if one makes the worst cell better at once: the best of those that cost least.
+  bool improve(Index cell)
+  {
+    const auto corners = mesh_.cells()[cell].corners;
+    best_ = {};
+    for (const auto& [i, j] : tetrahedronEdges)
+    {
+      consider(
+        proposeEdgeRemoval(mesh_, corners[i], corners[j], cavity_), &OperationCounts::edgeRemovals);
+    }
+    for (int k = 0; k < 4; ++k)
+    {
+      consider(proposeFaceRemoval(mesh_, cell, k, cavity_), &OperationCounts::faceRemovals);
+      considerMove(corners[k]);
+    }
+    if (!best_.count)
+    {
+      collapse(corners);
+    }
+    if (!best_.count)
+    {
+      split(corners);
+    }
+    return carryOut();
+  }
+
+  /// Several operations that make the worst cell better together, the first of which may make it
+  /// worse: it halves or collapses an edge of the cell. The others are of what that leaves.
+  bool improveByDetour(Index cell)
+  {
+    const auto corners = mesh_.cells()[cell].corners;
+    const double wanted = withGain(mesh_.quality(corners));
+    for (const bool splits : { true, false })
+    {
+      const ImprovementResult before = result_;
+      const Index middle = middle_;
+      const std::vector<std::int64_t> changes = changes_;
+      const std::size_t first = mesh_.cells().size();
+      mesh_.beginTrial();
+      mayLose_ = true;
+      best_ = {};
+      splits ? split(corners) : collapse(corners);
+      mayLose_ = false;
+      const bool succeeds = carryOut() && improveSince(first, wanted);
+      mesh_.endTrial(succeeds);
+      if (succeeds)
+      {
+        return true;
+      }
+      result_ = before;
+      middle_ = middle;
+      changes_ = changes;
+    }
+    return false;
+  }
+
+  /// Operates on the worst of the cells from this one on until all are so good.
+  bool improveSince(std::size_t first, double wanted)
+  {
+    for (int k = 0; k < longestDetour; ++k)
+    {
+      double worst = wanted;
+      Index cell = -1;
+      for (std::size_t c = first; c < mesh_.cells().size(); ++c)
+      {
+        const auto candidate = static_cast<Index>(c);
+        if (mesh_.cells().exists(candidate))
+        {
+          const double quality = mesh_.quality(mesh_.cells()[candidate].corners);
+          cell = quality < worst ? candidate : cell;
+          worst = std::min(quality, worst);
+        }
+      }
+      if (cell < 0 || !improve(cell))
+      {
+        return cell < 0;
+      }
+    }
+    return false;
+  }
+
+  static double withGain(double quality) { return quality + leastGain * (1 - quality); }
+
+  bool isBetter(double before, double after) const
+  {
+    return after > best_.worst && (mayLose_ || after > withGain(before));
+  }
+
+  /// Whether the operation in the cavity is the best so far.
+  bool consider(bool isPossible, Count count)
+  {
+    if (!isPossible)
+    {
+      return false;
+    }
+    double after = std::numeric_limits<double>::infinity();
+    const double before = mesh_.worst(cavity_.cells);
+    for (const auto& cell : cavity_.newCells)
+    {
+      after = std::min(after, mesh_.quality(cell.corners));
+      if (!isBetter(before, after))
+      {
+        return false;
+      }
+    }
+    const bool isValid = std::all_of(cavity_.newCells.begin(), cavity_.newCells.end(),
+      [&](const auto& cell) { return mesh_.isValid(cell.corners); });
+    if (!isValid || !keepsSurface())
+    {
+      return false;
+    }
+    best_.cavity = cavity_;
+    best_.worst = after;
+    best_.count = count;
+    best_.moved = -1;
+    return true;
+  }
+
+  bool keepsSurface() const
+  {
+    return (cavity_.facets.empty() && cavity_.newFacets.empty()) ||
+           (rule_ && rule_->accepts(mesh_, cavity_));
+  }
+
+  void considerMove(Index vertex)
+  {
+    if (mesh_.freedomOf(vertex) != EditableMesh::Freedom::Space)
+    {
+      return;
+    }
+    const Point3 start = mesh_.vertex(vertex).point;
+    const double before = mesh_.worst(mesh_.cells().at(vertex));
+    Cells cells;
+    for (const Index cell : mesh_.cells().at(vertex))
+    {
+      cells.push_back(mesh_.cells()[cell].corners);
+    }
+    const double after = relocate(mesh_, vertex, cells);
+    if (isBetter(before, after))
+    {
+      best_.worst = after;
+      best_.count = &OperationCounts::moves;
+      best_.moved = vertex;
+      best_.place = mesh_.vertex(vertex).point;
+    }
+    mesh_.moveVertex(vertex, start);
+  }
+
+  bool carryOut()
+  {
+    if (!best_.count)
+    {
+      return false;
+    }
+    ++(result_.counts.*best_.count);
+    ++now_;
+    if (best_.count == &OperationCounts::splits)
+    {
+      mesh_.setVertex(middle_, best_.middle);
+      result_.added.push_back(best_.added);
+      middle_ = -1;
+    }
+    if (best_.moved >= 0)
+    {
+      mesh_.moveVertex(best_.moved, best_.place);
+      noteChange(cellsOf(mesh_.cells().at(best_.moved)));
+    }
+    else
+    {
+      replace(best_.cavity);
+    }
+    return true;
+  }
+
+  /// Gives the new cells the parents that they lie in.
+  void replace(Cavity& cavity)
+  {
+    for (auto& cell : cavity.newCells)
+    {
+      if (cell.parent < 0)
+      {
+        cell.parent = parentOf(cell.corners, cavity.cells);
+      }
+    }
+    mesh_.replace(cavity);
+    noteChange(cavity.newCells);
+  }
+
+  /// The parent of the cell that the centroid lies in, or least outside of.
+  Index parentOf(const std::array<Index, 4>& corners, const std::vector<Index>& cells) const
+  {
+    const auto at = [&](Index v) -> const Point3& { return mesh_.vertex(v).point; };
+    const Point3 centroid =
+      0.25 * (at(corners[0]) + at(corners[1]) + at(corners[2]) + at(corners[3]));
+    Index parent = -1;
+    double deepest = -std::numeric_limits<double>::infinity();
+    for (const Index cell : cells)
+    {
+      const auto& c = mesh_.cells()[cell].corners;
+      const double volume = sixfoldVolume(at(c[0]), at(c[1]), at(c[2]), at(c[3]));
+      double depth = std::numeric_limits<double>::infinity();
+      for (const auto& face : tetrahedronFaces)
+      {
+        const double part =
+          -sixfoldVolume(at(c[face[0]]), at(c[face[1]]), at(c[face[2]]), centroid);
+        depth = std::min(depth, volume > 0 ? part / volume : part);
+      }
+      if (depth > deepest)
+      {
+        deepest = depth;
+        parent = mesh_.cells()[cell].parent;
+      }
+    }
+    return parent;
+  }
+
+  void collapse(const std::array<Index, 4>& corners)
+  {
+    for (const auto& [i, j] : tetrahedronEdges)
+    {
+      consider(
+        proposeCollapse(mesh_, corners[i], corners[j], cavity_), &OperationCounts::collapses);
+      consider(
+        proposeCollapse(mesh_, corners[j], corners[i], cavity_), &OperationCounts::collapses);
+    }
+  }
+
+  /// Halves the edge for which that gains most.
+  void split(const std::array<Index, 4>& corners)
+  {
+    for (const auto& [i, j] : tetrahedronEdges)
+    {
+      considerSplit(corners[i], corners[j]);
+    }
+  }
+
+  void considerSplit(Index a, Index b)
+  {
+    const EditableMesh::Vertex one = mesh_.vertex(a);
+    const EditableMesh::Vertex other = mesh_.vertex(b);
+    if (middle_ < 0)
+    {
+      middle_ = mesh_.addVertex({});
+    }
+    if (!proposeSplit(mesh_, a, b, middle_, cavity_))
+    {
+      return;
+    }
+    EditableMesh::Vertex vertex;
+    vertex.point = 0.5 * (one.point + other.point);
+    vertex.wanted = vertex.point;
+    AddedVertex added{ { a, b }, {} };
+    if (!cavity_.facets.empty())
+    {
+      added.where = rule_ ? rule_->placeOfMiddle(mesh_, a, b) : ClosestPoint{};
+      if (!added.where.entity)
+      {
+        return;
+      }
+      vertex.wanted = added.where.point;
+      vertex.entity = added.where.entity;
+    }
+    mesh_.setVertex(middle_, vertex);
+    Cells cells;
+    for (const auto& cell : cavity_.newCells)
+    {
+      cells.push_back(cell.corners);
+    }
+    if (!std::all_of(
+          cells.begin(), cells.end(), [&](const auto& cell) { return mesh_.isValid(cell); }))
+    {
+      return; // too short to be halved
+    }
+    const bool isOfOneLabel = std::all_of(cavity_.newCells.begin(), cavity_.newCells.end(),
+      [&](const auto& cell) { return cell.label == cavity_.newCells.front().label; });
+    if (cavity_.facets.empty() && isOfOneLabel)
+    {
+      relocate(mesh_, middle_, cells);
+    }
+    if (consider(true, &OperationCounts::splits))
+    {
+      best_.middle = mesh_.vertex(middle_);
+      best_.added = added;
+    }
+  }
+
+  EditableMesh& mesh_;
+  const SurfaceRule* rule_;
+  const ImprovementLimits limits_;
+  bool mayLose_ = false; ///< The worst cell may get worse.
+  Index middle_ = -1;    ///< A vertex without cells.
+  Cavity cavity_;
+  Best best_;
+  std::int64_t now_ = 0;              ///< Operations so far.
+  std::vector<std::int64_t> changes_; ///< See changedAt.
+  std::unordered_map<Index, std::int64_t> tried_;
+  ImprovementResult result_;
+};
+
+} // namespace
+
+ImprovementResult improveCells(
+  EditableMesh& mesh, const SurfaceRule* rule, const ImprovementLimits& limits)
+{
+  Improver improver(mesh, rule, limits);
+  for (int k = 0; k < mostPasses && improver.pass(); ++k)
+  {
+  }
+  return improver.result();
+}
+
+} // namespace cadrefine

@@ -1,0 +1,64 @@
+// Better cells by local operations.
+#pragma once
+
+#include <cadrefine/operations/EditableMesh.h>
+#include <cadrefine/operations/SurfaceRule.h>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace cadrefine
+{
+
+/// A vertex that an operation made.
+struct AddedVertex
+{
+  std::array<Index, 2> parents; ///< The ends of its edge.
+  ClosestPoint where;           ///< On the CAD; no entity: it is not there.
+};
+
+/// How often each operation was done.
+struct OperationCounts
+{
+  std::int64_t edgeRemovals = 0;
+  std::int64_t faceRemovals = 0;
+  std::int64_t collapses = 0;
+  std::int64_t splits = 0;
+  std::int64_t moves = 0; ///< Of vertices inside the mesh.
+  std::int64_t cells = 0; ///< That were tried.
+
+  std::int64_t operations() const
+  {
+    return edgeRemovals + faceRemovals + collapses + splits + moves;
+  }
+};
+
+struct ImprovementResult
+{
+  std::vector<AddedVertex> added; ///< Their numbers follow those of the vertices that were there.
+  OperationCounts counts;
+};
+
+/// Mean ratios of cells where their vertices are wanted.
+struct ImprovementLimits
+{
+  double floor = 0.3;  ///< Cells below this are operated on,
+  double detour = 0.1; ///< and below this also by several operations that gain together alone.
+};
+
+/// Operates on cells below a floor, the worst first. Of the removals of their edges and faces and
+/// the moves of their vertices inside the mesh it does the one with the best worst cell; where none
+/// makes the worst cell better, of the collapses of their edges; then of the splits of these. Cells
+/// where vertices are stay valid. The boundary changes only as `rule` accepts; null: it does not.
+/// It ends when nothing is gained, or after ten passes over the cells that changed. The result
+/// depends on the order of vertices and cells alone.
+///
+/// Work: some 50 microseconds a cell that is tried, and the projections of SurfaceRule for
+/// operations on the boundary; 1 to 3 ms for a detour. (L. Freitag, C. Ollivier-Gooch, 1997; B.
+/// Klingner, J. Shewchuk, "Aggressive tetrahedral mesh improvement", 16th Int. Meshing Roundtable,
+/// 2007.)
+ImprovementResult improveCells(
+  EditableMesh& mesh, const SurfaceRule* rule, const ImprovementLimits& limits);
+
+} // namespace cadrefine

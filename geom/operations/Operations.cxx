@@ -1,0 +1,387 @@
+#include <cadrefine/operations/Operations.h>
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+namespace cadrefine
+{
+namespace
+{
+
+constexpr double impossible = -std::numeric_limits<double>::infinity();
+
+template<std::size_t Corners>
+bool has(const std::array<Index, Corners>& corners, Index vertex)
+{
+  return std::find(corners.begin(), corners.end(), vertex) != corners.end();
+}
+
+template<std::size_t Corners>
+std::array<Index, Corners> withCorner(std::array<Index, Corners> corners, Index from, Index to)
+{
+  std::replace(corners.begin(), corners.end(), from, to);
+  return corners;
+}
+
+/// The other two corners of a cell at the edge (a, b): so that (a, b, first, second) turns as the
+/// cell does.
+std::array<Index, 2> acrossEdge(const std::array<Index, 4>& cell, Index a, Index b)
+{
+  for (const auto& [i, j] : tetrahedronEdges)
+  {
+    const bool isForward = cell[i] == a && cell[j] == b;
+    if (isForward || (cell[i] == b && cell[j] == a))
+    {
+      std::array<Index, 2> others{};
+      std::size_t count = 0;
+      for (int k = 0; k < 4; ++k)
+      {
+        if (k != i && k != j)
+        {
+          others[count++] = cell[k];
+        }
+      }
+      // (0, 2) and (1, 3) need an odd permutation to come first.
+      const bool isOdd = (i + j) % 2 == 0;
+      if (isOdd == isForward)
+      {
+        std::swap(others[0], others[1]);
+      }
+      return others;
+    }
+  }
+  return { -1, -1 };
+}
+
+/// The vertices round an edge, in the order in which they turn round it from a to b. A closed ring
+/// has as many as cells, one that ends at facets one more.
+struct Ring
+{
+  std::vector<Index> vertices;
+  bool isClosed = true;
+};
+
+/// Empty where the cells do not make one ring of the size that is allowed.
+Ring ringOf(const EditableMesh& mesh, const std::vector<Index>& cells, Index a, Index b)
+{
+  std::vector<std::array<Index, 2>> links;
+  for (const Index cell : cells)
+  {
+    links.push_back(acrossEdge(mesh.cells()[cell].corners, a, b));
+  }
+  const auto linkFrom = [&](Index vertex)
+  {
+    return std::find_if(
+      links.begin(), links.end(), [&](const auto& link) { return link[0] == vertex; });
+  };
+  const auto first = std::find_if(links.begin(), links.end(),
+    [&](const auto& link)
+    {
+      return std::none_of(
+        links.begin(), links.end(), [&](const auto& other) { return other[1] == link[0]; });
+    });
+  Ring ring;
+  ring.isClosed = first == links.end();
+  const Index start = ring.isClosed ? links.front()[0] : (*first)[0];
+  Index vertex = start;
+  do
+  {
+    ring.vertices.push_back(vertex);
+    const auto link = linkFrom(vertex);
+    vertex = link == links.end() ? -1 : (*link)[1];
+  } while (vertex >= 0 && vertex != start && ring.vertices.size() <= links.size());
+  const bool isWhole = ring.vertices.size() == links.size() + (ring.isClosed ? 0 : 1);
+  return isWhole && ring.vertices.size() <= largestRing ? ring : Ring{ {}, true };
+}
+
+/// The triangulation of a ring with the best worst cell.
+class RingTriangulation
+{
+public:
+  RingTriangulation(const EditableMesh& mesh, const std::vector<Index>& ring, Index a, Index b)
+    : mesh_(mesh), ring_(ring), a_(a), b_(b)
+  {
+    const std::size_t count = ring.size();
+    for (std::size_t length = 2; length < count; ++length)
+    {
+      for (std::size_t i = 0; i + length < count; ++i)
+      {
+        findBest(i, i + length);
+      }
+    }
+  }
+
+  bool isPossible() const { return best(0, ring_.size() - 1) > impossible; }
+
+  template<class Visit>
+  void forTriangles(const Visit& visit) const
+  {
+    visitBetween(0, ring_.size() - 1, visit);
+  }
+
+  /// The two cells over and below the triangle of these ring vertices.
+  std::array<std::array<Index, 4>, 2> cellsAt(std::size_t i, std::size_t j, std::size_t k) const
+  {
+    return { { { ring_[i], ring_[j], ring_[k], b_ }, { ring_[i], ring_[k], ring_[j], a_ } } };
+  }
+
+private:
+  double best(std::size_t i, std::size_t j) const
+  {
+    return j - i < 2 ? std::numeric_limits<double>::infinity() : best_[i][j];
+  }
+
+  double worstAt(std::size_t i, std::size_t k, std::size_t j) const
+  {
+    double worst = std::numeric_limits<double>::infinity();
+    for (const auto& cell : cellsAt(i, k, j))
+    {
+      worst = mesh_.isValid(cell) ? std::min(worst, mesh_.quality(cell)) : impossible;
+      if (worst == impossible)
+      {
+        return worst;
+      }
+    }
+    return worst;
+  }
+
+  void findBest(std::size_t i, std::size_t j)
+  {
+    best_[i][j] = impossible;
+    apex_[i][j] = i + 1;
+    for (std::size_t k = i + 1; k < j; ++k)
+    {
+      const double others = std::min(best(i, k), best(k, j));
+      const double worst = others > best_[i][j] ? std::min(others, worstAt(i, k, j)) : impossible;
+      if (worst > best_[i][j])
+      {
+        best_[i][j] = worst;
+        apex_[i][j] = k;
+      }
+    }
+  }
+
+  template<class Visit>
+  void visitBetween(std::size_t i, std::size_t j, const Visit& visit) const
+  {
+    if (j - i >= 2)
+    {
+      const std::size_t k = apex_[i][j];
+      visit(i, k, j);
+      visitBetween(i, k, visit);
+      visitBetween(k, j, visit);
+    }
+  }
+
+  const EditableMesh& mesh_;
+  const std::vector<Index>& ring_;
+  Index a_;
+  Index b_;
+  std::array<std::array<double, largestRing>, largestRing> best_{};
+  std::array<std::array<std::size_t, largestRing>, largestRing> apex_{};
+};
+
+/// Whether the cells have one label.
+bool areAlike(const EditableMesh& mesh, const std::vector<Index>& cells)
+{
+  return std::all_of(cells.begin(), cells.end(),
+    [&](Index cell) { return mesh.cells()[cell].label == mesh.cells()[cells.front()].label; });
+}
+
+/// Vertices joined to both by an edge.
+std::vector<Index> commonNeighbours(const EditableMesh& mesh, Index a, Index b)
+{
+  const auto neighboursOf = [&](Index vertex)
+  {
+    std::vector<Index> result;
+    for (const Index cell : mesh.cells().at(vertex))
+    {
+      const auto& corners = mesh.cells()[cell].corners;
+      result.insert(result.end(), corners.begin(), corners.end());
+    }
+    std::sort(result.begin(), result.end());
+    result.erase(std::unique(result.begin(), result.end()), result.end());
+    return result;
+  };
+  const std::vector<Index> ofA = neighboursOf(a);
+  const std::vector<Index> ofB = neighboursOf(b);
+  std::vector<Index> result;
+  std::set_intersection(ofA.begin(), ofA.end(), ofB.begin(), ofB.end(), std::back_inserter(result));
+  result.erase(std::remove_if(result.begin(), result.end(),
+                 [&](Index vertex) { return vertex == a || vertex == b; }),
+    result.end());
+  return result;
+}
+
+/// Whether a vertex may go along this edge.
+bool mayGo(const EditableMesh& mesh, Index from, Index to)
+{
+  switch (mesh.freedomOf(from))
+  {
+    case EditableMesh::Freedom::Space:
+      return true;
+    case EditableMesh::Freedom::Facet:
+      return mesh.facets().at(from, to).size() == 2;
+    case EditableMesh::Freedom::Segment:
+      return mesh.segmentOf(from, to) >= 0 && mesh.facets().at(from, to).size() == 2;
+    default:
+      return false;
+  }
+}
+
+/// The simplices at `from` go; those without `to` come again with `to` in its place.
+template<std::size_t Corners>
+void collapse(const SimplexStore<Corners>& store, Index from, Index to, std::vector<Index>& removed,
+  std::vector<LabelledSimplex<Corners>>& added)
+{
+  removed = store.at(from);
+  for (const Index simplex : removed)
+  {
+    LabelledSimplex<Corners> next = store[simplex];
+    if (!has(next.corners, to))
+    {
+      next.corners = withCorner(next.corners, from, to);
+      added.push_back(next);
+    }
+  }
+}
+
+template<std::size_t Corners>
+void split(const SimplexStore<Corners>& store, Index a, Index b, Index middle,
+  std::vector<Index>& removed, std::vector<LabelledSimplex<Corners>>& added)
+{
+  removed = store.at(a, b);
+  for (const Index simplex : removed)
+  {
+    for (const Index end : { a, b })
+    {
+      LabelledSimplex<Corners> half = store[simplex];
+      half.corners = withCorner(half.corners, end, middle);
+      added.push_back(half);
+    }
+  }
+}
+
+} // namespace
+
+bool proposeEdgeRemoval(const EditableMesh& mesh, Index a, Index b, Cavity& cavity)
+{
+  cavity.clear();
+  if ((mesh.vertex(a).isOnRim && mesh.vertex(b).isOnRim) || mesh.segmentOf(a, b) >= 0)
+  {
+    return false;
+  }
+  cavity.cells = mesh.cells().at(a, b);
+  const Ring ring = ringOf(mesh, cavity.cells, a, b);
+  if (ring.vertices.empty() || !areAlike(mesh, cavity.cells))
+  {
+    return false;
+  }
+  const std::vector<Index>& r = ring.vertices;
+  cavity.facets = mesh.facets().at(a, b);
+  if (cavity.facets.size() != (ring.isClosed ? 0 : 2) || (ring.isClosed && r.size() < 3))
+  {
+    return false;
+  }
+  if (!ring.isClosed)
+  {
+    const Index first = r.front();
+    const Index last = r.back();
+    if (!mesh.facets().at(first, last).empty())
+    {
+      return false;
+    }
+    const auto& one = mesh.facets()[cavity.facets[0]];
+    const auto& other = mesh.facets()[cavity.facets[1]];
+    const bool isFirst = has(one.corners, first);
+    cavity.newFacets = { { { first, b, last }, one.label, isFirst ? one.parent : other.parent },
+      { { first, last, a }, one.label, isFirst ? other.parent : one.parent } };
+  }
+  const RingTriangulation triangulation(mesh, r, a, b);
+  if (!triangulation.isPossible())
+  {
+    return false;
+  }
+  const Index label = mesh.cells()[cavity.cells.front()].label;
+  triangulation.forTriangles(
+    [&](std::size_t i, std::size_t j, std::size_t k)
+    {
+      for (const auto& corners : triangulation.cellsAt(i, j, k))
+      {
+        cavity.newCells.push_back({ corners, label });
+      }
+    });
+  return true;
+}
+
+bool proposeFaceRemoval(const EditableMesh& mesh, Index cell, int corner, Cavity& cavity)
+{
+  cavity.clear();
+  const auto& corners = mesh.cells()[cell].corners;
+  std::array<Index, 3> face{};
+  std::transform(std::begin(tetrahedronFaces[corner]), std::end(tetrahedronFaces[corner]),
+    face.begin(), [&](int k) { return corners[k]; });
+  const std::vector<Index> around = mesh.cells().at(face[0], face[1]);
+  const auto beyond = std::find_if(around.begin(), around.end(),
+    [&](Index c) { return c != cell && has(mesh.cells()[c].corners, face[2]); });
+  if (beyond == around.end() || mesh.cells()[*beyond].label != mesh.cells()[cell].label ||
+      mesh.hasFacet(face))
+  {
+    return false;
+  }
+  const auto& others = mesh.cells()[*beyond].corners;
+  const Index apex =
+    *std::find_if(others.begin(), others.end(), [&](Index vertex) { return !has(face, vertex); });
+  cavity.cells = { cell, *beyond };
+  for (int k = 0; k < 3; ++k)
+  {
+    cavity.newCells.push_back(
+      { { corners[corner], face[k], face[(k + 1) % 3], apex }, mesh.cells()[cell].label });
+  }
+  return true;
+}
+
+bool proposeCollapse(const EditableMesh& mesh, Index from, Index to, Cavity& cavity)
+{
+  cavity.clear();
+  if (!mayGo(mesh, from, to))
+  {
+    return false;
+  }
+  std::vector<Index> ring;
+  for (const Index cell : mesh.cells().at(from, to))
+  {
+    const auto link = acrossEdge(mesh.cells()[cell].corners, from, to);
+    ring.insert(ring.end(), link.begin(), link.end());
+  }
+  std::sort(ring.begin(), ring.end());
+  ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
+  if (commonNeighbours(mesh, from, to) != ring)
+  {
+    return false;
+  }
+  collapse(mesh.cells(), from, to, cavity.cells, cavity.newCells);
+  collapse(mesh.facets(), from, to, cavity.facets, cavity.newFacets);
+  collapse(mesh.segments(), from, to, cavity.segments, cavity.newSegments);
+  return std::none_of(cavity.newFacets.begin(), cavity.newFacets.end(),
+           [&](const auto& facet) { return mesh.hasFacet(facet.corners); }) &&
+         std::none_of(cavity.newSegments.begin(), cavity.newSegments.end(),
+           [&](const auto& segment)
+           { return mesh.segmentOf(segment.corners[0], segment.corners[1]) >= 0; });
+}
+
+bool proposeSplit(const EditableMesh& mesh, Index a, Index b, Index middle, Cavity& cavity)
+{
+  cavity.clear();
+  if (mesh.vertex(a).isOnRim && mesh.vertex(b).isOnRim)
+  {
+    return false;
+  }
+  split(mesh.cells(), a, b, middle, cavity.cells, cavity.newCells);
+  split(mesh.facets(), a, b, middle, cavity.facets, cavity.newFacets);
+  split(mesh.segments(), a, b, middle, cavity.segments, cavity.newSegments);
+  return !cavity.cells.empty();
+}
+
+} // namespace cadrefine

@@ -1,0 +1,37 @@
+// The local operations on a mesh of tetrahedra: what each takes out, and what it puts there.
+#pragma once
+
+#include <cadrefine/operations/EditableMesh.h>
+
+namespace cadrefine
+{
+
+/// Each fills in the cavity, and returns whether the operation is possible as far as corners and
+/// labels tell: cells of two labels do not become one, segments and listed facets stay, as do the
+/// cells beyond the mesh. Whether the new cells are valid and well shaped, and whether new facets
+/// follow the surface, is for the caller to judge. Work: the cells at the vertices that are named.
+///
+/// (L. Freitag, C. Ollivier-Gooch, "Tetrahedral mesh improvement using swapping and smoothing",
+/// Int. J. Numer. Meth. Engng 40, 1997.)
+
+/// Takes the edge out: the ring of up to `largestRing` vertices round it is triangulated anew, by
+/// all triangulations that which has the best worst cell (G. Klincsek, "Minimal triangulations of
+/// polygonal domains", Ann. Discrete Math. 9, 1980; work cubic in the ring). Three cells round the
+/// edge become two; an edge between two facets becomes the other diagonal of these, so that one
+/// cell with two facets, as is flat where they are, is none.
+bool proposeEdgeRemoval(const EditableMesh& mesh, Index a, Index b, Cavity& cavity);
+constexpr std::size_t largestRing = 7;
+
+/// Two cells become three round the edge between the vertices opposite to their common face, which
+/// is opposite to corner `corner` of the cell.
+bool proposeFaceRemoval(const EditableMesh& mesh, Index cell, int corner, Cavity& cavity);
+
+/// The vertex `from` goes to `to`, at the other end of an edge: from inside the mesh anywhere, from
+/// facets along a facet, from segments along their line. No other vertex is at both (the link
+/// condition of T. Dey et al., "Topology preserving edge contraction", Publ. Inst. Math. 66, 1999).
+bool proposeCollapse(const EditableMesh& mesh, Index from, Index to, Cavity& cavity);
+
+/// The vertex `middle`, which has no cells yet, halves the edge.
+bool proposeSplit(const EditableMesh& mesh, Index a, Index b, Index middle, Cavity& cavity);
+
+} // namespace cadrefine

@@ -1,0 +1,130 @@
+// Bad cells get better, and nothing else changes.
+
+#include "TestMeshes.h"
+
+#include <cadrefine/mesh/Quality.h>
+#include <cadrefine/operations/Improvement.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+namespace
+{
+
+using namespace cadrefine;
+
+/// A cube with inner vertices at random, so far as cells stay valid. Its boundary stays.
+EditableMesh spoiltCube(unsigned seed)
+{
+  SimplexMesh boxes = cadtest::cubeMesh(4, 0.1, seed);
+  std::mt19937 random(seed);
+  EditableMesh mesh;
+  for (const Point3& point : boxes.points)
+  {
+    const bool isInside =
+      std::all_of(point.begin(), point.end(), [](double x) { return x > 0 && x < 1; });
+    mesh.addVertex({ point, point, {}, false, !isInside });
+  }
+  for (std::size_t c = 0; c < boxes.tetrahedra.size(); ++c)
+  {
+    // Two materials, on either side of a plane of vertices that are at random places.
+    const auto& cell = boxes.tetrahedra[c];
+    mesh.addCell(
+      { cell, static_cast<Index>(c / (boxes.tetrahedra.size() / 2)), static_cast<Index>(c) });
+  }
+  for (std::size_t v = 0; v < boxes.points.size(); ++v)
+  {
+    const auto vertex = static_cast<Index>(v);
+    if (mesh.vertex(vertex).isOnRim)
+    {
+      continue;
+    }
+    const Point3 start = mesh.vertex(vertex).point;
+    const auto part = [&] { return 0.4 * (static_cast<double>(random() % 1000) / 1000 - 0.5); };
+    mesh.moveVertex(vertex, start + Point3{ part(), part(), part() });
+    const auto& cells = mesh.cells().at(vertex);
+    if (!std::all_of(cells.begin(), cells.end(),
+          [&](Index cell) { return mesh.isValid(mesh.cells()[cell].corners); }))
+    {
+      mesh.moveVertex(vertex, start);
+    }
+  }
+  return mesh;
+}
+
+struct Summary
+{
+  double worst = 2;
+  std::array<double, 2> volumes{};
+  bool isValid = true;
+};
+
+Summary summaryOf(const EditableMesh& mesh)
+{
+  Summary summary;
+  for (std::size_t c = 0; c < mesh.cells().size(); ++c)
+  {
+    const auto cell = static_cast<Index>(c);
+    if (mesh.cells().exists(cell))
+    {
+      const auto& v = mesh.cells()[cell].corners;
+      summary.isValid = summary.isValid && mesh.isValid(v);
+      summary.worst = std::min(summary.worst, mesh.quality(v));
+      summary.volumes[mesh.cells()[cell].label] +=
+        sixfoldVolume(mesh.vertex(v[0]).point, mesh.vertex(v[1]).point, mesh.vertex(v[2]).point,
+          mesh.vertex(v[3]).point) /
+        6;
+    }
+  }
+  return summary;
+}
+
+TEST(Improvement, makesBadCellsBetter)
+{
+  int below = 0;
+  for (unsigned seed = 0; seed < 20; ++seed)
+  {
+    EditableMesh mesh = spoiltCube(seed);
+    const Summary before = summaryOf(mesh);
+    ASSERT_TRUE(before.isValid);
+    const ImprovementResult result = improveCells(mesh, nullptr, { 0.3, 0.1 });
+    const Summary after = summaryOf(mesh);
+    EXPECT_TRUE(after.isValid);
+    EXPECT_GT(after.worst, before.worst);
+    below += after.worst < 0.2;
+    for (const int material : { 0, 1 })
+    {
+      EXPECT_NEAR(after.volumes[material], before.volumes[material], 1e-14);
+    }
+    EXPECT_GT(result.counts.edgeRemovals + result.counts.moves, 0);
+  }
+  EXPECT_LE(below, 2) << "of 20 with a cell below 0.2";
+}
+
+TEST(Improvement, dependsOnTheOrderAlone)
+{
+  EditableMesh one = spoiltCube(3);
+  EditableMesh other = spoiltCube(3);
+  improveCells(one, nullptr, { 0.3, 0.1 });
+  improveCells(other, nullptr, { 0.3, 0.1 });
+  ASSERT_EQ(one.cells().size(), other.cells().size());
+  for (std::size_t c = 0; c < one.cells().size(); ++c)
+  {
+    const auto cell = static_cast<Index>(c);
+    EXPECT_EQ(one.cells().exists(cell), other.cells().exists(cell));
+    EXPECT_EQ(one.cells()[cell].corners, other.cells()[cell].corners);
+  }
+}
+
+TEST(Improvement, leavesGoodCellsAlone)
+{
+  EditableMesh mesh = spoiltCube(4);
+  const std::size_t cells = mesh.cells().size();
+  const ImprovementResult result = improveCells(mesh, nullptr, { summaryOf(mesh).worst, 0.1 });
+  EXPECT_EQ(mesh.cells().size(), cells);
+  EXPECT_EQ(result.counts.cells, 0);
+}
+
+} // namespace
