@@ -11,10 +11,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."
 
 from cadrefine import drawing, views
 from cadrefine.facets import FACE, Facets
-from cadrefine.formats.grid import set_cells, to_vtk
-from vtkmodules.util.numpy_support import numpy_to_vtk
-from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkUnstructuredGrid
+from cadrefine.formats.grid import make_grid, to_vtk
 
 TRIANGLE = 5
 BODY, OTHER = 0, 1  # CAD faces.
@@ -48,10 +45,7 @@ def facets_of(*parts, of_volumes=True):
     cells = np.vstack([part[1] + start for part, start in zip(parts, starts)])
     points = np.vstack([part[0] for part in parts])
     distance = np.concatenate([part[2] for part in parts])
-    grid, corners = vtkUnstructuredGrid(), vtkPoints()
-    corners.SetData(numpy_to_vtk(points, deep=True))
-    grid.SetPoints(corners)
-    set_cells(grid, np.full(len(cells), TRIANGLE, dtype=np.uint8), 3 * np.arange(len(cells) + 1), cells.ravel())
+    grid = make_grid(points, np.full(len(cells), TRIANGLE), 3 * np.arange(len(cells) + 1), cells.ravel())
     arrays = {"GeometricError": distance**2, "GeometricDistance": distance,
               "CADDimension": np.full(len(cells), FACE),
               "CADEntity": np.repeat(np.arange(len(parts)), [len(part[1]) for part in parts])}
