@@ -15,7 +15,7 @@ endfunction ()
 
 # Each sees only those above it.
 foreach (folder IN ITEMS comm mesh fields balancing cad classification motion projection error refinement quadratic
-    pipeline formats)
+    operations pipeline formats)
   add_subdirectory(filters/${folder})
 endforeach ()
 

@@ -75,6 +75,7 @@ cadrefine::PipelineResult vtkAdaptToCAD::Execute(
   options.startProjected = this->StartProjected;
   options.projection = cadrefine::makeProjectionOptions(
     this->UseRegion ? this->Region : nullptr, this->MaximumDistance, this->GetFaces());
+  options.projection.minimumQuality = this->FindMinimumQuality();
   options.recursionDepth = this->RecursionDepth;
   options.refinement = this->MakeOptions();
   options.refinement.maximumCells = this->MaximumCells;

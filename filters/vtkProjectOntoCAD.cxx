@@ -19,8 +19,9 @@ vtkProjectOntoCAD::~vtkProjectOntoCAD() = default;
 cadrefine::PipelineResult vtkProjectOntoCAD::Execute(
   cadrefine::RankExchange& exchange, vtkPointSet* input, const cadrefine::CADModel* model)
 {
-  const cadrefine::ProjectionOptions options = cadrefine::makeProjectionOptions(
+  cadrefine::ProjectionOptions options = cadrefine::makeProjectionOptions(
     this->UseRegion ? this->Region : nullptr, this->MaximumDistance, this->GetFaces());
+  options.minimumQuality = this->FindMinimumQuality();
   const cadrefine::PipelineContext context = this->MakeContext(exchange, *model);
   cadrefine::MeshState state = cadrefine::readMesh(exchange, input);
   std::string report = cadrefine::projectMesh(context, state, options);

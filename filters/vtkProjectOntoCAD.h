@@ -65,6 +65,7 @@ protected:
 
   cadrefine::PipelineResult Execute(cadrefine::RankExchange& exchange, vtkPointSet* input,
     const cadrefine::CADModel* model) override;
+  bool ChangesCells() const override { return true; }
 
 private:
   vtkProjectOntoCAD(const vtkProjectOntoCAD&) = delete;

@@ -57,6 +57,7 @@ cadrefine::RefinementOptions vtkRefinementAlgorithm::MakeOptions() const
   options.cutFacets = this->CutFacets;
   options.projectNewVertices = this->ProjectNewVertices;
   options.balance = this->Balance;
+  options.minimumQuality = this->FindMinimumQuality();
   return options;
 }
 

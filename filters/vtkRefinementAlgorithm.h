@@ -120,6 +120,7 @@ protected:
   cadrefine::RefinementOptions MakeOptions() const;
 
   std::vector<std::string> GetCellArraysRead() const override;
+  bool ChangesCells() const override { return true; }
 
   /// Empty: none.
   cadrefine::MarkingCriterion GetIndicator() const;

@@ -183,7 +183,8 @@ void vtkSimplexMeshAlgorithm::Run(
       cadrefine::checkInput(input);
       cadrefine::checkCellArrays(input, cellArrays);
     });
-  const cadrefine::InputSplit parts = cadrefine::splitInput(input, cellArrays);
+  const cadrefine::InputSplit parts =
+    cadrefine::splitInput(input, cellArrays, this->ChangesCells() && this->FindMinimumQuality());
   if (this->ChangesMesh())
   {
     cadrefine::removeMeasured(parts.fields.ofCells, parts.fields.ofMesh);
@@ -201,6 +202,13 @@ void vtkSimplexMeshAlgorithm::Run(
   this->Statistics->set("geometry reused", isReused);
   this->Fill(exchange, result.mesh, result.mapping, {}, result.table, result.fitReport);
   this->Filled = nullptr;
+}
+
+std::optional<double> vtkSimplexMeshAlgorithm::FindMinimumQuality() const
+{
+  cadrefine::checkProperty("Operations", this->Operations, ALL_OPERATIONS, CUT_ONLY);
+  cadrefine::checkProperty("MinimumQuality", this->MinimumQuality, 0, 1);
+  return this->Operations == ALL_OPERATIONS ? std::optional(this->MinimumQuality) : std::nullopt;
 }
 
 int vtkSimplexMeshAlgorithm::RequestData(
@@ -249,5 +257,7 @@ void vtkSimplexMeshAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
     os << " " << face;
   }
   os << "\n" << indent << "BoundaryCells: " << this->BoundaryCells << "\n";
+  os << indent << "Operations: " << this->Operations << "\n";
+  os << indent << "MinimumQuality: " << this->MinimumQuality << "\n";
   os << indent << "Controller: " << this->Controller << "\n";
 }

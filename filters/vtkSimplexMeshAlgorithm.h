@@ -29,6 +29,7 @@
 #include "vtkPointSetAlgorithm.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -79,6 +80,30 @@ public:
   vtkSetMacro(BoundaryCells, bool);
   vtkGetMacro(BoundaryCells, bool);
   vtkBooleanMacro(BoundaryCells, bool);
+  ///@}
+
+  enum LocalOperations
+  {
+    ALL_OPERATIONS = 0,
+    CUT_ONLY = 1 ///< Cells are cut and vertices moved, but no edge or face is swapped or collapsed.
+  };
+
+  ///@{
+  /**
+   * What filters that change cells do with tetrahedra where vertices do not reach the CAD or cells
+   * are badly shaped: ALL_OPERATIONS (default) swaps, collapses and splits edges there.
+   */
+  vtkSetMacro(Operations, int);
+  vtkGetMacro(Operations, int);
+  ///@}
+
+  ///@{
+  /**
+   * Cells of a smaller mean ratio (1 is equilateral) are improved by these operations, also those
+   * of the input. 0: none for their shape. Default 0.1.
+   */
+  vtkSetMacro(MinimumQuality, double);
+  vtkGetMacro(MinimumQuality, double);
   ///@}
 
   ///@{
@@ -134,6 +159,13 @@ protected:
     const cadrefine::FieldMapping& mapping, const cadrefine::ArraySelection& selection,
     vtkTable* table, const std::string& fitReport);
 
+  /// Whether it may exchange cells: whole numbers of cells are then tags, which keep them apart.
+  virtual bool ChangesCells() const { return false; }
+
+  /// Of a filter that may: MinimumQuality; none: CUT_ONLY. Throws Error where these are out of
+  /// range.
+  std::optional<double> FindMinimumQuality() const;
+
   /// What the steps of cadrefine need: warnings become those of this filter.
   cadrefine::PipelineContext MakeContext(
     cadrefine::RankExchange& exchange, const cadrefine::CADModel& model);
@@ -166,6 +198,8 @@ private:
   vtkMultiProcessController* Controller = nullptr;
   std::vector<std::string> Faces;
   bool BoundaryCells = false;
+  int Operations = ALL_OPERATIONS;
+  double MinimumQuality = 0.1;
   std::string StatisticsText = "{}";
   std::string FitReport;
 };

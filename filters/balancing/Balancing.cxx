@@ -215,10 +215,15 @@ bool isBalanced(
   return static_cast<double>(largest) <= tolerance * mean && compact * sums[1] <= sums[2];
 }
 
-Redistribution redistribute(RankExchange& exchange, const DistributedMesh& mesh, vtkPointSet* input,
-  const std::vector<std::int64_t>& weights)
+std::vector<int> ranksByWeight(
+  RankExchange& exchange, const DistributedMesh& mesh, const std::vector<std::int64_t>& weights)
 {
-  const std::vector<int> ranks = partitionByWeight(exchange, cellCentres(mesh.mesh()), weights);
+  return partitionByWeight(exchange, cellCentres(mesh.mesh()), weights);
+}
+
+Redistribution redistribute(RankExchange& exchange, const DistributedMesh& mesh, vtkPointSet* input,
+  const std::vector<int>& ranks)
+{
   Parts parts(exchange.size());
   agreeOnFailure(exchange, [&] { parts = makeParts(mesh, input, ranks, exchange.size()); });
   Redistribution result;

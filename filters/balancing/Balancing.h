@@ -25,9 +25,13 @@ struct Redistribution
   Delivery delivery; ///< What went where; it takes other arrays there in the same order.
 };
 
-/// Redistributes the cells of `input`, which `mesh` was made from, with their arrays: ranks get
-/// boxes of cells, about equal in weight (see partitionByWeight). One weight, at least 1, for each
-/// cell in the order of makePointSet. The result is an unstructured grid with the same arrays.
+/// A rank for each cell, in the order of makePointSet, given its weight, at least 1: ranks get
+/// boxes of cells, about equal in weight (see partitionByWeight). Collective.
+std::vector<int> ranksByWeight(
+  RankExchange& exchange, const DistributedMesh& mesh, const std::vector<std::int64_t>& weights);
+
+/// Sends the cells of `input`, which `mesh` was made from, with their arrays to these ranks, given
+/// in the order of makePointSet. The result is an unstructured grid with the same arrays.
 ///
 /// Every cell is sent once. vtkRedistributeDataSetFilter knows no weights, and loses cells in
 /// silence where libexpat has the corrections of 2024 (Debian 12: 2.5.0-1+deb12u2): VTK 9.2 sends
@@ -35,6 +39,6 @@ struct Redistribution
 ///
 /// Throws Error on all ranks where a part cannot be sent. Collective.
 Redistribution redistribute(RankExchange& exchange, const DistributedMesh& mesh, vtkPointSet* input,
-  const std::vector<std::int64_t>& weights);
+  const std::vector<int>& ranks);
 
 } // namespace cadrefine

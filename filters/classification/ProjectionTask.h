@@ -28,6 +28,8 @@ struct ProjectionOptions
   std::optional<double> maximumDistance;
   /// Cells that are inverted or flat are to be mended (see MoveSettings).
   bool mendCells = false;
+  /// See improveCells; none: no local operations.
+  std::optional<double> minimumQuality;
 
   bool inRegion(const Point3& p) const
   {

@@ -1,5 +1,7 @@
 #include "fields/ArrayTransfer.h"
 
+#include "fields/CADArrays.h"
+
 #include <cadrefine/base/LargeMemory.h>
 
 #include <vtkAbstractArray.h>
@@ -162,14 +164,13 @@ vtkSmartPointer<vtkAbstractArray> interpolate(
   result->InsertTuples(0, oldCount, 0, array);
   const auto fill = [&](auto* from, auto* to)
   {
-    const auto source = vtk::DataArrayValueRange(from);
     auto target = vtk::DataArrayValueRange(to);
     const vtkIdType components = from->GetNumberOfComponents();
     auto next = target.begin() + oldCount * components;
     for (const auto& ends : parentEdges)
     {
-      const auto a = source.begin() + ends[0] * components;
-      const auto b = source.begin() + ends[1] * components;
+      const auto a = target.begin() + ends[0] * components;
+      const auto b = target.begin() + ends[1] * components;
       using Value = vtk::GetAPIType<std::remove_pointer_t<decltype(from)>>;
       next = std::transform(a, a + components, b, next, middle<Value>);
     }
@@ -178,7 +179,7 @@ vtkSmartPointer<vtkAbstractArray> interpolate(
   {
     for (vtkIdType n = 0; n < newCount; ++n)
     {
-      result->SetTuple(oldCount + n, parentEdges[n][0], array);
+      result->SetTuple(oldCount + n, parentEdges[n][0], result);
     }
   }
   return result;
@@ -214,6 +215,16 @@ MeshArrays emptyArrays(const std::string& vertexIdName, const std::string& cellI
 }
 
 } // namespace
+
+bool isTag(vtkDataArray* array)
+{
+  const std::string name = array->GetName() ? array->GetName() : "";
+  const int type = array->GetDataType();
+  const bool isOwn =
+    name == arrays::validity || name == arrays::dimension || name == arrays::entity;
+  return type != VTK_FLOAT && type != VTK_DOUBLE && !name.empty() && name.rfind("vtk", 0) != 0 &&
+         !isOwn;
+}
 
 vtkSmartPointer<vtkAbstractArray> emptyLike(vtkAbstractArray* array, vtkIdType count)
 {

@@ -16,6 +16,7 @@
 #include <vector>
 
 class vtkAbstractArray;
+class vtkDataArray;
 class vtkDataSetAttributes;
 class vtkPointSet;
 
@@ -32,6 +33,10 @@ struct MeshArrays
   std::string vertexIdName;
   std::string cellIdName;
 };
+
+/// Whether a cell array tells kinds of cells apart, such as materials: one of whole numbers that
+/// has a name, unless that is one of VTK's own ("vtk...") or of CADRefine's.
+bool isTag(vtkDataArray* array);
 
 /// An array of the same type, name and components, with so many tuples of any value.
 vtkSmartPointer<vtkAbstractArray> emptyLike(vtkAbstractArray* array, vtkIdType count);
@@ -60,9 +65,10 @@ ArraySelection selectionOf(vtkPointSet* input, const ConvertedMesh& mesh);
 MeshArrays select(const MeshArrays& arrays, const ArraySelection& selection);
 
 /// The arrays of the mesh that `coarse` was split into: cell arrays are inherited, point arrays
-/// interpolated to the middle of the edge. Arrays of whole numbers or other types keep a value that
-/// both ends have, and otherwise take that of the end with the smaller global id (tags must not be
-/// averaged). Work: linear in the values made, in their own type.
+/// interpolated to the middle of the edge, whose ends may be vertices that came before it. Arrays
+/// of whole numbers or other types keep a value that both ends have, and otherwise take that of the
+/// end with the smaller global id (tags must not be averaged). Work: linear in the values made, in
+/// their own type.
 MeshArrays refineArrays(const MeshArrays& coarse,
   const std::vector<std::array<Index, 2>>& parentEdges, const ChildRanges& firstChildren);
 

@@ -33,13 +33,18 @@ void split(const std::vector<std::string>& names, vtkDataSetAttributes* geometry
   }
 }
 
-/// Adds the arrays; what is active (as scalars, ...) stays so unless one of them takes its place.
-/// (PassData would take it away.)
-void addArrays(vtkDataSetAttributes* source, vtkDataSetAttributes* target)
+/// Adds the arrays, but for those of these names; what is active (as scalars, ...) stays so unless
+/// one of them takes its place. (PassData would take it away.)
+void addArrays(vtkDataSetAttributes* source, vtkDataSetAttributes* target,
+  const std::vector<std::string>& left = {})
 {
   for (int a = 0; a < source->GetNumberOfArrays(); ++a)
   {
-    addAs(source->IsArrayAnAttribute(a), source->GetAbstractArray(a), target);
+    const char* name = source->GetArrayName(a);
+    if (!name || std::find(left.begin(), left.end(), name) == left.end())
+    {
+      addAs(source->IsArrayAnAttribute(a), source->GetAbstractArray(a), target);
+    }
   }
 }
 
@@ -59,7 +64,8 @@ void remove(std::initializer_list<const char*> names, vtkFieldData* from)
 
 } // namespace
 
-InputSplit splitInput(vtkPointSet* input, const std::vector<std::string>& cellArrays)
+InputSplit splitInput(
+  vtkPointSet* input, const std::vector<std::string>& cellArrays, bool readsTags)
 {
   const auto copyOfInput = [&]
   {
@@ -73,7 +79,17 @@ InputSplit splitInput(vtkPointSet* input, const std::vector<std::string>& cellAr
     geometry->GetPointData(), fields->GetPointData());
   split(withGhosts(cellArrays), geometry->GetCellData(), fields->GetCellData());
   geometry->GetFieldData()->Initialize();
-  return { geometry, arraysOf(fields) };
+  InputSplit parts{ geometry, arraysOf(fields), {} };
+  for (int a = 0; readsTags && a < fields->GetCellData()->GetNumberOfArrays(); ++a)
+  {
+    vtkDataArray* array = fields->GetCellData()->GetArray(a);
+    if (array && isTag(array))
+    {
+      geometry->GetCellData()->AddArray(array);
+      parts.tags.emplace_back(array->GetName());
+    }
+  }
+  return parts;
 }
 
 void removeMeasured(vtkFieldData* ofCells, vtkFieldData* ofMesh)
@@ -103,7 +119,7 @@ void OutputJoin::fill(RankExchange& exchange, vtkPointSet* mesh, const FieldMapp
   addArrays(fields.ofCells, output->GetCellData());
   output->GetFieldData()->PassData(fields.ofMesh);
   addArrays(mesh->GetPointData(), output->GetPointData());
-  addArrays(mesh->GetCellData(), output->GetCellData());
+  addArrays(mesh->GetCellData(), output->GetCellData(), parts_.tags);
   output->GetFieldData()->PassData(mesh->GetFieldData());
   if (mesh->GetCellData()->GetScalars())
   {

@@ -18,11 +18,14 @@ struct InputSplit
   /// Points, cells, ids, ghosts, the point arrays of the classification (see CADArrays.h), and the
   /// cell arrays that the filter reads. No field data.
   vtkSmartPointer<vtkPointSet> geometry;
-  MeshArrays fields; ///< All else.
+  MeshArrays fields; ///< All else, and the tags.
+  /// Cell arrays that the geometry has too, not as active ones.
+  std::vector<std::string> tags;
 };
 
-/// `cellArrays`: those that the filter reads.
-InputSplit splitInput(vtkPointSet* input, const std::vector<std::string>& cellArrays);
+/// `cellArrays`: those that the filter reads; with `readsTags` also all tags (see isTag).
+InputSplit splitInput(
+  vtkPointSet* input, const std::vector<std::string>& cellArrays, bool readsTags = false);
 
 /// Takes away what CAD Geometric Error and Mesh Validity found of a mesh that has changed since.
 /// (InvalidCells and MinimumQuality are kept up by all filters.)

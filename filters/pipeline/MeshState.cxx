@@ -150,8 +150,7 @@ vtkSmartPointer<vtkPointSet> makeDataSet(const MeshState& state)
   return output;
 }
 
-void redistribute(
-  const PipelineContext& context, MeshState& state, const std::vector<std::int64_t>& weights)
+void redistribute(const PipelineContext& context, MeshState& state, const std::vector<int>& ranks)
 {
   ConvertedMesh& converted = state.mesh.converted;
   converted.pointOf.resize(converted.mesh.points.size());
@@ -162,12 +161,13 @@ void redistribute(
     std::iota(converted.cellOf[d].begin(), converted.cellOf[d].end(),
       firstCellOfDimension(converted.mesh, d));
   }
-  Redistribution balanced = redistribute(context.exchange, state.mesh, makeDataSet(state), weights);
+  Redistribution balanced = redistribute(context.exchange, state.mesh, makeDataSet(state), ranks);
   MeshState next = readMesh(context.exchange, balanced.mesh);
   if (state.classification)
   {
     readClassification(context, balanced.mesh, next);
   }
+  next.mesh.vertexIdBound = state.mesh.vertexIdBound; // also above ids that are no more in use
   next.arrays.ofMesh = state.arrays.ofMesh;
   next.prototype = state.prototype;
   next.remembers = state.remembers;

@@ -78,9 +78,8 @@ bool warnOfInvalidCells(const PipelineContext& context, MeshState& state);
 /// Forgets what was found of the mesh as it was.
 void meshHasChanged(MeshState& state);
 
-/// Shares the cells out over the ranks by their weights (see Balancing.h). Collective.
-void redistribute(
-  const PipelineContext& context, MeshState& state, const std::vector<std::int64_t>& weights);
+/// Sends the cells to these ranks (see Balancing.h). Collective.
+void redistribute(const PipelineContext& context, MeshState& state, const std::vector<int>& ranks);
 
 /// The mesh as a data set with all arrays.
 vtkSmartPointer<vtkPointSet> makeDataSet(const MeshState& state);

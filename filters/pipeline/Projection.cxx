@@ -1,6 +1,7 @@
 #include "pipeline/Projection.h"
 
 #include "comm/WorkSteps.h"
+#include "pipeline/CellImprovement.h"
 #include "pipeline/FitReport.h"
 #include "pipeline/MeshSummary.h"
 #include "pipeline/PropertyCheck.h"
@@ -126,6 +127,15 @@ std::string projectMesh(
 
   setClassification(state, std::move(result.classification));
   writeConflicts(state.arrays.ofVertices, result.conflicts);
+  if (options.minimumQuality)
+  {
+    CellImprovementOptions improvement{ *options.minimumQuality };
+    if (options.region)
+    {
+      improvement.inRegion = [&](const Point3& point) { return options.inRegion(point); };
+    }
+    improveCells(context, state, improvement);
+  }
   vtkFieldData* ofMesh = state.arrays.ofMesh;
   summariseMesh(exchange, state.mesh, qualityOf(exchange, state), ofMesh);
   const std::int64_t onCAD = summariseProjection(

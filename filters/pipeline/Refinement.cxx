@@ -3,6 +3,7 @@
 #include "balancing/Balancing.h"
 #include "comm/LoadBalancedMap.h"
 #include "fields/CADArrays.h"
+#include "pipeline/CellImprovement.h"
 #include "pipeline/MeshSummary.h"
 #include "quadratic/MidNodePlacing.h"
 #include "refinement/DistributedRefinement.h"
@@ -264,7 +265,7 @@ private:
       {
         return;
       }
-      redistribute(context_, state_, weights);
+      redistribute(context_, state_, ranksByWeight(exchange_, state_.mesh, weights));
     }
     level = planLevel();
   }
@@ -281,6 +282,10 @@ private:
     const auto stopwatch = watch("seconds copying fields");
     state_.arrays = refineArrays(state_.arrays, trace.parentEdges, trace.firstChildren);
     state_.mapping.refine(std::move(trace));
+    if (options_.projectNewVertices && options_.minimumQuality)
+    {
+      improveCells(context_, state_, { *options_.minimumQuality });
+    }
   }
 
   void makeQuadratic()

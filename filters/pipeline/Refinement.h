@@ -5,6 +5,7 @@
 #include "refinement/Marking.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,8 @@ struct RefinementOptions
   /// Bisect further until the facets on the CAD of each marked cell are cut.
   bool cutFacets = false;
   bool projectNewVertices = true;
+  /// See improveCells; none: no local operations.
+  std::optional<double> minimumQuality;
   bool balance = true;
   /// Put out cells of second order (see placeMidNodes); not for vtkPolyData, which has none.
   bool quadraticCells = false;

@@ -36,7 +36,24 @@ std::vector<Index> combineMarks(RankExchange& exchange, RefinementPlan& plan)
   return fresh;
 }
 
-/// Ids of the children: parents in the order of their ids, the children of each in a row.
+/// `onBoundary` of the vertices that were, and of the new ones.
+std::vector<unsigned char> onRefinedBoundary(const RefinementPlan& plan,
+  const std::vector<std::int64_t>& codes, const std::vector<unsigned char>& onBoundary)
+{
+  auto result = onBoundary;
+  result.reserve(onBoundary.size() + codes.size());
+  for (std::size_t e = 0; e < codes.size(); ++e)
+  {
+    if (plan.marks[e])
+    {
+      result.push_back(codes[e] != 0);
+    }
+  }
+  return result;
+}
+
+} // namespace
+
 std::array<std::vector<GlobalId>, 4> numberChildren(
   RankExchange& exchange, const DistributedMesh& mesh, const ChildRanges& firstChildren)
 {
@@ -80,29 +97,11 @@ std::array<std::vector<GlobalId>, 4> numberChildren(
   return ids;
 }
 
-/// `onBoundary` of the vertices that were, and of the new ones.
-std::vector<unsigned char> onRefinedBoundary(const RefinementPlan& plan,
-  const std::vector<std::int64_t>& codes, const std::vector<unsigned char>& onBoundary)
-{
-  auto result = onBoundary;
-  result.reserve(onBoundary.size() + codes.size());
-  for (std::size_t e = 0; e < codes.size(); ++e)
-  {
-    if (plan.marks[e])
-    {
-      result.push_back(codes[e] != 0);
-    }
-  }
-  return result;
-}
-
-/// Moves of all vertices that are not at their places to these.
-Moves movesOntoCAD(const SimplexMesh& mesh, const std::vector<MidpointOnCAD>& hits,
-  const BoundaryProjector& projector, Classification& classification)
+Moves movesOntoCAD(
+  const SimplexMesh& mesh, const BoundaryProjector& projector, Classification& classification)
 {
   Moves moves(mesh);
-  const std::size_t oldCount = classification.entities.size();
-  for (std::size_t v = 0; v < oldCount; ++v)
+  for (std::size_t v = 0; v < classification.entities.size(); ++v)
   {
     if (classification.distances[v] > 0)
     {
@@ -112,15 +111,8 @@ Moves movesOntoCAD(const SimplexMesh& mesh, const std::vector<MidpointOnCAD>& hi
       moves.add(vertex, where.point);
     }
   }
-  classifyMidpoints(hits, mesh.points.size(), classification);
-  for (const MidpointOnCAD& hit : hits)
-  {
-    moves.add(static_cast<Index>(oldCount + hit.place), hit.where.point);
-  }
   return moves;
 }
-
-} // namespace
 
 RefinementPlan planUniform(RankExchange& exchange, const DistributedMesh& mesh)
 {
@@ -199,7 +191,12 @@ RefinementTrace refineOntoCAD(RankExchange& exchange, DistributedMesh& mesh,
     trace.onBoundary = std::move(onBoundary);
     return trace;
   }
-  Moves moves = movesOntoCAD(mesh.mesh(), hits, projector, classification);
+  Moves moves = movesOntoCAD(mesh.mesh(), projector, classification);
+  classifyMidpoints(hits, mesh.mesh().points.size(), classification);
+  for (const MidpointOnCAD& hit : hits)
+  {
+    moves.add(static_cast<Index>(oldCount + hit.place), hit.where.point);
+  }
   moveOntoCAD(exchange, mesh, std::move(moves), classification,
     { projector, onBoundary, newVertices == NewVertices::MoveAndMend, true });
   trace.onBoundary = std::move(onBoundary);

@@ -7,6 +7,7 @@
 #include "fields/CADArrays.h"
 #include "mesh/DistributedMesh.h"
 
+#include <cadrefine/motion/MoveGuard.h>
 #include <cadrefine/refinement/RefinementTrace.h>
 
 #include <vector>
@@ -47,6 +48,11 @@ ChildRanges countChildren(const SimplexMesh& mesh, const RefinementPlan& plan);
 RefinementTrace refine(RankExchange& exchange, DistributedMesh& mesh, const RefinementPlan& plan,
   RunStatistics& statistics);
 
+/// Ids of the children, which may be none: parents in the order of their ids, the children of each
+/// in a row. Collective (see denseOffsets).
+std::array<std::vector<GlobalId>, 4> numberChildren(
+  RankExchange& exchange, const DistributedMesh& mesh, const ChildRanges& firstChildren);
+
 /// What is done with the new vertices of classified edges.
 enum class NewVertices
 {
@@ -62,5 +68,9 @@ enum class NewVertices
 RefinementTrace refineOntoCAD(RankExchange& exchange, DistributedMesh& mesh,
   const RefinementPlan& plan, const ClassifiedBoundary& classified, Classification& classification,
   NewVertices newVertices, RunStatistics& statistics);
+
+/// Moves of all vertices that are not at their places on the CAD to these, which are found anew.
+Moves movesOntoCAD(
+  const SimplexMesh& mesh, const BoundaryProjector& projector, Classification& classification);
 
 } // namespace cadrefine

@@ -56,6 +56,10 @@ def coordinate(text):
     return number(text, -FARTHEST, FARTHEST)
 
 
+def part(text):
+    return number(text, 0, 1)
+
+
 def angle(text):
     return number(text, 0, 180)
 

@@ -5,9 +5,9 @@ import re
 
 from cadrefine import output
 from cadrefine.checks import (DEEPEST, MOST_CELLS, MOST_STEPS, RESULTS, angle, check, coordinate, number, names,
-                              positive, whole)
+                              part, positive, whole)
 from cadrefine.help import DESCRIPTION, EPILOG, USAGE, Layout
-from cadrefine.pipeline import METHODS, STRATEGIES
+from cadrefine.pipeline import METHODS, OPERATIONS, STRATEGIES
 from cadrefine.session import Failure, flush, speaks
 
 UNITS = ("m", "cm", "mm", "in", "inch", "ft")  # Of the CAD Reader.
@@ -93,6 +93,12 @@ def add_steps(group):
                        help="end before there are more cells than that (default: no limit)")
     group.add_argument("--target-error", type=positive, metavar="E",
                        help="end at this global geometric error, an area in 2D, a volume in 3D (default: not used)")
+    group.add_argument("--operations", choices=list(OPERATIONS), default="all",
+                       help="what may be done with tetrahedra where vertices do not reach the CAD or cells are badly "
+                       "shaped: all swaps, collapses and splits edges there (default); cut-only does not")
+    group.add_argument("--minimum-quality", type=part, default=0.1, metavar="Q",
+                       help="improve tetrahedra of a smaller mean ratio by these operations, those of MESH too; 1 is "
+                       "equilateral (default 0.1; 0: only vertices off the CAD call for them)")
     group.add_argument("--quadratic", action="store_true",
                        help="at the end, make the cells quadratic, with mid-edge nodes on the CAD")
 

@@ -13,6 +13,7 @@ from cadrefine.steps import Following
 
 # Names on the command line, and those of the filters.
 METHODS = {"longest-edge": "Longest Edge Bisection", "uniform": "Uniform Bisection"}
+OPERATIONS = {"all": "All", "cut-only": "Cut only"}
 STRATEGIES = {"threshold": "Threshold", "fraction": "Fraction of Largest", "bulk": "Bulk"}
 MOST_OF_AN_INT = 2**31 - 1
 
@@ -97,7 +98,8 @@ def adaptation_properties(options):
     properties = {"StartProjected": int(options.projected), "MaximumDistance": options.maximum_distance,
                   "RecursionDepth": options.recursion_depth, "UniformSteps": options.uniform_steps,
                   "MaximumSteps": options.steps, "Method": METHODS[options.method], "IndicatorArray": "None",
-                  "ProjectNewVertices": int(not options.no_cad),
+                  "ProjectNewVertices": int(not options.no_cad), "Operations": OPERATIONS[options.operations],
+                  "MinimumQuality": options.minimum_quality,
                   "QuadraticCells": int(options.quadratic), "MaximumCells": 0, "TargetError": 0,
                   "Faces": options.faces, "BoundaryCells": int(bool(options.output and options.boundary_cells))}
     if options.region:

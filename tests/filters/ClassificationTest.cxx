@@ -163,7 +163,7 @@ TEST_P(Classification, recoversTheEntitiesOfTheNodes)
   const cadtest::FilterRun filters(path + ".brep");
   const auto model = vtkCADModelCache::Get(filters.cad());
   const auto mesh = cadtest::readGrid(path + "_" + size + ".vtu");
-  const auto projected = filters.project(mesh);
+  const auto projected = filters.moveOntoCAD(mesh);
   const Comparison comparison = compare(findTruth(*model, mesh), projected);
   print(std::string(solid) + ", " + size, comparison);
   EXPECT_GE(comparison.right, 0.999 * comparison.nodes);
@@ -190,7 +190,7 @@ TEST_P(ThinnerThanTheMoves, whatIsWrongIsInConflict)
   const cadtest::FilterRun filters(path + ".brep");
   const auto model = vtkCADModelCache::Get(filters.cad());
   const auto mesh = cadtest::readGrid(path + "_" + size + "_" + std::to_string(seed) + ".vtu");
-  const auto projected = filters.project(mesh);
+  const auto projected = filters.moveOntoCAD(mesh);
   const Comparison comparison = compare(findTruth(*model, mesh), projected);
   print("blunt_wing, " + std::string(size) + ", " + std::to_string(seed), comparison);
   EXPECT_EQ(comparison.guessed, 0u);
@@ -268,7 +268,7 @@ TEST_P(ExactNodes, stayWhereTheyAre)
   const auto model = vtkCADModelCache::Get(filters.cad());
   const auto mesh = cadtest::readGrid(std::string(CADREFINE_TRUTH) + "/" + each.solid + ".vtu");
   moveNodes(mesh, each.moved * mesh->GetLength());
-  const auto projected = filters.project(mesh);
+  const auto projected = filters.moveOntoCAD(mesh);
   const auto found = entitiesOf(projected);
   const auto truth = findTruth(*model, mesh);
   const bool isTwin = std::string(each.format) == ".igs";
@@ -319,7 +319,7 @@ TEST(Conflicts, areReportedWhereTheMeshIsTooCoarse)
   const cadtest::FilterRun filters(
     cadtest::writeInto(folder, cadtest::boxWithoutCorner(1, 1, 1, 0.15), ".brep"));
   const auto mesh = cadtest::toGrid(cadtest::cubeMesh(3, 0, 1));
-  const auto projected = filters.project(mesh);
+  const auto projected = filters.moveOntoCAD(mesh);
   EXPECT_EQ(cadtest::fieldValue(projected, "ClassificationConflicts"), 3);
   vtkDataArray* conflicts = projected->GetPointData()->GetArray("CADConflict");
   ASSERT_NE(conflicts, nullptr);

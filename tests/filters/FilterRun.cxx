@@ -107,6 +107,12 @@ double FilterRun::qualityPercentile(vtkPointSet* mesh, double part) const
   return *place;
 }
 
+FilterRun::Data FilterRun::moveOntoCAD(vtkPointSet* mesh) const
+{
+  return run<vtkProjectOntoCAD>(
+    mesh, [](vtkProjectOntoCAD* filter) { filter->SetOperations(vtkProjectOntoCAD::CUT_ONLY); });
+}
+
 FilterRun::Data FilterRun::project(vtkPointSet* mesh) const
 {
   return run<vtkProjectOntoCAD>(mesh, [](vtkProjectOntoCAD*) {});

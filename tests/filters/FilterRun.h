@@ -79,6 +79,8 @@ public:
   double qualityPercentile(vtkPointSet* mesh, double part) const;
 
   Data project(vtkPointSet* mesh) const;
+  /// Vertices are moved, cells stay.
+  Data moveOntoCAD(vtkPointSet* mesh) const;
   Data measure(vtkPointSet* mesh, int depth) const;
   Data refineUniformly(vtkPointSet* mesh, int levels = 1) const;
   /// Uniformly, new vertices stay where they are.

@@ -71,12 +71,13 @@ Solid coarseBall()
     32 * pi / 3, distanceToSphere };
 }
 
-cadtest::FilterRun::Data refineToQuadratic(
-  const cadtest::FilterRun& filters, vtkPointSet* mesh, int levels)
+cadtest::FilterRun::Data refineToQuadratic(const cadtest::FilterRun& filters, vtkPointSet* mesh,
+  int levels, int operations = vtkRefineWithCAD::ALL_OPERATIONS)
 {
   return filters.run<vtkRefineWithCAD>(mesh,
     [&](vtkRefineWithCAD* filter)
     {
+      filter->SetOperations(operations);
       filter->SetMethod(vtkRefineWithCAD::UNIFORM_BISECTION);
       filter->SetLevels(levels);
       filter->QuadraticCellsOn();
@@ -239,11 +240,12 @@ TEST(QuadraticCells, stayValidWhereNodesCannotReachTheCAD)
   const Solid solid = coarseBall();
   const cadtest::TemporaryFolder folder;
   const cadtest::FilterRun filters(cadtest::writeInto(folder, solid.shape, ".step"));
-  auto projected = filters.project(solid.mesh);
+  constexpr int cutOnly = vtkRefineWithCAD::CUT_ONLY;
+  auto projected = filters.moveOntoCAD(solid.mesh);
   double off = 0;
   for (int level = 0; level <= 2; ++level)
   {
-    const auto data = refineToQuadratic(filters, projected, level);
+    const auto data = refineToQuadratic(filters, projected, level, cutOnly);
     expectSound(filters, data);
     off += cadtest::fieldValue(data, "UnprojectedVertices");
     EXPECT_LE(cadtest::fieldValue(data, "UnprojectedVertices"),
@@ -254,6 +256,14 @@ TEST(QuadraticCells, stayValidWhereNodesCannotReachTheCAD)
       0.1 * cadtest::largestOn(cadtest::outerFacets(data), solid.distance));
   }
   EXPECT_GT(off, 0);
+
+  const auto changed = filters.project(solid.mesh);
+  for (int level = 0; level <= 2; ++level)
+  {
+    const auto data = refineToQuadratic(filters, changed, level);
+    expectSound(filters, data);
+    EXPECT_EQ(cadtest::fieldValue(data, "UnprojectedVertices"), 0);
+  }
 }
 
 /// A circle: the deficit of parabolas falls at fourth order, and the filter finds it.

@@ -8,6 +8,7 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
+#include <set>
 
 namespace
 {
@@ -98,7 +99,7 @@ TEST_P(Wing, errorStaysWithoutProjection)
 TEST_P(Wing, wallsAndFarFieldStay)
 {
   const SimplexMesh before = cadtest::toMesh(coarse);
-  const SimplexMesh after = cadtest::toMesh(filters.project(coarse));
+  const SimplexMesh after = cadtest::toMesh(filters.moveOntoCAD(coarse));
   ASSERT_EQ(before.points.size(), after.points.size());
   for (std::size_t v = 0; v < before.points.size(); ++v)
   {
@@ -108,6 +109,29 @@ TEST_P(Wing, wallsAndFarFieldStay)
       EXPECT_EQ(before.points[v], after.points[v]) << "far field";
     }
   }
+}
+
+/// Also where cells are exchanged for others.
+TEST_P(Wing, operationsLeaveTheFarFieldAlone)
+{
+  const auto farAway = [](const SimplexMesh& mesh)
+  {
+    std::set<Point3> points;
+    for (const Index v : cadtest::outerVertices(mesh))
+    {
+      if (mesh.points[v][0] < -0.5 || mesh.points[v][0] > 3.5)
+      {
+        points.insert(mesh.points[v]);
+      }
+    }
+    return points;
+  };
+  const SimplexMesh before = cadtest::toMesh(coarse);
+  const SimplexMesh after = cadtest::toMesh(filters.run<vtkProjectOntoCAD>(
+    coarse, [](vtkProjectOntoCAD* filter) { filter->SetMinimumQuality(0.3); }));
+  EXPECT_NE(before.tetrahedra.size(), after.tetrahedra.size());
+  EXPECT_GT(farAway(before).size(), 8U);
+  EXPECT_EQ(farAway(before), farAway(after));
 }
 
 TEST_P(Wing, projectionIsLimitedToItsRegion)

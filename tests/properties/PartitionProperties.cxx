@@ -9,6 +9,8 @@
 #include "TestShapes.h"
 #include "refinement/BulkMarking.h"
 
+#include <vtkCellData.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -73,6 +75,10 @@ protected:
     if (random.chance(0.6))
     {
       cadtest::addGlobalIds(whole);
+    }
+    if (random.chance(0.7))
+    {
+      whole->GetCellData()->RemoveArray("Tag"); // which keeps all cells apart
     }
     const bool ghosts = random.chance(0.3);
     const auto rankOfCell =

@@ -121,6 +121,7 @@ Plan::Plan(Random& random, const FilterProblem& problem)
   straight = random.chance(0.1);
   uniformAfterwards = random.chance(0.3);
   isQuadratic = !problem.isSurface && random.chance(0.2);
+  minimumQuality = random.chance(0.5) ? 0.1 : random.between(0.2, 0.5);
 }
 
 void Plan::markByErrorAndSize(vtkRefineWithCAD* filter, double size) const
@@ -135,11 +136,14 @@ void Plan::markByErrorAndSize(vtkRefineWithCAD* filter, double size) const
   filter->SetNormalAngle(normalAngle);
   filter->SetProjectNewVertices(!straight);
   filter->SetBalance(balance);
+  filter->SetMinimumQuality(minimumQuality);
+  filter->SetOperations(operations);
 }
 
 Plan::Steps Plan::run(const cadtest::FilterRun& filters, vtkPointSet* mesh, double size) const
 {
-  Steps steps{ filters.project(mesh) };
+  Steps steps{ filters.run<vtkProjectOntoCAD>(
+    mesh, [&](vtkProjectOntoCAD* filter) { filter->SetOperations(operations); }) };
   steps.push_back(filters.measure(steps.back(), depth));
   steps.push_back(filters.run<vtkRefineWithCAD>(
     steps.back(), [&](vtkRefineWithCAD* filter) { markByErrorAndSize(filter, size); }));
@@ -152,6 +156,8 @@ Plan::Steps Plan::run(const cadtest::FilterRun& filters, vtkPointSet* mesh, doub
         filter->SetLevels(uniformAfterwards ? 1 : 0);
         filter->SetQuadraticCells(isQuadratic);
         filter->SetBalance(balance);
+        filter->SetMinimumQuality(minimumQuality);
+        filter->SetOperations(operations);
       }));
   }
   steps.push_back(filters.measure(steps.back(), depth));

@@ -39,6 +39,8 @@ struct Plan
   int levels = 1;
   bool cutFacets = false;
   bool balance = true;
+  double minimumQuality = 0.1; ///< In refinement.
+  int operations = vtkRefineWithCAD::ALL_OPERATIONS;
   double chordTolerance = 0;
   double normalAngle = 0;
   bool straight = false;

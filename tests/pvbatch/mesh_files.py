@@ -47,7 +47,8 @@ def run(plugin, data, folder):
     mesh = simple.OpenDataFile(path("gmsh4binary.msh"))
     found["opened"] = described(mesh)
     cad = simple.OpenDataFile(os.path.join(data, "cylinder.brep"))
-    adapted = simple.AdaptToCAD(Input=mesh, CAD=cad, MaximumSteps=1, BoundaryCells=1)
+    # Facets that operations change may span the narrow fillet, and be of no face for a step.
+    adapted = simple.AdaptToCAD(Input=mesh, CAD=cad, MaximumSteps=1, BoundaryCells=1, Operations="Cut only")
     found["adapted"] = described(adapted)
     for ending in ENDINGS:
         simple.SaveData(path("saved." + ending), adapted)

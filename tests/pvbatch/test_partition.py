@@ -2,6 +2,8 @@
 """The result does not depend on the number of ranks: same cells, same coordinates to the last bit."""
 
 import os
+import subprocess
+import sys
 import tempfile
 import unittest
 
@@ -14,6 +16,17 @@ CASES = {
                    "--threshold", "1e-6"),
     "arcs": (driver.data("three_arcs_coarse.vtu"), driver.data("three_arcs.igs"), "--threshold", "1e-4"),
 }
+CRANK_ARM = "/usr/share/opencascade/data/occ/CrankArm.brep"  # Of the package occt-misc.
+MESHER = """
+import sys, gmsh
+gmsh.initialize(["gmsh", "-v", "0"])
+gmsh.model.occ.importShapes(sys.argv[1])
+gmsh.model.occ.synchronize()
+gmsh.option.setNumber("Mesh.MeshSizeMin", float(sys.argv[2]))
+gmsh.option.setNumber("Mesh.MeshSizeMax", float(sys.argv[2]))
+gmsh.model.mesh.generate(3)
+gmsh.write(sys.argv[3])
+"""
 COUNTED = ("vertices", "cells", "cad_vertices", "projected_points", "global_error", "maximum_distance",
            "invalid_cells", "unprojected_vertices", "minimum_quality")
 
@@ -29,17 +42,34 @@ class Partition(unittest.TestCase):
 
     def test_same_on_any_number_of_ranks(self):
         for name, arguments in CASES.items():
-            points, cells, arrays, counted = self.result(1, arguments)
-            for ranks in (2, 3, 4):
-                with self.subTest(case=name, ranks=ranks):
-                    other_points, other_cells, other_arrays, other_counted = self.result(ranks, arguments)
-                    self.assertEqual(counted, other_counted)
-                    self.assertEqual(points.tobytes(), other_points.tobytes())
-                    self.assertEqual(cells.tolist(), other_cells.tolist())
-                    self.assertEqual(set(arrays), set(other_arrays))
-                    for array, values in arrays.items():
-                        if array not in ("vtkProcessId", "vtkGhostType"):
-                            self.assertEqual(values.tobytes(), other_arrays[array].tobytes(), array)
+            self.compare(name, arguments)
+
+    def compare(self, name, arguments):
+        """Runs of 1 to 4 ranks; the counted numbers of their steps."""
+        points, cells, arrays, counted = self.result(1, arguments)
+        for ranks in (2, 3, 4):
+            with self.subTest(case=name, ranks=ranks):
+                other_points, other_cells, other_arrays, other_counted = self.result(ranks, arguments)
+                self.assertEqual(counted, other_counted)
+                self.assertEqual(points.tobytes(), other_points.tobytes())
+                self.assertEqual(cells.tolist(), other_cells.tolist())
+                self.assertEqual(set(arrays), set(other_arrays))
+                for array, values in arrays.items():
+                    if array not in ("vtkProcessId", "vtkGhostType"):
+                        self.assertEqual(values.tobytes(), other_arrays[array].tobytes(), array)
+        return counted
+
+    def test_same_with_operations(self):
+        """A part meshed so coarsely that vertices do not reach it by moving alone."""
+        with tempfile.TemporaryDirectory() as folder:
+            mesh = os.path.join(folder, "coarse.msh")
+            subprocess.run([sys.executable, "-c", MESHER, CRANK_ARM, "19", mesh], check=True)
+            with_operations = self.compare("crank arm", (mesh, CRANK_ARM))
+            _, _, _, cut_only = self.result(1, (mesh, CRANK_ARM, "--operations", "cut-only"))
+        off, quality = COUNTED.index("unprojected_vertices"), COUNTED.index("minimum_quality")
+        self.assertEqual([step[off] for step in with_operations], [0] * len(with_operations))
+        self.assertGreater(max(step[off] for step in cut_only), 0)
+        self.assertGreater(with_operations[-1][quality], 1.5 * cut_only[-1][quality])
 
 
 if __name__ == "__main__":

@@ -1,0 +1,74 @@
+// Local operations on the cells of a mesh in pieces, block by block.
+#pragma once
+
+#include "classification/DistributedBoundary.h"
+#include "mesh/DistributedMesh.h"
+#include "operations/Blocks.h"
+
+#include <cadrefine/base/ParallelFor.h>
+#include <cadrefine/classification/Classification.h>
+#include <cadrefine/operations/Improvement.h>
+#include <cadrefine/refinement/RefinementTrace.h>
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace cadrefine
+{
+
+/// Cells that may be operated on.
+struct OperationBlocks
+{
+  std::vector<std::int64_t> ofCells; ///< Of each tetrahedron of the piece; -1: it stays.
+  std::vector<std::int64_t> sizes;   ///< Cells of each block, over all ranks.
+};
+
+/// How cells become blocks (see findBlocks).
+struct BlockSettings
+{
+  int rings = 1; ///< Of cells round the vertices where something is to be done.
+  int round = 0;
+  std::int64_t largest = 0;                                   ///< Cells of a block.
+  std::function<bool(const std::array<Index, 4>&)> mayChange; ///< Of a cell.
+};
+
+/// The blocks of the cells round the flagged vertices. Collective; the messages of findBlocks, and
+/// for each ring a byte a shared vertex.
+OperationBlocks findOperationBlocks(RankExchange& exchange, const DistributedMesh& mesh,
+  std::vector<unsigned char> flags, const BlockSettings& settings, const ParallelFor& parallelFor);
+
+/// Where all cells are to be so that each block, with the listed cells at its vertices, is on one
+/// rank, in the order of makePointSet; empty where it is, on all ranks. Collective; two reductions
+/// of 8 bytes a block.
+std::vector<int> ranksOfBlocks(
+  RankExchange& exchange, const DistributedMesh& mesh, const OperationBlocks& blocks);
+
+/// What must not be mixed: cells, and listed facets, whose labels differ stay apart.
+struct CellLabels
+{
+  std::vector<Index> ofTetrahedra;
+  std::vector<Index> ofTriangles;
+};
+
+/// What operations made of a mesh: it was refined (though some cells have no children), and of the
+/// vertices then these are left.
+struct OperationTrace
+{
+  RefinementTrace cells;
+  std::vector<Index> keptVertices;
+  OperationCounts counts; ///< Over all ranks.
+};
+
+/// Improves the cells of each block (see improveCells), with the vertices that it shares with
+/// others, or with cells that stay, in place. A vertex of `classification` that has a distance from
+/// the CAD is wanted at its place there; new ones are given theirs. New cells have ids in the order
+/// of their parents', new vertices by the order of the blocks: all is the same on any number of
+/// ranks. Each block has to be on one rank (see ranksOfBlocks). Collective; messages: 16 bytes a
+/// shared vertex, one reduction of 8 bytes a block, and the numbering of cells (see denseOffsets).
+OperationTrace operateOnBlocks(RankExchange& exchange, DistributedMesh& mesh,
+  Classification& classification, const ClassifiedBoundary& boundary, const OperationBlocks& blocks,
+  const CellLabels& labels, const ImprovementLimits& limits, const ParallelFor& parallelFor);
+
+} // namespace cadrefine

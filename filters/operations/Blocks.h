@@ -1,0 +1,30 @@
+// Blocks of cells that lie together, the same however the mesh is split over ranks.
+#pragma once
+
+#include "comm/RankExchange.h"
+#include "mesh/DistributedMesh.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace cadrefine
+{
+
+/// Numbers of blocks, from 0 on in the order of a Morton curve.
+struct Blocks
+{
+  std::vector<std::int64_t> ofPoints; ///< A block for each of this rank's points.
+  std::vector<std::int64_t> sizes;    ///< Points in each block, over all ranks.
+};
+
+/// The rank that is to have each block, given their sizes: each gets about as many points.
+std::vector<int> ownersOf(const std::vector<std::int64_t>& sizes, int ranks);
+
+/// The leaves of an octree over the points of all ranks, octants with more than `largest` points
+/// being divided. Where octants lie in `box`, which holds all points, depends on `round`, so that
+/// the borders of one are inside those of the next. Collective; a reduction of 8 bytes an octant
+/// for each level of the tree, of which there are at most 20.
+Blocks findBlocks(RankExchange& exchange, const std::vector<Point3>& points, const MeshBounds& box,
+  int round, std::int64_t largest);
+
+} // namespace cadrefine

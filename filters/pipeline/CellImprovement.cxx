@@ -1,0 +1,240 @@
+#include "pipeline/CellImprovement.h"
+
+#include "fields/ArrayTransfer.h"
+#include "motion/BoundaryMotion.h"
+#include "operations/BlockOperations.h"
+#include "refinement/DistributedRefinement.h"
+
+#include <cadrefine/mesh/Quality.h>
+
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkNew.h>
+#include <vtkTypeInt64Array.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace cadrefine
+{
+namespace
+{
+
+constexpr int maximumRounds = 6;
+constexpr int ringsOfCells = 3;
+/// So many rounds in a row may leave as many bad cells and vertices.
+constexpr int patience = 2;
+/// Cells below this are operated on in the neighbourhood of those below the user's limit.
+constexpr double aim = 0.3;
+
+constexpr const char* blockArray = "cadrefine:block";
+
+/// Numbers of the different tags of `count` cells from the first one on.
+std::vector<Index> labelsOf(vtkCellData* data, vtkIdType first, std::size_t count)
+{
+  std::vector<Index> labels(count, 0);
+  for (int a = 0; a < data->GetNumberOfArrays(); ++a)
+  {
+    vtkDataArray* array = data->GetArray(a);
+    if (!array || !isTag(array))
+    {
+      continue;
+    }
+    std::map<std::pair<Index, std::vector<double>>, Index> numbers;
+    std::vector<double> tag(array->GetNumberOfComponents());
+    for (std::size_t c = 0; c < count; ++c)
+    {
+      array->GetTuple(first + static_cast<vtkIdType>(c), tag.data());
+      const auto next = static_cast<Index>(numbers.size());
+      labels[c] = numbers.emplace(std::pair(labels[c], tag), next).first->second;
+    }
+  }
+  return labels;
+}
+
+class CellImprovement
+{
+public:
+  CellImprovement(
+    const PipelineContext& context, MeshState& state, const CellImprovementOptions& options)
+    : context_(context), exchange_(context.exchange), state_(state), options_(options)
+  {
+  }
+
+  void run()
+  {
+    std::int64_t before = std::numeric_limits<std::int64_t>::max();
+    int idle = 0;
+    for (int round = 0; round < maximumRounds && idle < patience; ++round)
+    {
+      const auto [flags, count] = findBad();
+      if (count == 0)
+      {
+        return;
+      }
+      idle = count < before ? 0 : idle + 1;
+      before = count;
+      exchange_.progress().say(static_cast<double>(round) / maximumRounds,
+        "improving cells, round " + std::to_string(round + 1) + " of at most " +
+          std::to_string(maximumRounds));
+      if (!operate(flags, round))
+      {
+        return;
+      }
+      moveOn();
+    }
+  }
+
+private:
+  SimplexMesh& mesh() { return state_.mesh.mesh(); }
+
+  /// Where the vertices are wanted. Collective.
+  std::vector<Point3> wantedPoints()
+  {
+    const BoundaryProjector& projector = boundaryOf(context_, state_).projector;
+    const Classification& classification = *state_.classification;
+    std::vector<Point3> wanted = mesh().points;
+    for (std::size_t v = 0; v < wanted.size(); ++v)
+    {
+      if (classification.distances[v] > 0)
+      {
+        wanted[v] = projector.nearestOn(classification.entities[v], wanted[v]).point;
+      }
+    }
+    return wanted;
+  }
+
+  struct Bad
+  {
+    std::vector<unsigned char> vertices; ///< 1: of a bad cell, or off the CAD.
+    std::int64_t count = 0;              ///< Such cells and vertices over all ranks.
+  };
+
+  /// Vertices off the CAD, and cells that are badly shaped once they are on it. Collective.
+  Bad findBad()
+  {
+    const auto& distances = state_.classification->distances;
+    std::vector<unsigned char> flags(mesh().points.size(), 0);
+    std::transform(distances.begin(), distances.end(), flags.begin(),
+      [](double distance) { return distance > 0; });
+    const bool anyOff = exchange_.any(std::find(flags.begin(), flags.end(), 1) != flags.end());
+    const std::vector<Point3> points = anyOff ? wantedPoints() : mesh().points;
+    std::int64_t count = 0;
+    for (std::size_t v = 0; v < flags.size(); ++v)
+    {
+      count += flags[v] && state_.mesh.shared.owner(static_cast<Index>(v)) == exchange_.rank();
+    }
+    for (const auto& cell : mesh().tetrahedra)
+    {
+      if (mayChange(cell) && meanRatio(points[cell[0]], points[cell[1]], points[cell[2]],
+                               points[cell[3]]) < options_.minimumQuality)
+      {
+        ++count;
+        for (const Index vertex : cell)
+        {
+          flags[vertex] = 1;
+        }
+      }
+    }
+    return { std::move(flags), exchange_.sum(count) };
+  }
+
+  bool mayChange(const std::array<Index, 4>& cell) const
+  {
+    return !options_.inRegion ||
+           std::all_of(cell.begin(), cell.end(),
+             [&](Index vertex) { return options_.inRegion(state_.mesh.mesh().points[vertex]); });
+  }
+
+  /// Brings each block to one rank. The blocks after that.
+  OperationBlocks gather(OperationBlocks blocks)
+  {
+    const auto ranks = ranksOfBlocks(exchange_, state_.mesh, blocks);
+    if (!exchange_.any(!ranks.empty()))
+    {
+      return blocks;
+    }
+    const vtkIdType first = firstCellOfDimension(mesh(), 3);
+    vtkNew<vtkTypeInt64Array> ofCells;
+    ofCells->SetName(blockArray);
+    ofCells->SetNumberOfValues(static_cast<vtkIdType>(mesh().cellCount()));
+    ofCells->FillValue(-1);
+    std::copy(blocks.ofCells.begin(), blocks.ofCells.end(), ofCells->GetPointer(first));
+    state_.arrays.ofCells->AddArray(ofCells);
+    meshHasChanged(state_);
+    redistribute(context_, state_, ranks);
+    const auto* sent =
+      vtkTypeInt64Array::SafeDownCast(state_.arrays.ofCells->GetAbstractArray(blockArray));
+    blocks.ofCells.clear();
+    for (std::size_t c = 0; c < mesh().tetrahedra.size(); ++c)
+    {
+      blocks.ofCells.push_back(
+        sent->GetValue(firstCellOfDimension(mesh(), 3) + static_cast<vtkIdType>(c)));
+    }
+    state_.arrays.ofCells->RemoveArray(blockArray);
+    return blocks;
+  }
+
+  /// Returns whether cells have changed.
+  bool operate(const std::vector<unsigned char>& flags, int round)
+  {
+    const BlockSettings settings{ ringsOfCells, round, options_.largestBlock,
+      [&](const std::array<Index, 4>& cell) { return mayChange(cell); } };
+    const OperationBlocks blocks =
+      gather(findOperationBlocks(exchange_, state_.mesh, flags, settings, state_.parallelFor));
+    ClassifiedBoundary& boundary = boundaryOf(context_, state_);
+    const CellLabels labels{ labelsOf(state_.arrays.ofCells, firstCellOfDimension(mesh(), 3),
+                               mesh().tetrahedra.size()),
+      labelsOf(state_.arrays.ofCells, firstCellOfDimension(mesh(), 2), mesh().triangles.size()) };
+    OperationTrace trace =
+      operateOnBlocks(exchange_, state_.mesh, *state_.classification, boundary, blocks, labels,
+        { std::max(options_.minimumQuality, aim), options_.minimumQuality }, state_.parallelFor);
+    meshHasChanged(state_);
+    state_.onBoundary.clear();
+    state_.arrays = refineArrays(state_.arrays, trace.cells.parentEdges, trace.cells.firstChildren);
+    ArraySelection kept{
+      std::vector<vtkIdType>(trace.keptVertices.begin(), trace.keptVertices.end()), {}
+    };
+    state_.arrays = select(state_.arrays, kept);
+    state_.mapping.refine(std::move(trace.cells));
+    state_.mapping.convert(std::move(kept));
+    const std::int64_t count = trace.counts.operations();
+    operations_ += count;
+    context_.statistics.set("local operations", static_cast<double>(operations_));
+    return count > 0;
+  }
+
+  /// Vertices that stopped on the way to the CAD try again.
+  void moveOn()
+  {
+    ClassifiedBoundary& boundary = boundaryOf(context_, state_);
+    Classification& classification = *state_.classification;
+    Moves moves = movesOntoCAD(mesh(), boundary.projector, classification);
+    moveOntoCAD(exchange_, state_.mesh, std::move(moves), classification,
+      { boundary.projector, boundary.boundary.onBoundary, false, true });
+    meshHasChanged(state_);
+  }
+
+  const PipelineContext& context_;
+  RankExchange& exchange_;
+  MeshState& state_;
+  const CellImprovementOptions& options_;
+  std::int64_t operations_ = 0;
+};
+
+} // namespace
+
+void improveCells(
+  const PipelineContext& context, MeshState& state, const CellImprovementOptions& options)
+{
+  if (state.mesh.mesh().dimension == 3 && state.classification)
+  {
+    CellImprovement(context, state, options).run();
+  }
+}
+
+} // namespace cadrefine

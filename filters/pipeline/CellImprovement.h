@@ -1,0 +1,29 @@
+// Local operations where cells are badly shaped, or vertices do not reach the CAD.
+#pragma once
+
+#include "pipeline/MeshState.h"
+
+#include <cstdint>
+#include <functional>
+
+namespace cadrefine
+{
+
+struct CellImprovementOptions
+{
+  double minimumQuality = 0.1;
+  /// Cells with a vertex elsewhere stay; empty: none.
+  std::function<bool(const Point3&)> inRegion = {};
+  std::int64_t largestBlock = 8192; ///< Cells of a block.
+};
+
+/// Rounds of operations (see operateOnBlocks) on the cells round vertices that are off the CAD and
+/// round cells with a mean ratio below a minimum, each followed by another try to move
+/// vertices onto the CAD (see moveOntoCAD), until nothing is left or nothing is gained. Of a mesh
+/// of tetrahedra that is classified; others stay as they are. Cells and listed triangles are told
+/// apart by their tags (see isTag). Collective. Work: a look at every cell, and for what is found
+/// in rounds that of redistribute, findBoundary, improveCells and moveOntoCAD.
+void improveCells(
+  const PipelineContext& context, MeshState& state, const CellImprovementOptions& options);
+
+} // namespace cadrefine

@@ -1,0 +1,185 @@
+// Local operations over ranks: the same mesh, bit for bit, and all that belongs to it.
+
+#include "pipeline/CellImprovement.h"
+#include "DataSets.h"
+#include "FilterRun.h"
+#include "MeshChecks.h"
+#include "ParallelTest.h"
+#include "Partition.h"
+#include "SamePieces.h"
+
+#include <cadrefine/cad/import/CADFile.h>
+#include <cadrefine/mesh/Orientation.h>
+#include <cadrefine/mesh/Quality.h>
+
+#include <vtkCADReader.h>
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
+#include <vtkIntArray.h>
+#include <vtkMultiProcessController.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+
+namespace cadrefine
+{
+
+namespace
+{
+
+/// The mean ratios of a mesh, and its volume on either side of x = 1 by the array Material.
+struct Shape
+{
+  double worst = 2;
+  std::array<double, 2> volumes{};
+  int below = 0; ///< Cells of a mean ratio below 0.2.
+};
+
+Shape shapeOf(vtkPointSet* mesh)
+{
+  Shape shape;
+  vtkDataArray* materials = mesh->GetCellData()->GetArray("Material");
+  for (vtkIdType c = 0; c < mesh->GetNumberOfCells(); ++c)
+  {
+    if (mesh->GetCellType(c) != VTK_TETRA)
+    {
+      continue;
+    }
+    vtkNew<vtkIdList> ids;
+    mesh->GetCellPoints(c, ids);
+    std::array<Point3, 4> p;
+    for (int k = 0; k < 4; ++k)
+    {
+      mesh->GetPoint(ids->GetId(k), p[k].data());
+    }
+    const double quality = meanRatio(p[0], p[1], p[2], p[3]);
+    shape.worst = std::min(shape.worst, quality);
+    shape.below += quality < 0.2;
+    shape.volumes[static_cast<std::size_t>(materials->GetTuple1(c))] +=
+      sixfoldVolume(p[0], p[1], p[2], p[3]) / 6;
+  }
+  return shape;
+}
+
+/// The box with a hole, projected, with two materials that meet in a jagged interface, and with
+/// vertices inside these at random places, as far as cells stay valid.
+vtkSmartPointer<vtkPointSet> spoiltMesh(const cadtest::FilterRun& filters)
+{
+  SimplexMesh mesh = cadtest::toMesh(filters.refineUniformly(
+    filters.project(cadtest::readGrid(CADREFINE_TRUTH "/box_minus_cylinder_coarse.vtu"))));
+  const std::set<Index> outer = cadtest::outerVertices(mesh);
+  std::vector<std::vector<std::size_t>> cellsAt(mesh.points.size());
+  for (std::size_t c = 0; c < mesh.tetrahedra.size(); ++c)
+  {
+    for (const Index vertex : mesh.tetrahedra[c])
+    {
+      cellsAt[vertex].push_back(c);
+    }
+  }
+  const auto materialOf = [&](std::size_t c)
+  {
+    double sum = 0;
+    for (const Index vertex : mesh.tetrahedra[c])
+    {
+      sum += mesh.points[vertex][0];
+    }
+    return sum > 4 ? 1 : 0;
+  };
+  vtkNew<vtkIntArray> materials;
+  materials->SetName("Material");
+  std::vector<int> materialsOfCells;
+  for (std::size_t c = 0; c < mesh.tetrahedra.size(); ++c)
+  {
+    materialsOfCells.push_back(materialOf(c));
+    materials->InsertNextValue(materialsOfCells.back());
+  }
+  std::mt19937 random(7);
+  for (std::size_t v = 0; v < mesh.points.size(); ++v)
+  {
+    const auto part = [&] { return 0.3 * (static_cast<double>(random() % 4096) / 4096 - 0.5); };
+    const Point3 start = mesh.points[v];
+    const bool isOfOneMaterial = std::all_of(cellsAt[v].begin(), cellsAt[v].end(),
+      [&](std::size_t c) { return materialsOfCells[c] == materialsOfCells[cellsAt[v][0]]; });
+    if (isOfOneMaterial && outer.count(static_cast<Index>(v)) == 0)
+    {
+      mesh.points[v] = start + Point3{ part(), part(), part() };
+      const auto isValid = [&](std::size_t c)
+      {
+        const auto& [i, j, k, l] = mesh.tetrahedra[c];
+        return orientation(mesh.points[i], mesh.points[j], mesh.points[k], mesh.points[l]) > 0;
+      };
+      if (!std::all_of(cellsAt[v].begin(), cellsAt[v].end(), isValid))
+      {
+        mesh.points[v] = start;
+      }
+    }
+  }
+  mesh.triangles.clear();
+  mesh.segments.clear();
+  mesh.vertices.clear();
+  const auto grid = cadtest::toGrid(mesh);
+  grid->GetCellData()->AddArray(materials);
+  auto projected = filters.moveOntoCAD(grid);
+  projected->GetFieldData()->Initialize();
+  return projected;
+}
+
+class CellImprovement
+  : public ParallelTest
+  , public testing::WithParamInterface<cadtest::Dealing>
+{
+protected:
+  vtkSmartPointer<vtkPointSet> improved(
+    RankExchange& ranks, vtkPointSet* piece, const CADModel& model)
+  {
+    RunStatistics statistics;
+    const PipelineContext context{ ranks, model, statistics, [](const std::string&) {} };
+    MeshState state = readMesh(ranks, piece);
+    readClassification(context, piece, state);
+    improveCells(context, state, { 0.3, {}, 1000 });
+    return makeDataSet(state);
+  }
+};
+
+TEST_P(CellImprovement, isThatOfOneRank)
+{
+  const cadtest::FilterRun filters(CADREFINE_TRUTH "/box_minus_cylinder.brep");
+  const auto whole = spoiltMesh(filters);
+  const auto model = readCADFile(CADREFINE_TRUTH "/box_minus_cylinder.brep");
+  const auto rankOfCell = cadtest::deal(GetParam(), whole, exchange.size());
+  const auto piece = cadtest::pieceOf(whole, rankOfCell, exchange.rank(), false);
+  const auto pieces = improved(exchange, piece, *model);
+  RankExchange alone(nullptr);
+  const auto serial = exchange.rank() == 0 ? improved(alone, whole, *model) : nullptr;
+  cadtest::expectSame(exchange, pieces, serial);
+  if (exchange.rank() == 0)
+  {
+    const Shape before = shapeOf(whole);
+    const Shape after = shapeOf(serial);
+    EXPECT_LT(before.worst, 0.02);
+    EXPECT_GT(after.worst, 0.1);
+    EXPECT_LT(after.below, before.below / 20);
+    for (const int material : { 0, 1 })
+    {
+      // Facets round the hole may change.
+      EXPECT_NEAR(after.volumes[material], before.volumes[material], 0.01);
+    }
+    EXPECT_TRUE(cadtest::isValid(cadtest::toMesh(serial)));
+    EXPECT_TRUE(cadtest::hasNoHangingVertex(cadtest::toMesh(serial)));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Dealings, CellImprovement,
+  testing::Values(cadtest::Dealing::Blocks, cadtest::Dealing::Random, cadtest::Dealing::KdTree,
+    cadtest::Dealing::EmptyRank));
+
+} // namespace
+
+} // namespace cadrefine
