@@ -108,8 +108,8 @@ def reader_of(path):
         return grid_of("msh")
     if ending == ".inp" and start.startswith(b"*"):  # Else it is one of AVS UCD.
         return grid_of("abaqus")
-    if ending == ".cgns" and start.startswith(HDF5) and not has_labels(path):  # meshio's, which is none to others.
-        return grid_of("meshio", "cgns")
+    if ending == ".cgns" and start.startswith(HDF5):  # Else it is an old one (ADF). meshio's is none to others.
+        return grid_of("cgns") if has_labels(path) else grid_of("meshio", "cgns")
     if ending in OWN:
         return grid_of(OWN[ending])
     if ending in MESHIO:

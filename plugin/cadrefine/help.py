@@ -43,6 +43,7 @@ formats of MESH (triangles or tetrahedra; cells of lower dimension carry tags):
   .bdf .nas .fem            Nastran: properties
   .unv                      I-DEAS, SALOME: groups of elements
   .su2                      SU2, with names of markers
+  .cgns                     CGNS in HDF5: boundary conditions, families, zones; through python3-h5py
   .med                      SALOME and code_aster, with groups; needs python3-h5py
   CASE/NAME.foam, CASE      OpenFOAM, with patches and zones
   Tags of gmsh are the cell arrays gmsh:physical and gmsh:geometrical, those of Medit medit:ref, of

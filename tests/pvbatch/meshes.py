@@ -4,6 +4,7 @@ import os
 import subprocess
 import sys
 
+import cgns_files
 import gmsh
 import meshio
 import numpy as np
@@ -188,6 +189,56 @@ def write_ball(folder):
         gmsh.option.setNumber("Mesh.MeshSizeMax", 0.7)
         gmsh.model.mesh.generate(3)
         gmsh.write(os.path.join(folder, "ball.msh"))
+    finally:
+        gmsh.finalize()
+
+
+def write_cgns(folder):
+    """Each group of gmsh's file as a section with a boundary condition, by the CGNS library."""
+    mesh = meshio.gmsh.read(os.path.join(folder, "gmsh2text.msh"))
+    kinds = {1: ("line", 3), 2: ("triangle", 5), 3: ("tetra", 10)}
+    with cgns_files.Library(os.path.join(folder, "gmsh.cgns")) as file:
+        file.add_zone("cylinder", mesh.points, len(mesh.cells_dict["tetra"]))
+        first = 1
+        for name, (tag, dimension) in GROUPS.items():
+            kind, number = kinds[dimension]
+            cells = mesh.cells_dict[kind][mesh.get_cell_data("gmsh:physical", kind) == tag]
+            after = file.add_section(f"elements of {name}", number, first, cells)
+            file.add_condition(name, "CellCenter", "PointRange", [first, after - 1])
+            first = after
+
+
+def build_options():
+    """What gmsh was built with: words."""
+    gmsh.initialize()
+    try:
+        return gmsh.option.getString("General.BuildOptions").split()
+    finally:
+        gmsh.finalize()
+
+
+def write_boxes(path):
+    """Two boxes that share a face, of steel and air; "wall" is one side of both, "contact" between them, "low" also one
+    of the sides of "wall". The other facets are in no group."""
+    gmsh.initialize()
+    try:
+        gmsh.option.setNumber("General.Terminal", 0)
+        gmsh.model.occ.addBox(0, 0, 0, 1, 1, 1)
+        gmsh.model.occ.addBox(0, 0, 1, 1, 1, 1)
+        gmsh.model.occ.fragment([(3, 1)], [(3, 2)])
+        gmsh.model.occ.synchronize()
+        centres = {tag: gmsh.model.occ.getCenterOfMass(2, tag) for _, tag in gmsh.model.getEntities(2)}
+        wall = [tag for tag, centre in centres.items() if centre[0] < 0.01]
+        contact = [tag for tag, centre in centres.items() if abs(centre[2] - 1) < 0.01]
+        for dimension, tag, name, entities in ((3, 1, "steel", [1]), (3, 2, "air", [2]), (2, 5, "wall", wall),
+                                               (2, 6, "contact", contact), (2, 7, "low", wall[:1])):
+            gmsh.model.addPhysicalGroup(dimension, entities, tag)
+            gmsh.model.setPhysicalName(dimension, tag, name)
+        gmsh.option.setNumber("Mesh.SaveAll", 1)
+        gmsh.option.setNumber("Mesh.MeshSizeMin", 0.5)
+        gmsh.option.setNumber("Mesh.MeshSizeMax", 0.5)
+        gmsh.model.mesh.generate(3)
+        gmsh.write(path)
     finally:
         gmsh.finalize()
 

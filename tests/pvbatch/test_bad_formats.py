@@ -47,6 +47,7 @@ class BadFormats(unittest.TestCase):
         self.addCleanup(whole.cleanup)
         meshes.write_gmsh(driver.data("cylinder.brep"), whole.name)
         meshes.write_exodus(whole.name)
+        meshes.write_cgns(whole.name)
         mesh = meshio.gmsh.read(os.path.join(whole.name, "gmsh2text.msh"))
         meshio.write(os.path.join(whole.name, "meshio.meshb"), meshio.Mesh(mesh.points, mesh.cells))
 
@@ -77,6 +78,7 @@ class BadFormats(unittest.TestCase):
             ("cut.unv", part("order2.unv", 9000), "it is cut short: the last dataset has no end"),
             ("cut.bdf", part("order2.bdf", 9000), "the mesh has no cells"),
             ("text.med", "This is no mesh.\n", "malformed: Unable to"),
+            ("cut.cgns", part("gmsh.cgns", 9000), "malformed: Unable to"),
             ("lonely.foam", "", "there is no folder constant/polyMesh beside it"),
             ("broken.xdmf", "<Xdmf><Domain>", "malformed: "),
             ("lonely.xdmf", '<Xdmf><Domain><Grid><Topology TopologyType="Triangle"><DataItem Format="HDF">'

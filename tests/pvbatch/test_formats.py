@@ -63,6 +63,7 @@ class Formats(unittest.TestCase):
         meshes.write_dolfinx(cls.folder)
         meshes.write_plane(cls.folder)
         cls.exodus = meshes.write_exodus(cls.folder)
+        meshes.write_cgns(cls.folder)
         cls.coarse = meshio.gmsh.read(cls.path("gmsh2text.msh"))
         alone = "--no-boundary-cells"  # With them, .vtu files have names, which meshio cannot read.
         step = ["--steps", "1", "--method", "uniform", alone]
@@ -79,8 +80,8 @@ class Formats(unittest.TestCase):
         cls.output = cls.make(runs)
         os.makedirs(cls.path("case"))
         pairs = [("gmsh4binary.msh", "back.med"), ("back.med", "back.med.msh"), ("gmsh4binary.msh", "case"),
-                 ("case", "case.msh"), ("order2.msh", "order2_out.msh"), ("order2.unv", "order2.unv.vtu"),
-                 ("order2.unv.vtu", "order1.su2")]
+                 ("case", "case.msh"), ("gmsh.cgns", "cgns.msh"), ("order2.msh", "order2_out.msh"),
+                 ("order2.unv", "order2.unv.vtu"), ("order2.unv.vtu", "order1.su2")]
         runs = [[cls.path(mesh), CAD, "--steps", "0", "--output", cls.path(result)] for mesh, result in pairs]
         runs = [run if "case" in run[-1] else [*run, alone] for run in runs]
         runs += [[cls.path("out.xdmf"), CAD, "--steps", "0", "--quadratic", "--output", cls.path("curved.msh"), alone]]
@@ -235,7 +236,8 @@ class Formats(unittest.TestCase):
         expected = counted(self.coarse, "gmsh:physical")
         kinds = {3: "tetra", 2: "triangle", 1: "line"}
         groups = {name: expected[kinds[dimension]][tag] for name, (tag, dimension) in meshes.GROUPS.items()}
-        self.assertEqual(dict(self.groups_in_gmsh("back.med.msh").values()), groups)
+        for name in ("back.med.msh", "cgns.msh"):
+            self.assertEqual(dict(self.groups_in_gmsh(name).values()), groups)
         del groups["rim"]
         groups["Face_2"] = self.boundary_facets() - groups["wall"] - groups["ends"]
         groups["solid_body"] = groups.pop("solid body")

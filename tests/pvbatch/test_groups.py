@@ -9,6 +9,7 @@ import unittest
 
 import driver
 import gmsh
+import meshes
 import meshio
 import numpy as np
 
@@ -33,32 +34,6 @@ GRID           4              0.      0.    1.+0
 CTETRA         9       3       1       2       3       4
 ENDDATA
 """
-
-
-def write_boxes(path):
-    """Two boxes that share a face, of steel and air; "wall" is one side of both, "contact" between them, "low" also one
-    of the sides of "wall". The other facets are in no group."""
-    gmsh.initialize()
-    try:
-        gmsh.option.setNumber("General.Terminal", 0)
-        gmsh.model.occ.addBox(0, 0, 0, 1, 1, 1)
-        gmsh.model.occ.addBox(0, 0, 1, 1, 1, 1)
-        gmsh.model.occ.fragment([(3, 1)], [(3, 2)])
-        gmsh.model.occ.synchronize()
-        centres = {tag: gmsh.model.occ.getCenterOfMass(2, tag) for _, tag in gmsh.model.getEntities(2)}
-        wall = [tag for tag, centre in centres.items() if centre[0] < 0.01]
-        contact = [tag for tag, centre in centres.items() if abs(centre[2] - 1) < 0.01]
-        for dimension, tag, name, entities in ((3, 1, "steel", [1]), (3, 2, "air", [2]), (2, 5, "wall", wall),
-                                               (2, 6, "contact", contact), (2, 7, "low", wall[:1])):
-            gmsh.model.addPhysicalGroup(dimension, entities, tag)
-            gmsh.model.setPhysicalName(dimension, tag, name)
-        gmsh.option.setNumber("Mesh.SaveAll", 1)
-        gmsh.option.setNumber("Mesh.MeshSizeMin", 0.5)
-        gmsh.option.setNumber("Mesh.MeshSizeMax", 0.5)
-        gmsh.model.mesh.generate(3)
-        gmsh.write(path)
-    finally:
-        gmsh.finalize()
 
 
 def write_with_gmsh(source, paths, order):
@@ -119,7 +94,7 @@ class Groups(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(folder.cleanup)
         cls.folder = folder.name
-        write_boxes(cls.path("boxes.msh"))
+        meshes.write_boxes(cls.path("boxes.msh"))
         cls.plain = msh.read(cls.path("boxes.msh"))
         cls.mesh = on_cad(cls.plain)
         cls.expected = cls.counts(grouped(cls.mesh))

@@ -17,6 +17,7 @@ SIDES = {  # Corners of the sides of each of VTK's types of cells: normals outwa
     14: ((0, 1, 4), (1, 2, 4), (2, 3, 4), (0, 4, 3), (0, 3, 2, 1)),
 }
 CORNERS = {1: 1, 3: 2, 5: 3, 9: 4, 10: 4, 12: 8, 13: 6, 14: 5, 21: 2, 22: 3, 24: 4}  # Of the types, without mid nodes.
+FACET_TYPES = {2: 3, 3: 5, 4: 9}  # VTK's types of sides, by the number of corners.
 WIDTH = 4  # Most corners of a side.
 
 

@@ -5,11 +5,10 @@ import numpy as np
 from cadrefine.formats import BadFile
 from cadrefine.formats.grid import QUADRATIC, TYPES, Mesh
 from cadrefine.formats.groups import NAME, group_names, grouped
-from cadrefine.formats.sides import sides_of, tagged
+from cadrefine.formats.sides import FACET_TYPES, sides_of, tagged
 
 TAGS = "su2:tag"
 LINEAR = (3, 5, 9, 10, 12, 13, 14)  # SU2 numbers types of cells as VTK does.
-FACET_TYPES = {2: 3, 3: 5, 4: 9}  # By the number of corners.
 
 
 def read(path):
