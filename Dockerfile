@@ -19,7 +19,8 @@ LABEL org.opencontainers.image.version="0.1.0"
 LABEL org.opencontainers.image.licenses="BSD-3-Clause"
 COPY --from=build /usr/src/cadrefine/build/cadrefine_*.deb /tmp/
 RUN apt-get update \
-  && apt-get install --yes --no-install-recommends /tmp/cadrefine_*.deb python3-matplotlib python3-meshio xvfb xauth \
+  && apt-get install --yes --no-install-recommends /tmp/cadrefine_*.deb python3-matplotlib python3-meshio python3-h5py \
+    python3-scipy xvfb xauth \
   && rm -rf /tmp/cadrefine_*.deb /var/lib/apt/lists/*
 RUN useradd --create-home cadrefine && install --directory --owner=cadrefine /work
 # As containers are: no network between ranks, more ranks than cores, ranks that may not read each other's memory.
