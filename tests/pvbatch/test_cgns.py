@@ -165,6 +165,8 @@ class CGNS(unittest.TestCase):
             (removed("Base"), "it holds no base"),
             (lambda file: file.copy("Base", "Second"), r"it holds 2 bases \(Base, Second\); save one alone"),
             (removed(ZONE), "the mesh has no cells"),
+            (lambda file: file[ZONE].create_dataset("Numbers", data=[1]), "Numbers is no node"),
+            (lambda file: file[ZONE].update(gone=h5py.SoftLink("/Base/nowhere")), "malformed: .*"),
             (removed(f"{ZONE}/ZoneType"), "Zone has no ZoneType"),
             (removed(f"{ZONE}/GridCoordinates"), "the zone Zone has no nodes"),
             (removed(f"{ZONE}/GridCoordinates/CoordinateX"), "GridCoordinates has no CoordinateX"),

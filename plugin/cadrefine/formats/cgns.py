@@ -60,7 +60,7 @@ def read(path):
     try:
         with h5py.File(path, "r") as file:
             return read_file(Node(file, "the file"))
-    except (OSError, RuntimeError, KeyError, ValueError, IndexError, TypeError) as error:  # Of h5py and numpy.
+    except (OSError, RuntimeError, LookupError, ValueError, TypeError, MemoryError) as error:  # Of h5py and numpy.
         raise BadFile(f"malformed: {' '.join(str(error).split())}") from None
 
 

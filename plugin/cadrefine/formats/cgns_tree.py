@@ -10,6 +10,8 @@ class Node:
 
     def __init__(self, group, name):
         self.name, self.group = name, group
+        if not hasattr(group, "keys"):
+            raise BadFile(f"{name} is no node")
         if text(group.attrs.get("type", "")) == "LK":
             try:
                 self.group = group[" link"]
@@ -18,7 +20,7 @@ class Node:
 
     def all(self, label):
         """The nodes in it that have the label, by name."""
-        found = [Node(group, name) for name, group in self.group.items() if not name.startswith(" ")]
+        found = [Node(self.group[name], name) for name in self.group if not name.startswith(" ")]
         return [node for node in found if text(node.group.attrs.get("label", "")) == label]
 
     def has(self, name):
@@ -33,7 +35,7 @@ class Node:
         """Throws BadFile where there is none."""
         if " data" not in self.group:
             raise BadFile(f"{self.name} is empty")
-        return self.group[" data"][()].ravel()
+        return np.ravel(self.group[" data"][()])
 
     def integers(self):
         return self.data().astype(int)
