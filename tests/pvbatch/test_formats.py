@@ -66,7 +66,8 @@ class Formats(unittest.TestCase):
         meshes.write_cgns(cls.folder)
         cls.coarse = meshio.gmsh.read(cls.path("gmsh2text.msh"))
         alone = "--no-boundary-cells"  # With them, .vtu files have names, which meshio cannot read.
-        step = ["--steps", "1", "--method", "uniform", alone]
+        same = ["--operations", "cut-only"]  # Cells can be counted.
+        step = ["--steps", "1", "--method", "uniform", *same, alone]
         names = [*TAGS, "all.msh", "gmsh.mesh", "gmsh.inp", "gmsh.su2", "meshio.vol", "dolfin.xdmf",
                  "exodus.ex2"]
         runs = [[cls.path(name), CAD, *step, "--output", cls.path(name + ".vtu")] for name in names]
@@ -82,9 +83,10 @@ class Formats(unittest.TestCase):
         pairs = [("gmsh4binary.msh", "back.med"), ("back.med", "back.med.msh"), ("gmsh4binary.msh", "case"),
                  ("case", "case.msh"), ("gmsh.cgns", "cgns.msh"), ("order2.msh", "order2_out.msh"),
                  ("order2.unv", "order2.unv.vtu"), ("order2.unv.vtu", "order1.su2")]
-        runs = [[cls.path(mesh), CAD, "--steps", "0", "--output", cls.path(result)] for mesh, result in pairs]
+        runs = [[cls.path(mesh), CAD, "--steps", "0", *same, "--output", cls.path(result)] for mesh, result in pairs]
         runs = [run if "case" in run[-1] else [*run, alone] for run in runs]
-        runs += [[cls.path("out.xdmf"), CAD, "--steps", "0", "--quadratic", "--output", cls.path("curved.msh"), alone]]
+        runs += [[cls.path("out.xdmf"), CAD, "--steps", "0", "--quadratic", *same, "--output", cls.path("curved.msh"),
+                  alone]]
         cls.output += cls.make(runs)
 
     @classmethod
