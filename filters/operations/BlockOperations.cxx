@@ -558,11 +558,12 @@ std::vector<int> ranksOfBlocks(
 }
 
 OperationTrace operateOnBlocks(RankExchange& exchange, DistributedMesh& mesh,
-  Classification& classification, const ClassifiedBoundary& boundary, const OperationBlocks& blocks,
-  const CellLabels& labels, const ImprovementLimits& limits, const ParallelFor& parallelFor)
+  Classification& classification, const ClassifiedBoundary& boundary, const OperationTask& task,
+  const ParallelFor& parallelFor)
 {
-  const auto ofVertices = blocksOfVertices(exchange, mesh, blocks.ofCells);
-  const auto [members, others] = findMembers(mesh, blocks.ofCells, ofVertices, boundary.boundary);
+  const auto ofVertices = blocksOfVertices(exchange, mesh, task.blocks.ofCells);
+  const auto [members, others] =
+    findMembers(mesh, task.blocks.ofCells, ofVertices, boundary.boundary);
   const SurfaceRule rule(boundary.projector);
   std::vector<std::pair<std::int64_t, const Members*>> list;
   for (const auto& [number, ofBlock] : members)
@@ -570,7 +571,7 @@ OperationTrace operateOnBlocks(RankExchange& exchange, DistributedMesh& mesh,
     list.emplace_back(number, &ofBlock);
   }
   std::vector<BlockMesh> meshes(
-    list.size(), BlockMesh(mesh, ofVertices, classification, boundary, labels));
+    list.size(), BlockMesh(mesh, ofVertices, classification, boundary, task.labels));
   std::vector<ImprovementResult> results(list.size());
   agreeOnFailure(exchange,
     [&]
@@ -579,7 +580,7 @@ OperationTrace operateOnBlocks(RankExchange& exchange, DistributedMesh& mesh,
         [&](std::size_t i)
         {
           meshes[i].fill(*list[i].second, mesh.converted.cellIds[3]);
-          results[i] = improveCells(meshes[i].mesh(), &rule, limits);
+          results[i] = improveCells(meshes[i].mesh(), &rule, task.limits);
         });
     });
 
@@ -593,7 +594,7 @@ OperationTrace operateOnBlocks(RankExchange& exchange, DistributedMesh& mesh,
   }
   trace.counts = sum(exchange, trace.counts);
   SimplexMesh made = maker.make(trace.cells.firstChildren);
-  numberNewVertices(exchange, maker.blocks(), blocks.sizes.size(), mesh, made.ids);
+  numberNewVertices(exchange, maker.blocks(), task.blocks.sizes.size(), mesh, made.ids);
   mesh.converted.cellIds = numberChildren(exchange, mesh, trace.cells.firstChildren);
   trace.cells.parentEdges = maker.parents();
   const std::size_t oldCount = mesh.mesh().points.size();

@@ -52,6 +52,14 @@ struct CellLabels
   std::vector<Index> ofTriangles;
 };
 
+/// What is to be done.
+struct OperationTask
+{
+  const OperationBlocks& blocks; ///< Each on one rank: see ranksOfBlocks.
+  const CellLabels& labels;
+  ImprovementLimits limits;
+};
+
 /// What operations made of a mesh: it was refined (though some cells have no children), and of the
 /// vertices then these are left.
 struct OperationTrace
@@ -65,10 +73,10 @@ struct OperationTrace
 /// others, or with cells that stay, in place. A vertex of `classification` that has a distance from
 /// the CAD is wanted at its place there; new ones are given theirs. New cells have ids in the order
 /// of their parents', new vertices by the order of the blocks: all is the same on any number of
-/// ranks. Each block has to be on one rank (see ranksOfBlocks). Collective; messages: 16 bytes a
-/// shared vertex, one reduction of 8 bytes a block, and the numbering of cells (see denseOffsets).
+/// ranks. Collective; messages: 16 bytes a shared vertex, one reduction of 8 bytes a block, and the
+/// numbering of cells (see denseOffsets).
 OperationTrace operateOnBlocks(RankExchange& exchange, DistributedMesh& mesh,
-  Classification& classification, const ClassifiedBoundary& boundary, const OperationBlocks& blocks,
-  const CellLabels& labels, const ImprovementLimits& limits, const ParallelFor& parallelFor);
+  Classification& classification, const ClassifiedBoundary& boundary, const OperationTask& task,
+  const ParallelFor& parallelFor);
 
 } // namespace cadrefine

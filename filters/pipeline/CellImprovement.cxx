@@ -190,9 +190,10 @@ private:
     const CellLabels labels{ labelsOf(state_.arrays.ofCells, firstCellOfDimension(mesh(), 3),
                                mesh().tetrahedra.size()),
       labelsOf(state_.arrays.ofCells, firstCellOfDimension(mesh(), 2), mesh().triangles.size()) };
-    OperationTrace trace =
-      operateOnBlocks(exchange_, state_.mesh, *state_.classification, boundary, blocks, labels,
-        { std::max(options_.minimumQuality, aim), options_.minimumQuality }, state_.parallelFor);
+    const OperationTask task{ blocks, labels,
+      { std::max(options_.minimumQuality, aim), options_.minimumQuality } };
+    OperationTrace trace = operateOnBlocks(
+      exchange_, state_.mesh, *state_.classification, boundary, task, state_.parallelFor);
     meshHasChanged(state_);
     state_.onBoundary.clear();
     state_.arrays = refineArrays(state_.arrays, trace.cells.parentEdges, trace.cells.firstChildren);

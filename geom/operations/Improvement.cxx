@@ -227,6 +227,7 @@ private:
   std::vector<LabelledSimplex<4>> cellsOf(const std::vector<Index>& numbers) const
   {
     std::vector<LabelledSimplex<4>> cells;
+    cells.reserve(numbers.size());
     for (const Index number : numbers)
     {
       cells.push_back(mesh_.cells()[number]);

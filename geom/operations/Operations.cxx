@@ -66,6 +66,7 @@ struct Ring
 Ring ringOf(const EditableMesh& mesh, const std::vector<Index>& cells, Index a, Index b)
 {
   std::vector<std::array<Index, 2>> links;
+  links.reserve(cells.size());
   for (const Index cell : cells)
   {
     links.push_back(acrossEdge(mesh.cells()[cell].corners, a, b));
