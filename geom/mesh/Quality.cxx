@@ -17,8 +17,7 @@ Vector3 twofoldAreaVector(const Point3& a, const Point3& b, const Point3& c)
 
 double meanRatio(const Point3& a, const Point3& b, const Point3& c, const Point3& d)
 {
-  const double lengths = squaredNorm(b - a) + squaredNorm(c - a) + squaredNorm(d - a) +
-                         squaredNorm(c - b) + squaredNorm(d - b) + squaredNorm(d - c);
+  const double lengths = squaredEdgeLengths(a, b, c, d);
   const double threefoldVolume = sixfoldVolume(a, b, c, d) / 2;
   const double root = std::cbrt(threefoldVolume);
   return lengths > 0 ? std::copysign(12 * root * root / lengths, threefoldVolume) : 0;

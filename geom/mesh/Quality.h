@@ -16,6 +16,13 @@ double sixfoldVolume(const Point3& a, const Point3& b, const Point3& c, const Po
 /// Twice the area times the unit normal.
 Vector3 twofoldAreaVector(const Point3& a, const Point3& b, const Point3& c);
 
+/// Sum of the squared lengths of the six edges.
+inline double squaredEdgeLengths(const Point3& a, const Point3& b, const Point3& c, const Point3& d)
+{
+  return squaredNorm(b - a) + squaredNorm(c - a) + squaredNorm(d - a) + squaredNorm(c - b) +
+         squaredNorm(d - b) + squaredNorm(d - c);
+}
+
 /// Mean ratio, signed: 12 (3 V)^(2/3) / sum of squared edge lengths; 1 for the equilateral
 /// tetrahedron, 0 for a flat one, negative for an inverted one. (A. Liu, B. Joe, "Relationship
 /// between tetrahedron shape measures", BIT 34, 1994, eq. 2.4.)

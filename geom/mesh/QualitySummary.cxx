@@ -31,8 +31,7 @@ class Summary
 public:
   void add(const Point3& a, const Point3& b, const Point3& c, const Point3& d)
   {
-    const double lengths = squaredNorm(b - a) + squaredNorm(c - a) + squaredNorm(d - a) +
-                           squaredNorm(c - b) + squaredNorm(d - b) + squaredNorm(d - c);
+    const double lengths = squaredEdgeLengths(a, b, c, d);
     const double cube = lengths * lengths * lengths;
     const double half = sixfoldVolume(a, b, c, d) / 2;
     const double part = half * half;

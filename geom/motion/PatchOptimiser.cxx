@@ -13,9 +13,6 @@ namespace cadrefine
 namespace
 {
 
-/// Cells of a smaller measure are regularised: below 0.016 of mean ratio for tetrahedra. Some times
-/// more blurs the border between valid and inverted, and less freezes tangled vertices.
-constexpr double smallMeasure = 0.002;
 /// Parts of Newton's step.
 constexpr double shortestStep = 1.0 / 32;
 constexpr double longestStep = 8;
@@ -199,10 +196,9 @@ double PatchOptimiser::smallestMeasure() const
   return smallest;
 }
 
-/// delta is that of Escobar et al., in terms of the size of a cell.
 void PatchOptimiser::beginSweep(double smallest)
 {
-  delta_ = smallest < smallMeasure ? std::sqrt(smallMeasure * (smallMeasure - smallest)) : 0;
+  delta_ = regularisation(smallest);
   std::fill(done_.begin(), done_.end(), 0);
 }
 

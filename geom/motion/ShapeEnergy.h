@@ -73,6 +73,10 @@ private:
   std::vector<Term> terms_;
 };
 
+/// delta for cells of which this is the smallest measure (1: equilateral, negative: inverted), in
+/// terms of the size of a cell; 0 where none is nearly flat.
+double regularisation(double smallestMeasure);
+
 /// The measure s (see ShapeEnergy) of the equilateral cell with this sum of squared edge lengths.
 double equilateralMeasure(int dimension, double squaredLengths);
 

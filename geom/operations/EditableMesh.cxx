@@ -12,12 +12,6 @@ namespace cadrefine
 namespace
 {
 
-template<std::size_t Corners>
-bool has(const std::array<Index, Corners>& corners, Index vertex)
-{
-  return std::find(corners.begin(), corners.end(), vertex) != corners.end();
-}
-
 /// Of segments that are not listed.
 constexpr Index ownLabel = -1;
 
@@ -87,7 +81,7 @@ std::vector<Index> SimplexStore<Corners>::at(Index a, Index b) const
 {
   std::vector<Index> result;
   std::copy_if(at_[a].begin(), at_[a].end(), std::back_inserter(result),
-    [&](Index simplex) { return has(simplices_[simplex].corners, b); });
+    [&](Index simplex) { return hasCorner(simplices_[simplex].corners, b); });
   return result;
 }
 
@@ -165,14 +159,17 @@ bool EditableMesh::hasFacet(const std::array<Index, 3>& corners) const
   const std::vector<Index>& list = facets_.at(corners[0]);
   return std::any_of(list.begin(), list.end(),
     [&](Index facet)
-    { return has(facets_[facet].corners, corners[1]) && has(facets_[facet].corners, corners[2]); });
+    {
+      return hasCorner(facets_[facet].corners, corners[1]) &&
+             hasCorner(facets_[facet].corners, corners[2]);
+    });
 }
 
 Index EditableMesh::segmentOf(Index a, Index b) const
 {
   const std::vector<Index>& list = segments_.at(a);
-  const auto found = std::find_if(
-    list.begin(), list.end(), [&](Index segment) { return has(segments_[segment].corners, b); });
+  const auto found = std::find_if(list.begin(), list.end(),
+    [&](Index segment) { return hasCorner(segments_[segment].corners, b); });
   return found == list.end() ? -1 : *found;
 }
 

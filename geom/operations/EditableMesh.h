@@ -4,6 +4,7 @@
 #include <cadrefine/base/EntityId.h>
 #include <cadrefine/mesh/SimplexMesh.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -19,6 +20,12 @@ struct LabelledSimplex
   Index label = 0;   ///< What lies on either side of a change of labels stays apart.
   Index parent = -1; ///< Of the mesh that was there at first; -1: none.
 };
+
+template<std::size_t Corners>
+bool hasCorner(const std::array<Index, Corners>& corners, Index vertex)
+{
+  return std::find(corners.begin(), corners.end(), vertex) != corners.end();
+}
 
 /// What an operation takes out of a mesh, and what it puts there.
 struct Cavity

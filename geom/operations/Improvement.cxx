@@ -1,11 +1,10 @@
 #include <cadrefine/operations/Improvement.h>
 
 #include <cadrefine/mesh/Quality.h>
-#include <cadrefine/motion/ShapeEnergy.h>
 #include <cadrefine/operations/Operations.h>
+#include <cadrefine/operations/Relocation.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <unordered_map>
 #include <utility>
@@ -17,117 +16,8 @@ namespace
 
 /// What the worst cell must gain, of what it lacks.
 constexpr double leastGain = 0.01;
-/// As PatchOptimiser's.
-constexpr double smallMeasure = 0.002;
-constexpr int newtonSteps = 4;
 constexpr int longestDetour = 20; ///< Operations.
 constexpr int mostPasses = 10;
-constexpr double shortestStep = 1.0 / 8;
-
-using Cells = std::vector<std::array<Index, 4>>;
-
-/// Of the cells at a vertex, as a function of where that is.
-class Star
-{
-public:
-  Star(const EditableMesh& mesh, Index vertex, const Cells& cells)
-    : mesh_(mesh), vertex_(vertex), cells_(cells)
-  {
-  }
-
-  /// The smallest quality with the vertex there; -2 where a cell is invalid.
-  double worstAt(EditableMesh& mesh, const Point3& point) const
-  {
-    mesh.moveVertex(vertex_, point);
-    double worst = std::numeric_limits<double>::infinity();
-    for (const auto& cell : cells_)
-    {
-      if (!mesh.isValid(cell))
-      {
-        return -2;
-      }
-      worst = std::min(worst, mesh.quality(cell));
-    }
-    return worst;
-  }
-
-  ShapeEnergy energy() const
-  {
-    double smallest = 1;
-    std::vector<double> sizes;
-    for (const auto& cell : cells_)
-    {
-      sizes.push_back(equilateralMeasure(3, squaredLengths(cell)));
-      const double measure = sixfoldVolume(at(cell[0]), at(cell[1]), at(cell[2]), at(cell[3]));
-      smallest = sizes.back() > 0 ? std::min(smallest, measure / sizes.back()) : smallest;
-    }
-    const double delta =
-      smallest < smallMeasure ? std::sqrt(smallMeasure * (smallMeasure - smallest)) : 0;
-    ShapeEnergy energy(3);
-    for (std::size_t c = 0; c < cells_.size(); ++c)
-    {
-      const auto& cell = cells_[c];
-      const auto& face =
-        tetrahedronFaces[std::find(cell.begin(), cell.end(), vertex_) - cell.begin()];
-      energy.addTetrahedron(
-        at(cell[face[0]]), at(cell[face[2]]), at(cell[face[1]]), delta * sizes[c]);
-    }
-    return energy;
-  }
-
-private:
-  const Point3& at(Index v) const { return mesh_.vertex(v).wanted; }
-
-  double squaredLengths(const std::array<Index, 4>& cell) const
-  {
-    double sum = 0;
-    for (const auto& [i, j] : tetrahedronEdges)
-    {
-      sum += squaredNorm(at(cell[i]) - at(cell[j]));
-    }
-    return sum;
-  }
-
-  const EditableMesh& mesh_;
-  Index vertex_;
-  const Cells& cells_;
-};
-
-/// Moves a vertex inside the mesh to where the worst of these cells, all that are to be at it, is
-/// better. Returns that one's quality.
-double relocate(EditableMesh& mesh, Index vertex, const Cells& cells)
-{
-  const Star star(mesh, vertex, cells);
-  Point3 best = mesh.vertex(vertex).point;
-  double worst = star.worstAt(mesh, best);
-  for (int k = 0; k < newtonSteps; ++k)
-  {
-    const ShapeEnergy energy = star.energy();
-    if (!std::isfinite(energy.at(best)))
-    {
-      break;
-    }
-    const Vector3 step = energy.step(best, Directions::everywhere());
-    const Point3 from = best;
-    for (double length = 1; length >= shortestStep && best == from && step != Vector3{};
-         length *= 0.5)
-    {
-      const Point3 next = from + length * step;
-      const double there = star.worstAt(mesh, next);
-      if (there > worst)
-      {
-        worst = there;
-        best = next;
-      }
-    }
-    mesh.moveVertex(vertex, best);
-    if (best == from)
-    {
-      break;
-    }
-  }
-  return worst;
-}
 
 class Improver
 {
@@ -211,8 +101,7 @@ private:
   }
 
   /// Of these cells.
-  template<class Cells>
-  void noteChange(const Cells& cells)
+  void noteChange(const std::vector<LabelledSimplex<4>>& cells)
   {
     changes_.resize(std::max(changes_.size(), mesh_.vertexCount()), 0);
     for (const auto& cell : cells)
@@ -367,7 +256,7 @@ private:
     }
     const Point3 start = mesh_.vertex(vertex).point;
     const double before = mesh_.worst(mesh_.cells().at(vertex));
-    Cells cells;
+    Simplices<4> cells;
     for (const Index cell : mesh_.cells().at(vertex))
     {
       cells.push_back(mesh_.cells()[cell].corners);
@@ -498,7 +387,7 @@ private:
       vertex.entity = added.where.entity;
     }
     mesh_.setVertex(middle_, vertex);
-    Cells cells;
+    Simplices<4> cells;
     for (const auto& cell : cavity_.newCells)
     {
       cells.push_back(cell.corners);

@@ -12,12 +12,6 @@ namespace
 constexpr double impossible = -std::numeric_limits<double>::infinity();
 
 template<std::size_t Corners>
-bool has(const std::array<Index, Corners>& corners, Index vertex)
-{
-  return std::find(corners.begin(), corners.end(), vertex) != corners.end();
-}
-
-template<std::size_t Corners>
 std::array<Index, Corners> withCorner(std::array<Index, Corners> corners, Index from, Index to)
 {
   std::replace(corners.begin(), corners.end(), from, to);
@@ -240,7 +234,7 @@ void collapse(const SimplexStore<Corners>& store, Index from, Index to, std::vec
   for (const Index simplex : removed)
   {
     LabelledSimplex<Corners> next = store[simplex];
-    if (!has(next.corners, to))
+    if (!hasCorner(next.corners, to))
     {
       next.corners = withCorner(next.corners, from, to);
       added.push_back(next);
@@ -295,7 +289,7 @@ bool proposeEdgeRemoval(const EditableMesh& mesh, Index a, Index b, Cavity& cavi
     }
     const auto& one = mesh.facets()[cavity.facets[0]];
     const auto& other = mesh.facets()[cavity.facets[1]];
-    const bool isFirst = has(one.corners, first);
+    const bool isFirst = hasCorner(one.corners, first);
     cavity.newFacets = { { { first, b, last }, one.label, isFirst ? one.parent : other.parent },
       { { first, last, a }, one.label, isFirst ? other.parent : one.parent } };
   }
@@ -325,15 +319,15 @@ bool proposeFaceRemoval(const EditableMesh& mesh, Index cell, int corner, Cavity
     face.begin(), [&](int k) { return corners[k]; });
   const std::vector<Index> around = mesh.cells().at(face[0], face[1]);
   const auto beyond = std::find_if(around.begin(), around.end(),
-    [&](Index c) { return c != cell && has(mesh.cells()[c].corners, face[2]); });
+    [&](Index c) { return c != cell && hasCorner(mesh.cells()[c].corners, face[2]); });
   if (beyond == around.end() || mesh.cells()[*beyond].label != mesh.cells()[cell].label ||
       mesh.hasFacet(face))
   {
     return false;
   }
   const auto& others = mesh.cells()[*beyond].corners;
-  const Index apex =
-    *std::find_if(others.begin(), others.end(), [&](Index vertex) { return !has(face, vertex); });
+  const Index apex = *std::find_if(
+    others.begin(), others.end(), [&](Index vertex) { return !hasCorner(face, vertex); });
   cavity.cells = { cell, *beyond };
   for (int k = 0; k < 3; ++k)
   {

@@ -32,41 +32,48 @@ SurfaceRule::Fit SurfaceRule::fitOf(
   fit.distance = ClassificationTolerances::leastExact * projector_.model().size();
   for (const Index facet : facets)
   {
-    const auto& corners = mesh.facets()[facet].corners;
-    widen(mesh, corners, fit);
+    widen(mesh, mesh.facets()[facet].corners, fit);
   }
   return fit;
 }
 
-bool SurfaceRule::follows(
-  const EditableMesh& mesh, const std::array<Index, 3>& facet, const Fit& before) const
+bool SurfaceRule::isOnCAD(const EditableMesh& mesh, const std::array<Index, 3>& facet) const
 {
-  const Vector3 normal = normalOf(mesh, facet);
-  if (std::none_of(before.normals.begin(), before.normals.end(),
-        [&](const Vector3& other) { return dot(normal, other) >= turnCosine; }))
-  {
-    return false;
-  }
   ClassifiedFacet onCAD{};
   for (int k = 0; k < 3; ++k)
   {
     onCAD.points[k] = mesh.vertex(facet[k]).wanted;
     onCAD.entities[k] = mesh.vertex(facet[k]).entity;
   }
-  if (!projector_.isOnCAD(onCAD))
-  {
-    return false;
-  }
-  Fit fit;
-  widen(mesh, facet, fit);
-  return fit.distance <= before.distance && fit.cosine >= std::min(turnCosine, before.cosine);
+  return projector_.isOnCAD(onCAD);
 }
 
 bool SurfaceRule::accepts(const EditableMesh& mesh, const Cavity& cavity) const
 {
+  const auto turnsLittle = [&](const LabelledSimplex<3>& facet)
+  {
+    const Vector3 normal = normalOf(mesh, facet.corners);
+    return std::any_of(cavity.facets.begin(), cavity.facets.end(),
+      [&](Index old)
+      { return dot(normal, normalOf(mesh, mesh.facets()[old].corners)) >= turnCosine; });
+  };
+  // What costs least comes first.
+  if (!std::all_of(cavity.newFacets.begin(), cavity.newFacets.end(), turnsLittle))
+  {
+    return false;
+  }
   const Fit before = fitOf(mesh, cavity.facets);
   return std::all_of(cavity.newFacets.begin(), cavity.newFacets.end(),
-    [&](const auto& facet) { return follows(mesh, facet.corners, before); });
+    [&](const auto& facet)
+    {
+      if (!isOnCAD(mesh, facet.corners))
+      {
+        return false;
+      }
+      Fit fit;
+      widen(mesh, facet.corners, fit);
+      return fit.distance <= before.distance && fit.cosine >= std::min(turnCosine, before.cosine);
+    });
 }
 
 /// Makes the fit that of another facet, too.
@@ -74,7 +81,7 @@ void SurfaceRule::widen(const EditableMesh& mesh, const std::array<Index, 3>& fa
 {
   const std::array<Point3, 3> p{ mesh.vertex(facet[0]).wanted, mesh.vertex(facet[1]).wanted,
     mesh.vertex(facet[2]).wanted };
-  fit.normals.push_back(normalOf(mesh, facet));
+  const Vector3 normal = normalOf(mesh, facet);
   for (const Point3& point : { (1.0 / 3) * (p[0] + p[1] + p[2]), 0.5 * (p[0] + p[1]),
          0.5 * (p[1] + p[2]), 0.5 * (p[2] + p[0]) })
   {
@@ -82,8 +89,8 @@ void SurfaceRule::widen(const EditableMesh& mesh, const std::array<Index, 3>& fa
     fit.distance = std::max(fit.distance, distance(point, where.point));
     if (where.entity.dimension == 2)
     {
-      const Vector3 normal = projector_.model().normal(where.entity.index, where.parameters);
-      fit.cosine = std::min(fit.cosine, std::abs(dot(fit.normals.back(), normal)));
+      const Vector3 ofCAD = projector_.model().normal(where.entity.index, where.parameters);
+      fit.cosine = std::min(fit.cosine, std::abs(dot(normal, ofCAD)));
     }
   }
 }

@@ -20,20 +20,16 @@ public:
   /// How well facets follow the CAD.
   struct Fit
   {
-    std::vector<Vector3> normals;
     double distance = 0; ///< Largest, of the middle of an edge or a centroid from the CAD.
     double cosine = 1;   ///< Smallest, between a facet's normal and the CAD's at these points.
   };
   /// Work: 4 projections a facet.
   Fit fitOf(const EditableMesh& mesh, const std::vector<Index>& facets) const;
 
-  /// Whether a facet follows the CAD as well as those did: it is classified as on the CAD, its
-  /// normal makes no more than 40 degrees with one of theirs, and with those of the CAD at its
-  /// centroid and the middles of its edges, unless theirs do; and none of these points is farther
-  /// from the CAD. Work: up to 4 projections.
-  bool follows(
-    const EditableMesh& mesh, const std::array<Index, 3>& facet, const Fit& before) const;
-  /// The same of all new facets of a cavity.
+  /// Whether the new facets of a cavity follow the CAD as well as those before: each is classified
+  /// as on the CAD; its normal makes no more than 40 degrees with one of theirs, and with those of
+  /// the CAD at its centroid and the middles of its edges, unless theirs do; and none of these
+  /// points is farther from the CAD. Work: up to 4 projections a facet.
   bool accepts(const EditableMesh& mesh, const Cavity& cavity) const;
 
   /// The place on the CAD of the middle of an edge of facets, between its ends where they are
@@ -41,6 +37,7 @@ public:
   ClosestPoint placeOfMiddle(const EditableMesh& mesh, Index a, Index b) const;
 
 private:
+  bool isOnCAD(const EditableMesh& mesh, const std::array<Index, 3>& facet) const;
   void widen(const EditableMesh& mesh, const std::array<Index, 3>& facet, Fit& fit) const;
 
   const BoundaryProjector& projector_;
