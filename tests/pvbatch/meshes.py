@@ -5,10 +5,15 @@ import subprocess
 import sys
 
 import cgns_files
+import driver
 import gmsh
 import meshio
 import numpy as np
 from scipy.io import netcdf_file
+
+sys.path.insert(0, os.path.join(driver.ROOT, "plugin"))
+
+from cadrefine.formats.groups import members
 
 BODY, WALL, ENDS, RIM = 10, 20, 21, 30  # Tags of the physical groups.
 GROUPS = {"solid body": (BODY, 3), "wall": (WALL, 2), "ends": (ENDS, 2), "rim": (RIM, 1)}
@@ -65,6 +70,11 @@ with XDMFFile(MPI.COMM_WORLD, sys.argv[1] + "/dolfinx.xdmf", "w") as file:
     file.write_meshtags(tags_of("below", 2, (lambda x: np.isclose(x[2], 0), 1)), *geometry)
     file.write_meshtags(tags_of("above", 2, (lambda x: np.isclose(x[2], 1), 2)), *geometry)
 """
+
+
+def counts(mesh):
+    """{(name, dimension): number of cells}."""
+    return {(name, dimension): int(members(mesh, name).sum()) for name, (_, dimension) in mesh.groups.items()}
 
 
 def write_gmsh(cad, folder):

@@ -24,11 +24,6 @@ TETRAHEDRON = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
 CELL, SIDES = np.array([[0, 1, 2, 3]]), np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
 
 
-def counts(mesh):
-    """{(name, dimension): number of cells}."""
-    return {(name, dimension): int(members(mesh, name).sum()) for name, (_, dimension) in mesh.groups.items()}
-
-
 class CGNS(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -37,7 +32,7 @@ class CGNS(unittest.TestCase):
         cls.folder = folder.name
         meshes.write_boxes(cls.path("boxes.msh"))
         cls.mesh = msh.read(cls.path("boxes.msh"))
-        cls.expected = counts(grouped(cls.mesh))
+        cls.expected = meshes.counts(grouped(cls.mesh))
 
     @classmethod
     def path(cls, name):
@@ -47,7 +42,7 @@ class CGNS(unittest.TestCase):
         """A facet that is in two groups comes in both."""
         cgns_files.write_as_gmsh(self.path("gmsh.cgns"), self.mesh)
         mesh = once(cgns.read(self.path("gmsh.cgns")))
-        self.assertEqual(counts(grouped(mesh)), self.expected)
+        self.assertEqual(meshes.counts(grouped(mesh)), self.expected)
         self.assertIn(("low", 2), self.expected)
         np.testing.assert_array_equal(mesh.points, self.mesh.points)
         cells = np.concatenate([corners for kind, corners in mesh.blocks if kind == 10])
@@ -58,7 +53,7 @@ class CGNS(unittest.TestCase):
         if "Cgns" not in meshes.build_options():
             self.skipTest("this gmsh does not write CGNS")
         meshes.write_boxes(self.path("itself.cgns"))
-        found = counts(grouped(once(cgns.read(self.path("itself.cgns")))))
+        found = meshes.counts(grouped(once(cgns.read(self.path("itself.cgns")))))
         self.assertLessEqual(self.expected.items(), found.items())
 
     def write_zones(self, path):
@@ -84,7 +79,7 @@ class CGNS(unittest.TestCase):
     def test_zones_and_families(self):
         self.write_zones(self.path("zones.cgns"))
         mesh = once(cgns.read(self.path("zones.cgns")))
-        found = counts(grouped(mesh))
+        found = meshes.counts(grouped(mesh))
         wall = self.expected["wall", 2]
         self.assertEqual(found, {("wall", 2): wall, ("lower wall", 2): wall // 2, ("upper wall", 2): wall // 2,
                                  ("solid", 3): self.expected["steel", 3], ("upper", 3): self.expected["air", 3]})
@@ -107,10 +102,10 @@ class CGNS(unittest.TestCase):
         sections = [("Volume", 10, CELL), ("floor", 5, SIDES[:1]), ("others", 5, SIDES[1:])]
         cgns_files.write_by_hand(self.path("sections.cgns"), TETRAHEDRON, sections)
         mesh = cgns.read(self.path("sections.cgns"))
-        self.assertEqual(counts(grouped(mesh)), {("floor", 2): 1, ("others", 2): 3})
+        self.assertEqual(meshes.counts(grouped(mesh)), {("floor", 2): 1, ("others", 2): 3})
         cgns_files.write_by_hand(self.path("listed.cgns"), TETRAHEDRON, sections, [("left", "FaceCenter", [3, 5])])
         mesh = cgns.read(self.path("listed.cgns"))
-        self.assertEqual(counts(grouped(mesh)), {("floor", 2): 1, ("left", 2): 2})
+        self.assertEqual(meshes.counts(grouped(mesh)), {("floor", 2): 1, ("left", 2): 2})
 
     def test_conditions_on_nodes(self):
         """They have the facets between their nodes, whether these are in the file or not."""
@@ -119,7 +114,7 @@ class CGNS(unittest.TestCase):
             path = self.path("nodes.cgns")
             cgns_files.write_by_hand(path, TETRAHEDRON, [("Volume", 10, CELL), *facets], conditions)
             mesh = cgns.read(path)
-            self.assertEqual(counts(grouped(mesh)), {("floor", 2): 1})
+            self.assertEqual(meshes.counts(grouped(mesh)), {("floor", 2): 1})
             self.assertEqual((mesh.cell_dimensions() == 2).sum(), 4)
             facets = np.concatenate([corners for kind, corners in mesh.blocks if kind == 5])
             self.assertEqual(set(facets[members(mesh, "floor")[mesh.cell_dimensions() == 2]].ravel()), {0, 1, 2})
@@ -128,13 +123,13 @@ class CGNS(unittest.TestCase):
         cgns_files.write_by_hand(self.path("same.cgns"), TETRAHEDRON, [("Volume", 10, CELL), ("all", 5, SIDES)],
                                  [("body", "CellCenter", [1, 2, 3])])
         mesh = cgns.read(self.path("same.cgns"))
-        self.assertEqual(counts(grouped(mesh)), {("body", 3): 1, ("body of dimension 2", 2): 2})
+        self.assertEqual(meshes.counts(grouped(mesh)), {("body", 3): 1, ("body of dimension 2", 2): 2})
 
     def test_in_the_plane(self):
         cgns_files.write_by_hand(self.path("plane.cgns"), TETRAHEDRON[:3, :2],
                                  [("Elements", 5, SIDES[:1]), ("rim", 3, np.array([[0, 1], [1, 2]]))])
         mesh = cgns.read(self.path("plane.cgns"))
-        self.assertEqual(counts(grouped(mesh)), {("rim", 1): 2})
+        self.assertEqual(meshes.counts(grouped(mesh)), {("rim", 1): 2})
         np.testing.assert_array_equal(mesh.points, TETRAHEDRON[:3])
 
     def test_links(self):
@@ -189,7 +184,7 @@ class CGNS(unittest.TestCase):
         ]
         cgns_files.write_by_hand(self.path("good.cgns"), TETRAHEDRON, [("Volume", 10, CELL), ("facets", 5, SIDES)],
                                  [("wall", "FaceCenter", [2, 3])])
-        self.assertEqual(counts(grouped(cgns.read(self.path("good.cgns")))), {("wall", 2): 2})
+        self.assertEqual(meshes.counts(grouped(cgns.read(self.path("good.cgns")))), {("wall", 2): 2})
         for number, (change, reason) in enumerate(cases):
             path = shutil.copy(self.path("good.cgns"), self.path(f"bad{number}.cgns"))
             with h5py.File(path, "a") as file:

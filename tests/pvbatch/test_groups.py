@@ -17,7 +17,7 @@ sys.path.insert(0, os.path.join(driver.ROOT, "plugin"))
 
 from cadrefine.formats import BadFile, abaqus, exodus, exodus_writing, grid, med, msh, msh_writing, nastran, openfoam
 from cadrefine.formats import openfoam_writing, su2, unv, xdmf
-from cadrefine.formats.groups import grouped, members
+from cadrefine.formats.groups import grouped
 from cadrefine.formats.sides import once, sides_of
 from vtkmodules.vtkCommonCore import vtkStringArray
 
@@ -97,16 +97,11 @@ class Groups(unittest.TestCase):
         meshes.write_boxes(cls.path("boxes.msh"))
         cls.plain = msh.read(cls.path("boxes.msh"))
         cls.mesh = on_cad(cls.plain)
-        cls.expected = cls.counts(grouped(cls.mesh))
+        cls.expected = meshes.counts(grouped(cls.mesh))
 
     @classmethod
     def path(cls, name):
         return os.path.join(cls.folder, name)
-
-    @staticmethod
-    def counts(mesh):
-        """{(name, dimension): number of cells}."""
-        return {(name, dimension): int(members(mesh, name).sum()) for name, (_, dimension) in mesh.groups.items()}
 
     def test_groups_of_cad_faces(self):
         """Each facet is in a group: its own, or that of its face."""
@@ -144,10 +139,10 @@ class Groups(unittest.TestCase):
                 if version == "4.1":
                     self.assertEqual(groups_in_gmsh(path), self.expected)
                 back = msh.read(path)
-                self.assertEqual(self.counts(grouped(back)), self.expected)
+                self.assertEqual(meshes.counts(grouped(back)), self.expected)
                 np.testing.assert_array_equal(np.sort(back.points, axis=0), np.sort(self.mesh.points, axis=0))
                 msh_writing.write(path, alone, version, ascii)
-                self.assertEqual(groups_in_gmsh(path), self.counts(grouped(alone)))
+                self.assertEqual(groups_in_gmsh(path), meshes.counts(grouped(alone)))
 
     def facets(self):
         """{name: number of facets} of the groups on the boundary, each facet in one."""
@@ -161,7 +156,7 @@ class Groups(unittest.TestCase):
         su2.write(self.path("boxes.su2"), self.mesh)
         back = su2.read(self.path("boxes.su2"))
         expected = {(name.replace(" ", "_"), 2): count for name, count in self.facets().items() if name != "contact"}
-        self.assertEqual(self.counts(grouped(back)), expected)
+        self.assertEqual(meshes.counts(grouped(back)), expected)
         np.testing.assert_array_equal(back.points, self.mesh.points)
         with self.assertRaisesRegex(BadFile, "SU2 has no meshes of surfaces in space"):
             su2.write(self.path("surface.su2"), grid.Mesh(np.eye(3), [(5, np.array([[0, 1, 2]]))]))
@@ -170,14 +165,14 @@ class Groups(unittest.TestCase):
         """Also those that are no cells of the mesh are in a marker."""
         alone = grid.Mesh(self.mesh.points, [(1, np.array([[0]])), (3, np.array([[0, 1]])), *self.mesh.blocks[-1:]])
         su2.write(self.path("alone.su2"), alone)
-        self.assertEqual(self.counts(grouped(su2.read(self.path("alone.su2")))), {("boundary", 2): 10 * 14})
+        self.assertEqual(meshes.counts(grouped(su2.read(self.path("alone.su2")))), {("boundary", 2): 10 * 14})
 
     def test_abaqus(self):
         """Facets are sides of elements: in the file each is in all of its groups, and comes back once."""
         abaqus.write(self.path("boxes.inp"), self.mesh)
         back = once(abaqus.read(self.path("boxes.inp")))
         expected = {(name.replace(" ", "_"), dimension): count for (name, dimension), count in self.expected.items()}
-        self.assertEqual(self.counts(grouped(back)), expected)
+        self.assertEqual(meshes.counts(grouped(back)), expected)
         np.testing.assert_array_equal(back.points, self.mesh.points)
         solids = meshio.abaqus.read(self.path("boxes.inp"))
         self.assertEqual(sum(len(cells) for cells in solids.cell_sets["steel"]), self.expected["steel", 3])
@@ -185,13 +180,13 @@ class Groups(unittest.TestCase):
 
     def test_files_of_gmsh(self):
         """Of first and of second order. Nastran's have numbers of properties for names, one for each cell."""
-        named = self.counts(self.plain)
+        named = meshes.counts(self.plain)
         wall, contact, steel, air = (named[pair] for pair in (("wall", 2), ("contact", 2), ("steel", 3), ("air", 3)))
         for order in (1, 2):
             write_with_gmsh(self.path("boxes.msh"), [self.path(f"gmsh{order}{ending}") for ending in
                                                      (".unv", ".inp", ".bdf", ".nas")], order)
             for ending, reader in ((".unv", unv), (".inp", abaqus)):
-                found = self.counts(reader.read(self.path(f"gmsh{order}{ending}")))
+                found = meshes.counts(reader.read(self.path(f"gmsh{order}{ending}")))
                 self.assertEqual({name: count for name, count in found.items() if name in named}, named)
             for ending in (".bdf", ".nas"):  # With long fields, and free ones.
                 mesh = nastran.read(self.path(f"gmsh{order}{ending}"))
@@ -215,7 +210,7 @@ class Groups(unittest.TestCase):
     def test_med(self):
         med.write(self.path("boxes.med"), self.mesh)
         back = med.read(self.path("boxes.med"))
-        self.assertEqual(self.counts(grouped(back)), self.expected)
+        self.assertEqual(meshes.counts(grouped(back)), self.expected)
         np.testing.assert_array_equal(back.points, self.mesh.points)
         self.assertEqual(len(back.blocks), len(self.mesh.blocks))
         for (kind, corners), (_, expected) in zip(sorted(back.blocks, key=lambda block: block[0]), self.mesh.blocks):
@@ -237,7 +232,7 @@ class Groups(unittest.TestCase):
         """Names are where meshio reads them, in each of the grids."""
         xdmf.write(self.path("boxes.xdmf"), self.mesh)
         back = grid.from_grid(xdmf.read(self.path("boxes.xdmf")))
-        self.assertEqual(self.counts(grouped(back)), self.expected)
+        self.assertEqual(meshes.counts(grouped(back)), self.expected)
         alone = grid.Mesh(self.mesh.points, self.mesh.blocks[-1:], {},
                           {grid.PHYSICAL: self.mesh.cell_data[grid.PHYSICAL][self.mesh.cell_dimensions() == 3]},
                           {"steel": (1, 3), "air": (2, 3)})
@@ -262,7 +257,7 @@ class Groups(unittest.TestCase):
         back = grid.from_grid(grid.to_grid(openfoam.read(self.path("case"))))
         expected = {(name.replace(" ", "_"), 2): count for name, count in self.facets().items()}
         expected.update({(name, 3): self.expected[name, 3] for name in ("steel", "air")})
-        self.assertEqual(self.counts(grouped(back)), expected)
+        self.assertEqual(meshes.counts(grouped(back)), expected)
         np.testing.assert_array_equal(back.points, self.mesh.points)
         self.assertEqual({back.patch_types["wall"], back.patch_types["Face_1"]}, {"wall", "patch"})
         cells = back.blocks[-1][1]
