@@ -1,13 +1,15 @@
 #include "operations/BlockOperations.h"
 
 #include "comm/CollectiveErrors.h"
+#include "operations/BlockMesh.h"
+#include "operations/PieceMaker.h"
 #include "refinement/DistributedRefinement.h"
 
+#include <cadrefine/base/IndicesWhere.h>
 #include <cadrefine/motion/MoveGuard.h>
 
 #include <algorithm>
 #include <array>
-#include <iterator>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -53,7 +55,7 @@ std::vector<std::int64_t> blocksOfVertices(
   return result;
 }
 
-/// The cells of the lower dimension that have a vertex within a block.
+/// The block of a cell of lower dimension: that which one of its vertices is within.
 template<std::size_t Corners>
 std::int64_t blockOf(
   const std::array<Index, Corners>& corners, const std::vector<std::int64_t>& ofVertices)
@@ -67,281 +69,6 @@ std::int64_t blockOf(
   }
   return noBlock;
 }
-
-/// Numbers of things that belong to a block.
-struct Members
-{
-  std::vector<Index> cells;
-  std::vector<Index> facets; ///< Of the boundary.
-  std::vector<Index> triangles;
-  std::vector<Index> segments;
-};
-
-/// A block as a mesh of its own.
-class BlockMesh
-{
-public:
-  /// `blocksOfVertices`: negative for those that stay.
-  BlockMesh(const DistributedMesh& mesh, const std::vector<std::int64_t>& blocksOfVertices,
-    const Classification& classification, const ClassifiedBoundary& boundary,
-    const CellLabels& labels)
-    : mesh_(mesh.mesh()), blocksOfVertices_(blocksOfVertices), classification_(classification),
-      boundary_(boundary), labels_(labels)
-  {
-  }
-
-  void fill(const Members& members, const std::vector<GlobalId>& cellIds)
-  {
-    std::vector<Index> cells = members.cells;
-    std::sort(
-      cells.begin(), cells.end(), [&](Index a, Index b) { return cellIds[a] < cellIds[b]; });
-    for (const Index cell : cells)
-    {
-      const auto& corners = mesh_.tetrahedra[cell];
-      vertices_.insert(vertices_.end(), corners.begin(), corners.end());
-    }
-    std::sort(vertices_.begin(), vertices_.end(),
-      [&](Index a, Index b) { return mesh_.ids[a] < mesh_.ids[b]; });
-    vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
-    for (std::size_t v = 0; v < vertices_.size(); ++v)
-    {
-      numbers_.emplace(vertices_[v], static_cast<Index>(v));
-      block_.addVertex(vertexOf(vertices_[v]));
-    }
-    for (const Index cell : cells)
-    {
-      block_.addCell({ localCorners(mesh_.tetrahedra[cell]), labels_.ofTetrahedra[cell], cell });
-    }
-    addFacets(members);
-    addSegments(members);
-    block_.closeFacets();
-  }
-
-  EditableMesh& mesh() { return block_; }
-  /// Of the whole piece, by those here.
-  const std::vector<Index>& vertices() const { return vertices_; }
-
-private:
-  EditableMesh::Vertex vertexOf(Index v) const
-  {
-    EditableMesh::Vertex vertex{ mesh_.points[v], mesh_.points[v], classification_.entities[v],
-      classification_.entities[v].dimension == 0, blocksOfVertices_[v] < 0 };
-    if (classification_.distances[v] > 0)
-    {
-      vertex.wanted = boundary_.projector.nearestOn(vertex.entity, vertex.point).point;
-    }
-    return vertex;
-  }
-
-  template<std::size_t Corners>
-  std::array<Index, Corners> localCorners(std::array<Index, Corners> corners) const
-  {
-    for (Index& vertex : corners)
-    {
-      vertex = numbers_.at(vertex);
-    }
-    return corners;
-  }
-
-  template<std::size_t Corners>
-  static std::array<Index, Corners> sorted(std::array<Index, Corners> corners)
-  {
-    std::sort(corners.begin(), corners.end());
-    return corners;
-  }
-
-  /// In the order of their corners. Those that are not on the CAD, and listed ones inside the mesh,
-  /// have labels of their own, so that they stay.
-  void addFacets(const Members& members)
-  {
-    std::map<std::array<Index, 3>, LabelledSimplex<3>> facets;
-    for (const Index f : members.facets)
-    {
-      const auto corners = localCorners(boundary_.boundary.facets[f].vertices);
-      const bool onCAD = boundary_.classes.facets[f].onCAD != 0;
-      facets[sorted(corners)] = { corners, onCAD ? 0 : -2 - f, -1 };
-    }
-    for (const Index t : members.triangles)
-    {
-      const auto corners = localCorners(mesh_.triangles[t]);
-      const auto found = facets.find(sorted(corners));
-      if (found == facets.end())
-      {
-        const auto f = static_cast<Index>(boundary_.boundary.facets.size()) + t;
-        facets[sorted(corners)] = { corners, -2 - f, t };
-        continue;
-      }
-      found->second.parent = t;
-      found->second.label += found->second.label < 0 ? 0 : 1 + labels_.ofTriangles[t];
-    }
-    for (const auto& [key, facet] : facets)
-    {
-      block_.addFacet(facet);
-    }
-  }
-
-  void addSegments(const Members& members)
-  {
-    const EdgeList& edges = boundary_.boundary.edges;
-    std::map<std::array<Index, 2>, LabelledSimplex<2>> segments;
-    for (const Index f : members.facets)
-    {
-      for (const Index e : boundary_.boundary.facetEdges[f])
-      {
-        const EdgeClass& edgeClass = boundary_.classes.ofEdges[e];
-        if (edgeClass.kind != EdgeClass::Smooth)
-        {
-          const auto corners = sorted(localCorners(edges.edges()[e]));
-          const bool isOnEdge = edgeClass.kind == EdgeClass::OnEdge;
-          segments[corners] = { corners, isOnEdge ? edgeClass.edge : -1, -1 };
-        }
-      }
-    }
-    for (const Index s : members.segments)
-    {
-      const auto corners = sorted(localCorners(mesh_.segments[s]));
-      const auto [place, isNew] =
-        segments.try_emplace(corners, LabelledSimplex<2>{ corners, -1, s });
-      place->second.parent = s;
-    }
-    for (const auto& [key, segment] : segments)
-    {
-      block_.addSegment(segment);
-    }
-  }
-
-  const SimplexMesh& mesh_;
-  const std::vector<std::int64_t>& blocksOfVertices_;
-  const Classification& classification_;
-  const ClassifiedBoundary& boundary_;
-  const CellLabels& labels_;
-  EditableMesh block_;
-  std::vector<Index> vertices_;
-  std::map<Index, Index> numbers_;
-};
-
-/// A simplex of the new mesh and what it comes from.
-template<std::size_t Corners>
-struct Descendant
-{
-  Index parent;
-  std::array<Index, Corners> corners;
-};
-
-/// Puts a piece together anew from what is left of it and what blocks made.
-class PieceMaker
-{
-public:
-  explicit PieceMaker(const SimplexMesh& mesh) : mesh_(mesh), points_(mesh.points) {}
-
-  /// Cells that are in no block.
-  void keep(const Members& others)
-  {
-    const auto keepAll = [](const auto& cells, const std::vector<Index>& kept, auto& into)
-    {
-      for (const Index cell : kept)
-      {
-        into.push_back({ cell, cells[cell] });
-      }
-    };
-    keepAll(mesh_.tetrahedra, others.cells, tetrahedra_);
-    keepAll(mesh_.triangles, others.triangles, triangles_);
-    keepAll(mesh_.segments, others.segments, segments_);
-  }
-
-  void add(const BlockMesh& block, const EditableMesh& result,
-    const std::vector<AddedVertex>& addedVertices, std::int64_t number)
-  {
-    std::vector<Index> vertices = block.vertices();
-    for (std::size_t v = 0; v < vertices.size(); ++v)
-    {
-      points_[vertices[v]] = result.vertex(static_cast<Index>(v)).point;
-    }
-    for (const AddedVertex& vertex : addedVertices)
-    {
-      points_.push_back(result.vertex(static_cast<Index>(vertices.size())).point);
-      vertices.push_back(static_cast<Index>(points_.size()) - 1);
-      std::array<Index, 2> ends{ vertices[vertex.parents[0]], vertices[vertex.parents[1]] };
-      if (comesBefore(ends[1], ends[0]))
-      {
-        std::swap(ends[0], ends[1]);
-      }
-      parents_.push_back(ends);
-      places_.push_back(vertex.where);
-      blocks_.push_back(number);
-    }
-    const auto take = [&](const auto& store, auto& into)
-    {
-      for (std::size_t s = 0; s < store.size(); ++s)
-      {
-        const auto simplex = static_cast<Index>(s);
-        if (store.exists(simplex) && store[simplex].parent >= 0)
-        {
-          auto corners = store[simplex].corners;
-          std::transform(
-            corners.begin(), corners.end(), corners.begin(), [&](Index v) { return vertices[v]; });
-          into.push_back({ store[simplex].parent, corners });
-        }
-      }
-    };
-    take(result.cells(), tetrahedra_);
-    take(result.facets(), triangles_);
-    take(result.segments(), segments_);
-  }
-
-  /// Of the new vertices, in the order of their numbers.
-  const std::vector<std::array<Index, 2>>& parents() const { return parents_; }
-  const std::vector<ClosestPoint>& places() const { return places_; }
-  const std::vector<std::int64_t>& blocks() const { return blocks_; }
-
-  /// With all vertices, also those that no cell has any more; no ids of new ones.
-  SimplexMesh make(ChildRanges& firstChildren)
-  {
-    SimplexMesh result;
-    result.dimension = mesh_.dimension;
-    result.points = points_;
-    result.ids = mesh_.ids;
-    result.vertices = mesh_.vertices;
-    firstChildren[0].resize(mesh_.vertices.size() + 1);
-    std::iota(firstChildren[0].begin(), firstChildren[0].end(), 0);
-    order(segments_, mesh_.segments.size(), result.segments, firstChildren[1]);
-    order(triangles_, mesh_.triangles.size(), result.triangles, firstChildren[2]);
-    order(tetrahedra_, mesh_.tetrahedra.size(), result.tetrahedra, firstChildren[3]);
-    return result;
-  }
-
-private:
-  /// By ids, which grow with the numbers of new vertices.
-  bool comesBefore(Index a, Index b) const
-  {
-    const auto old = static_cast<Index>(mesh_.ids.size());
-    return a < old && b < old ? mesh_.ids[a] < mesh_.ids[b] : a < b;
-  }
-
-  template<std::size_t Corners>
-  static void order(std::vector<Descendant<Corners>>& descendants, std::size_t parentCount,
-    Simplices<Corners>& cells, std::vector<Index>& firsts)
-  {
-    std::stable_sort(descendants.begin(), descendants.end(),
-      [](const auto& a, const auto& b) { return a.parent < b.parent; });
-    firsts.assign(parentCount + 1, 0);
-    for (const auto& descendant : descendants)
-    {
-      cells.push_back(descendant.corners);
-      ++firsts[descendant.parent + 1];
-    }
-    std::partial_sum(firsts.begin(), firsts.end(), firsts.begin());
-  }
-
-  const SimplexMesh& mesh_;
-  std::vector<Point3> points_;
-  std::vector<std::array<Index, 2>> parents_;
-  std::vector<ClosestPoint> places_;
-  std::vector<std::int64_t> blocks_;
-  std::vector<Descendant<4>> tetrahedra_;
-  std::vector<Descendant<3>> triangles_;
-  std::vector<Descendant<2>> segments_;
-};
 
 /// Ids of new vertices: by the order of their blocks, and in a block by that in which they came.
 void numberNewVertices(RankExchange& exchange, const std::vector<std::int64_t>& blocks,
@@ -380,15 +107,7 @@ std::vector<Index> usedVertices(const SimplexMesh& mesh)
   mark(mesh.triangles);
   mark(mesh.segments);
   mark(mesh.vertices);
-  std::vector<Index> result;
-  for (std::size_t v = 0; v < used.size(); ++v)
-  {
-    if (used[v])
-    {
-      result.push_back(static_cast<Index>(v));
-    }
-  }
-  return result;
+  return indicesWhere(used.size(), [&](std::size_t v) { return used[v] != 0; });
 }
 
 template<class T>
@@ -462,23 +181,6 @@ std::pair<std::map<std::int64_t, Members>, Members> findMembers(const Distribute
     sort(blockOf(cells.segments[s], ofVertices), &Members::segments, s);
   }
   return { std::move(members), std::move(others) };
-}
-
-OperationCounts sum(RankExchange& exchange, const OperationCounts& counts)
-{
-  const auto sums = exchange.sum(std::vector<std::int64_t>{ counts.edgeRemovals,
-    counts.faceRemovals, counts.collapses, counts.splits, counts.moves, counts.cells });
-  return { sums[0], sums[1], sums[2], sums[3], sums[4], sums[5] };
-}
-
-void add(const OperationCounts& counts, OperationCounts& all)
-{
-  all.edgeRemovals += counts.edgeRemovals;
-  all.faceRemovals += counts.faceRemovals;
-  all.collapses += counts.collapses;
-  all.splits += counts.splits;
-  all.moves += counts.moves;
-  all.cells += counts.cells;
 }
 
 } // namespace
@@ -589,10 +291,10 @@ OperationTrace operateOnBlocks(RankExchange& exchange, DistributedMesh& mesh,
   maker.keep(others);
   for (std::size_t i = 0; i < list.size(); ++i)
   {
-    maker.add(meshes[i], meshes[i].mesh(), results[i].added, list[i].first);
-    add(results[i].counts, trace.counts);
+    maker.add(meshes[i], results[i].added, list[i].first);
+    trace.operations += results[i].counts.operations();
   }
-  trace.counts = sum(exchange, trace.counts);
+  trace.operations = exchange.sum(trace.operations);
   SimplexMesh made = maker.make(trace.cells.firstChildren);
   numberNewVertices(exchange, maker.blocks(), task.blocks.sizes.size(), mesh, made.ids);
   mesh.converted.cellIds = numberChildren(exchange, mesh, trace.cells.firstChildren);

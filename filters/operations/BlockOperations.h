@@ -3,6 +3,7 @@
 
 #include "classification/DistributedBoundary.h"
 #include "mesh/DistributedMesh.h"
+#include "operations/BlockMesh.h"
 #include "operations/Blocks.h"
 
 #include <cadrefine/base/ParallelFor.h>
@@ -45,13 +46,6 @@ OperationBlocks findOperationBlocks(RankExchange& exchange, const DistributedMes
 std::vector<int> ranksOfBlocks(
   RankExchange& exchange, const DistributedMesh& mesh, const OperationBlocks& blocks);
 
-/// What must not be mixed: cells, and listed facets, whose labels differ stay apart.
-struct CellLabels
-{
-  std::vector<Index> ofTetrahedra;
-  std::vector<Index> ofTriangles;
-};
-
 /// What is to be done.
 struct OperationTask
 {
@@ -66,7 +60,7 @@ struct OperationTrace
 {
   RefinementTrace cells;
   std::vector<Index> keptVertices;
-  OperationCounts counts; ///< Over all ranks.
+  std::int64_t operations = 0; ///< Over all ranks.
 };
 
 /// Improves the cells of each block (see improveCells), with the vertices that it shares with

@@ -5,7 +5,10 @@
 #include "operations/BlockOperations.h"
 #include "refinement/DistributedRefinement.h"
 
+#include <cadrefine/base/IndicesWhere.h>
+#include <cadrefine/base/ParallelFor.h>
 #include <cadrefine/mesh/Quality.h>
+#include <cadrefine/motion/MoveGuard.h>
 
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
@@ -121,26 +124,36 @@ private:
     std::vector<unsigned char> flags(mesh().points.size(), 0);
     std::transform(distances.begin(), distances.end(), flags.begin(),
       [](double distance) { return distance > 0; });
-    const bool anyOff = exchange_.any(std::find(flags.begin(), flags.end(), 1) != flags.end());
-    const std::vector<Point3> points = anyOff ? wantedPoints() : mesh().points;
-    std::int64_t count = 0;
-    for (std::size_t v = 0; v < flags.size(); ++v)
+    const std::vector<Index> off =
+      indicesWhere(flags.size(), [&](std::size_t v) { return flags[v] != 0; });
+    const bool anyOff = exchange_.any(!off.empty());
+    if (!anyOff && qualityOf(exchange_, state_).minimum() >= options_.minimumQuality)
     {
-      count += flags[v] && state_.mesh.shared.owner(static_cast<Index>(v)) == exchange_.rank();
+      return {};
     }
-    for (const auto& cell : mesh().tetrahedra)
-    {
-      if (mayChange(cell) && meanRatio(points[cell[0]], points[cell[1]], points[cell[2]],
-                               points[cell[3]]) < options_.minimumQuality)
+    const auto owned = std::count_if(off.begin(), off.end(),
+      [&](Index vertex) { return state_.mesh.shared.owner(vertex) == exchange_.rank(); });
+    const std::vector<Index> cells = badCells(anyOff ? wantedPoints() : mesh().points);
+    flagVertices(mesh(), cells, flags);
+    return { std::move(flags), exchange_.sum(owned + static_cast<std::ptrdiff_t>(cells.size())) };
+  }
+
+  std::vector<Index> badCells(const std::vector<Point3>& points) const
+  {
+    const auto& cells = state_.mesh.mesh().tetrahedra;
+    return collect<Index>(state_.parallelFor, cells.size(), fineGrain,
+      [&](std::size_t begin, std::size_t end, std::vector<Index>& bad)
       {
-        ++count;
-        for (const Index vertex : cell)
+        for (std::size_t c = begin; c < end; ++c)
         {
-          flags[vertex] = 1;
+          const auto& [i, j, k, l] = cells[c];
+          if (mayChange(cells[c]) &&
+              meanRatio(points[i], points[j], points[k], points[l]) < options_.minimumQuality)
+          {
+            bad.push_back(static_cast<Index>(c));
+          }
         }
-      }
-    }
-    return { std::move(flags), exchange_.sum(count) };
+      });
   }
 
   bool mayChange(const std::array<Index, 4>& cell) const
@@ -203,10 +216,9 @@ private:
     state_.arrays = select(state_.arrays, kept);
     state_.mapping.refine(std::move(trace.cells));
     state_.mapping.convert(std::move(kept));
-    const std::int64_t count = trace.counts.operations();
-    operations_ += count;
+    operations_ += trace.operations;
     context_.statistics.set("local operations", static_cast<double>(operations_));
-    return count > 0;
+    return trace.operations > 0;
   }
 
   /// Vertices that stopped on the way to the CAD try again.

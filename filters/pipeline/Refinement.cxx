@@ -279,11 +279,14 @@ private:
     meshHasChanged(state_);
     projectedPoints_ += trace.projectedPoints;
     state_.onBoundary = std::move(trace.onBoundary);
-    const auto stopwatch = watch("seconds copying fields");
-    state_.arrays = refineArrays(state_.arrays, trace.parentEdges, trace.firstChildren);
-    state_.mapping.refine(std::move(trace));
+    {
+      const auto stopwatch = watch("seconds copying fields");
+      state_.arrays = refineArrays(state_.arrays, trace.parentEdges, trace.firstChildren);
+      state_.mapping.refine(std::move(trace));
+    }
     if (options_.projectNewVertices && options_.minimumQuality)
     {
+      const auto stopwatch = watch("seconds local operations");
       improveCells(context_, state_, { *options_.minimumQuality });
     }
   }
