@@ -1,13 +1,14 @@
 #!/usr/bin/python3
 """Runs the commands of the documentation: the blocks ```bash and ```python of all pages.
 
-The blocks of a page run in order in a folder of the page's own, where `build`, `data`, `docs`, `plugin` and `tests` are
-those of the repository. Blocks of one language that follow each other run as one program, which has the page's line
-numbers. Blocks ```console are for people: they need a window, a cluster, or minutes.
+Pages run side by side; the blocks of a page run in order in a folder of the page's own, where `build`, `data`, `docs`,
+`plugin` and `tests` are those of the repository. Blocks of one language that follow each other run as one program, which
+has the page's line numbers. Blocks ```console are for people: they need a window, a cluster, or minutes.
 
 usage: test_commands.py BUILD [[--without] PAGE...]
 """
 
+import concurrent.futures
 import itertools
 import os
 import re
@@ -23,7 +24,7 @@ from driver import ENVIRONMENT
 
 PROGRAMS = {"bash": ["bash", "-euo", "pipefail"], "python": ["pvpython"]}
 LINKED = ("data", "docs", "plugin", "tests")
-TIMEOUT = 240  # Seconds of one program.
+TIMEOUT = 400  # Seconds of one program.
 SAY_WHERE = """trap 'echo "line $LINENO failed: $BASH_COMMAND"' ERR\n"""  # Read by bash before the script.
 ERRORS = re.compile(r"ERR\||^ERROR|^Traceback", re.MULTILINE)
 
@@ -89,7 +90,8 @@ def main():
     without = sys.argv[2:3] == ["--without"]
     named = {os.path.abspath(path) for path in sys.argv[3 if without else 2:]}
     chosen = [page for page in pages.all_pages() if programs(page) and (not named or (page.path in named) != without)]
-    failures = [failure for page in chosen for failure in run_page(page, build)]
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        failures = list(itertools.chain.from_iterable(pool.map(lambda page: run_page(page, build), chosen)))
     print(*failures, sep="\n")
     if failures or not chosen:
         sys.exit(f"{len(failures)} of {len(chosen)} pages failed")

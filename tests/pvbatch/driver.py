@@ -1,5 +1,6 @@
 """Runs plugin/cadrefine.py for the tests, as people do: under mpirun and pvbatch, or in pvpython."""
 
+import itertools
 import json
 import os
 import subprocess
@@ -24,8 +25,13 @@ def data(name):
     return os.path.join(DATA, name)
 
 
-# Without -noreset the server starts anew when one rank leaves, and the next one may come just then.
-XVFB = ["xvfb-run", "--auto-servernum", "--server-args=-screen 0 1280x1024x24 -noreset"]
+DISPLAYS = itertools.count(100 + os.getpid() % 5000 * 10)  # With --auto-servernum two tests could get the same one.
+
+
+def with_display():
+    """What starts a command on an X server of its own. Without -noreset the server starts anew when one rank leaves,
+    and the next one may come just then."""
+    return ["xvfb-run", f"--server-num={next(DISPLAYS)}", "--server-args=-screen 0 1280x1024x24 -noreset"]
 
 
 class Run:
@@ -38,7 +44,7 @@ class Run:
         for name in without:
             environment.pop(name, None)
         with tempfile.TemporaryDirectory() as folder:
-            command = (XVFB if display else []) + self.command(ranks, folder, arguments)
+            command = (with_display() if display else []) + self.command(ranks, folder, arguments)
             result = subprocess.run(command, env=environment, capture_output=True,
                                     text=True, timeout=TIMEOUT, stdin=subprocess.DEVNULL, check=False)
             self.statuses = [read_status(os.path.join(folder, name)) for name in sorted(os.listdir(folder))]
