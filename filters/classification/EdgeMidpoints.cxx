@@ -170,6 +170,7 @@ std::vector<MidpointOnCAD> projectMidpoints(RankExchange& exchange, const Simple
   const auto known = findKnown(edges.table, classified);
   auto next = known.begin();
   std::vector<MidpointOnCAD> midpoints;
+  std::vector<Index> edgesOf;
   std::vector<std::size_t> asking; // among these
   std::vector<BoundaryEdge> queries;
   std::size_t place = 0;
@@ -187,6 +188,7 @@ std::vector<MidpointOnCAD> projectMidpoints(RankExchange& exchange, const Simple
       }
       midpoints.push_back(
         { place, isKnown ? (*classified.midpoints)[boundaryEdge] : ClosestPoint{} });
+      edgesOf.push_back(static_cast<Index>(e));
     }
     place += edges.marks[e];
   }
@@ -196,6 +198,12 @@ std::vector<MidpointOnCAD> projectMidpoints(RankExchange& exchange, const Simple
   for (std::size_t i = 0; i < asking.size(); ++i)
   {
     midpoints[asking[i]].where = answers.values[i];
+  }
+  for (std::size_t i = 0; edges.offCreases && i < midpoints.size(); ++i)
+  {
+    const Index e = edgesOf[i];
+    const BoundaryEdge edge = edgeOf(decode(codes[e]), edges.table.edges[e], mesh, classification);
+    midpoints[i].where = classified.projector.offCrease(edge, midpoints[i].where);
   }
   midpoints.erase(std::remove_if(midpoints.begin(), midpoints.end(),
                     [](const MidpointOnCAD& midpoint) { return !midpoint.where.entity; }),

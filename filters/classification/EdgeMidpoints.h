@@ -25,6 +25,7 @@ struct MarkedEdges
   EdgeTable table;
   SharedEdges sharedEdges;
   EdgeMarks marks;
+  bool offCreases = false; ///< See BoundaryProjector::offCrease.
 };
 
 /// With this mark for all edges. Collective; work of buildEdgeTable, messages of findSharedEdges.

@@ -270,8 +270,10 @@ private:
     level = planLevel();
   }
 
-  void refineOnce(const RefinementPlan& plan)
+  void refineOnce(RefinementPlan& plan)
   {
+    const bool withOperations = options_.projectNewVertices && options_.minimumQuality;
+    plan.offCreases = withOperations;
     RefinementTrace trace = state_.classification
                               ? refineOntoCAD(exchange_, state_.mesh, plan, boundary(),
                                   *state_.classification, newVertices_, context_.statistics)
@@ -284,7 +286,7 @@ private:
       state_.arrays = refineArrays(state_.arrays, trace.parentEdges, trace.firstChildren);
       state_.mapping.refine(std::move(trace));
     }
-    if (options_.projectNewVertices && options_.minimumQuality)
+    if (withOperations)
     {
       const auto stopwatch = watch("seconds local operations");
       improveCells(context_, state_, { *options_.minimumQuality });

@@ -193,10 +193,10 @@ ClosestPoint BoundaryProjector::projectOnEdge(std::int32_t edge, const Point3& p
   return edges_.nearestCrease(point, std::numeric_limits<double>::infinity());
 }
 
-ClosestPoint BoundaryProjector::projectSmoothly(
+/// On an entity that both ends share: it cannot jump to the other side of something thin.
+ClosestPoint BoundaryProjector::nearestOnShared(
   const std::array<EntityId, 2>& entities, const Point3& point) const
 {
-  // On an entity that both ends share: it cannot jump to the other side of something thin.
   const std::int8_t dimension = kind_ == BoundaryKind::Triangles ? 2 : 1;
   ClosestPoint best;
   const auto tryOn = [&](EntityId entity)
@@ -219,12 +219,33 @@ ClosestPoint BoundaryProjector::projectSmoothly(
       tryOn({ dimension, entity });
     }
   }
-  return best.entity ? best : nearest(point, std::numeric_limits<double>::infinity());
+  return best;
+}
+
+ClosestPoint BoundaryProjector::projectSmoothly(
+  const std::array<EntityId, 2>& entities, const Point3& point) const
+{
+  const ClosestPoint shared = nearestOnShared(entities, point);
+  return shared.entity ? shared : nearest(point, std::numeric_limits<double>::infinity());
 }
 
 ClosestPoint BoundaryProjector::projectMidpoint(const BoundaryEdge& edge) const
 {
   return project(edge.edgeClass, 0.5 * (edge.points[0] + edge.points[1]), edge.entities);
+}
+
+ClosestPoint BoundaryProjector::offCrease(const BoundaryEdge& edge, const ClosestPoint& where) const
+{
+  const bool isOnCrease =
+    where.entity.dimension == 1 && model_.nurbs().edges[where.entity.index].sharp;
+  if (!isOnCrease || kind_ != BoundaryKind::Triangles || edge.edgeClass.kind != EdgeClass::Smooth)
+  {
+    return where;
+  }
+  const Point3 middle = 0.5 * (edge.points[0] + edge.points[1]);
+  ClosestPoint inside = nearestOnShared(edge.entities, 2 * where.point - middle);
+  inside.distance = distance(middle, inside.point);
+  return inside.entity ? inside : where;
 }
 
 ClosestPoint BoundaryProjector::project(

@@ -104,8 +104,9 @@ ClosestPoint SurfaceRule::placeOfMiddle(const EditableMesh& mesh, Index a, Index
     return {};
   }
   const EdgeClass edgeClass{ segment < 0 ? EdgeClass::Smooth : EdgeClass::OnEdge, edge };
-  return projector_.projectMidpoint({ edgeClass, { mesh.vertex(a).wanted, mesh.vertex(b).wanted },
-    { mesh.vertex(a).entity, mesh.vertex(b).entity } });
+  const BoundaryEdge onCAD{ edgeClass, { mesh.vertex(a).wanted, mesh.vertex(b).wanted },
+    { mesh.vertex(a).entity, mesh.vertex(b).entity } };
+  return projector_.offCrease(onCAD, projector_.projectMidpoint(onCAD));
 }
 
 } // namespace cadrefine

@@ -202,6 +202,32 @@ TEST_F(ThinSheet, keepsMidpointsOnTheirCrease)
   EXPECT_NEAR(distance(where.point, at(1.01, 70, 1)), 0, 1e-9);
 }
 
+/// From the inner rim of a ring to its outer one, through the hole.
+TEST(Ring, keepsTheMiddleOfAChordThatCrossesTheHole)
+{
+  const auto model = cadtest::modelOf(cadtest::pipe(1, 1.5, 1));
+  const BoundaryProjector projector(*model, BoundaryKind::Triangles);
+  const std::array<Point3, 2> points{ { { 0, 1, 1 }, { -1.5, 0, 1 } } };
+  std::array<EntityId, 2> entities;
+  for (int k = 0; k < 2; ++k)
+  {
+    entities[k] = projector.nearest(points[k], unlimited).entity;
+    ASSERT_EQ(entities[k].dimension, 1);
+  }
+  const BoundaryEdge edge{ { EdgeClass::Smooth, -1 }, points, entities };
+  const ClosestPoint nearest = projector.projectMidpoint(edge);
+  EXPECT_EQ(nearest.entity, entities[0]);
+  const ClosestPoint where = projector.offCrease(edge, nearest);
+  const Point3 middle = 0.5 * (points[0] + points[1]);
+  const double radius = std::hypot(middle[0], middle[1]);
+  ASSERT_LT(radius, 1);
+  EXPECT_EQ(where.entity.dimension, 2); // not on the rim, where the rim's own vertices go
+  EXPECT_EQ(where.entity, projector.nearest({ 0, 1.25, 1 }, unlimited).entity);
+  const double outside = (2 - radius) / radius;
+  EXPECT_NEAR(distance(where.point, { outside * middle[0], outside * middle[1], 1 }), 0, 1e-9);
+  EXPECT_NEAR(where.distance, distance(where.point, middle), 1e-15);
+}
+
 TEST_F(ThinSheet, hasNoCorners)
 {
   EXPECT_TRUE(projector.corners().empty()) << "its circles close smoothly";
