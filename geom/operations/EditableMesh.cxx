@@ -179,6 +179,12 @@ double EditableMesh::quality(const std::array<Index, 4>& cell) const
     vertices_[cell[3]].wanted);
 }
 
+double EditableMesh::presentQuality(const std::array<Index, 4>& cell) const
+{
+  return meanRatio(vertices_[cell[0]].point, vertices_[cell[1]].point, vertices_[cell[2]].point,
+    vertices_[cell[3]].point);
+}
+
 bool EditableMesh::isValid(const std::array<Index, 4>& cell) const
 {
   return orientation(vertices_[cell[0]].point, vertices_[cell[1]].point, vertices_[cell[2]].point,

@@ -119,6 +119,8 @@ public:
 
   /// Mean ratio with the vertices where they are wanted, negative where it is inverted.
   double quality(const std::array<Index, 4>& cell) const;
+  /// Mean ratio with the vertices where they are.
+  double presentQuality(const std::array<Index, 4>& cell) const;
   /// With the vertices where they are; exact.
   bool isValid(const std::array<Index, 4>& cell) const;
   /// The smallest quality; infinite of none.

@@ -231,7 +231,7 @@ private:
     }
     const bool isValid = std::all_of(cavity_.newCells.begin(), cavity_.newCells.end(),
       [&](const auto& cell) { return mesh_.isValid(cell.corners); });
-    if (!isValid || !keepsSurface())
+    if (!isValid || !keepsPresentQuality() || !keepsSurface())
     {
       return false;
     }
@@ -240,6 +240,25 @@ private:
     best_.count = count;
     best_.moved = -1;
     return true;
+  }
+
+  /// The worst of the cells where the vertices are, so far as that is bad: no operation may leave a
+  /// worse one, as vertices may never come to where they are wanted.
+  double worstPresent(const std::vector<Index>& cells) const
+  {
+    double worst = limits_.detour;
+    for (const Index cell : cells)
+    {
+      worst = std::min(worst, mesh_.presentQuality(mesh_.cells()[cell].corners));
+    }
+    return worst;
+  }
+
+  bool keepsPresentQuality() const
+  {
+    const double least = worstPresent(cavity_.cells);
+    return std::all_of(cavity_.newCells.begin(), cavity_.newCells.end(),
+      [&](const auto& cell) { return mesh_.presentQuality(cell.corners) >= least; });
   }
 
   bool keepsSurface() const
@@ -255,14 +274,16 @@ private:
       return;
     }
     const Point3 start = mesh_.vertex(vertex).point;
-    const double before = mesh_.worst(mesh_.cells().at(vertex));
+    const std::vector<Index>& around = mesh_.cells().at(vertex);
+    const double before = mesh_.worst(around);
+    const double present = worstPresent(around);
     Simplices<4> cells;
-    for (const Index cell : mesh_.cells().at(vertex))
+    for (const Index cell : around)
     {
       cells.push_back(mesh_.cells()[cell].corners);
     }
     const double after = relocate(mesh_, vertex, cells);
-    if (isBetter(before, after))
+    if (isBetter(before, after) && worstPresent(around) >= present)
     {
       best_.worst = after;
       best_.count = &OperationCounts::moves;
@@ -383,6 +404,7 @@ private:
       {
         return;
       }
+      vertex.point = added.where.point;
       vertex.wanted = added.where.point;
       vertex.entity = added.where.entity;
     }
@@ -395,7 +417,7 @@ private:
     if (!std::all_of(
           cells.begin(), cells.end(), [&](const auto& cell) { return mesh_.isValid(cell); }))
     {
-      return; // too short to be halved
+      return; // too short to be halved, or in the way of what would go onto the CAD
     }
     const bool isOfOneLabel = std::all_of(cavity_.newCells.begin(), cavity_.newCells.end(),
       [&](const auto& cell) { return cell.label == cavity_.newCells.front().label; });

@@ -103,6 +103,45 @@ TEST(Improvement, makesBadCellsBetter)
   EXPECT_LE(below, 2) << "of 20 with a cell below 0.2";
 }
 
+double worstPresent(const EditableMesh& mesh)
+{
+  double worst = 2;
+  for (std::size_t c = 0; c < mesh.cells().size(); ++c)
+  {
+    const auto cell = static_cast<Index>(c);
+    if (mesh.cells().exists(cell))
+    {
+      worst = std::min(worst, mesh.presentQuality(mesh.cells()[cell].corners));
+    }
+  }
+  return worst;
+}
+
+/// What is gained where vertices are wanted is not paid for where they are.
+TEST(Improvement, leavesNoWorseCellWhereVerticesAre)
+{
+  int improved = 0;
+  for (unsigned seed = 0; seed < 20; ++seed)
+  {
+    EditableMesh mesh = spoiltCube(seed);
+    std::mt19937 random(seed);
+    const auto part = [&] { return 0.4 * (static_cast<double>(random() % 1000) / 1000 - 0.5); };
+    for (std::size_t v = 0; v < mesh.vertexCount(); v += 3)
+    {
+      EditableMesh::Vertex vertex = mesh.vertex(static_cast<Index>(v));
+      vertex.wanted = vertex.point + Point3{ part(), part(), part() };
+      vertex.stays = true;
+      mesh.setVertex(static_cast<Index>(v), vertex);
+    }
+    const double before = worstPresent(mesh);
+    const double wanted = summaryOf(mesh).worst;
+    improveCells(mesh, nullptr, { 0.3, 0.1 });
+    EXPECT_GE(worstPresent(mesh), std::min(before, 0.1)) << "seed " << seed;
+    improved += summaryOf(mesh).worst > wanted;
+  }
+  EXPECT_GT(improved, 5);
+}
+
 TEST(Improvement, dependsOnTheOrderAlone)
 {
   EditableMesh one = spoiltCube(3);
