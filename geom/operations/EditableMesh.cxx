@@ -43,36 +43,11 @@ Index SimplexStore<Corners>::add(const Simplex& simplex)
 template<std::size_t Corners>
 void SimplexStore<Corners>::remove(Index simplex)
 {
-  if (!exists_[simplex])
-  {
-    return;
-  }
   exists_[simplex] = 0;
   for (const Index vertex : simplices_[simplex].corners)
   {
     std::vector<Index>& list = at_[vertex];
     list.erase(std::find(list.begin(), list.end(), simplex));
-  }
-}
-
-template<std::size_t Corners>
-void SimplexStore<Corners>::restore(Index simplex)
-{
-  exists_[simplex] = 1;
-  for (const Index vertex : simplices_[simplex].corners)
-  {
-    at_[vertex].push_back(simplex);
-  }
-}
-
-template<std::size_t Corners>
-void SimplexStore<Corners>::truncate(std::size_t count)
-{
-  while (size() > count)
-  {
-    remove(static_cast<Index>(size()) - 1);
-    simplices_.pop_back();
-    exists_.pop_back();
   }
 }
 
@@ -120,10 +95,6 @@ void EditableMesh::closeFacets()
 
 void EditableMesh::setVertex(Index v, const Vertex& vertex)
 {
-  if (isTrial_)
-  {
-    changes_.push_back({ {}, {}, v, vertices_[v] });
-  }
   vertices_[v] = vertex;
 }
 
@@ -203,10 +174,6 @@ double EditableMesh::worst(const std::vector<Index>& cells) const
 
 void EditableMesh::replace(const Cavity& cavity)
 {
-  if (isTrial_)
-  {
-    changes_.push_back({ cavity, { cells_.size(), facets_.size(), segments_.size() }, -1, {} });
-  }
   const auto exchange = [](auto& store, const auto& removed, const auto& added)
   {
     for (const Index simplex : removed)
@@ -221,44 +188,6 @@ void EditableMesh::replace(const Cavity& cavity)
   exchange(cells_, cavity.cells, cavity.newCells);
   exchange(facets_, cavity.facets, cavity.newFacets);
   exchange(segments_, cavity.segments, cavity.newSegments);
-}
-
-void EditableMesh::beginTrial()
-{
-  isTrial_ = true;
-  verticesBefore_ = vertices_.size();
-}
-
-void EditableMesh::endTrial(bool keep)
-{
-  const auto undo = [](auto& store, const std::vector<Index>& removed, std::size_t count)
-  {
-    store.truncate(count);
-    for (const Index simplex : removed)
-    {
-      store.restore(simplex);
-    }
-  };
-  for (; !keep && !changes_.empty(); changes_.pop_back())
-  {
-    const Change& change = changes_.back();
-    if (change.vertex >= 0)
-    {
-      vertices_[change.vertex] = change.before;
-      continue;
-    }
-    undo(cells_, change.cavity.cells, change.counts[0]);
-    undo(facets_, change.cavity.facets, change.counts[1]);
-    undo(segments_, change.cavity.segments, change.counts[2]);
-  }
-  for (; !keep && vertices_.size() > verticesBefore_; vertices_.pop_back())
-  {
-    cells_.removeLastVertex();
-    facets_.removeLastVertex();
-    segments_.removeLastVertex();
-  }
-  changes_.clear();
-  isTrial_ = false;
 }
 
 } // namespace cadrefine

@@ -49,12 +49,7 @@ public:
 
   Index add(const Simplex& simplex);
   void remove(Index simplex);
-  /// One that was removed.
-  void restore(Index simplex);
-  /// Takes the last ones away, so that so many are left.
-  void truncate(std::size_t count);
   void addVertex() { at_.emplace_back(); }
-  void removeLastVertex() { at_.pop_back(); }
 
   std::size_t size() const { return simplices_.size(); }
   bool exists(Index simplex) const { return exists_[simplex] != 0; }
@@ -129,28 +124,11 @@ public:
   /// The numbers of the new cells are the last ones.
   void replace(const Cavity& cavity);
 
-  /// From here on all changes are kept in mind, to be undone or not.
-  void beginTrial();
-  /// With `keep` false the mesh is as it was where the trial began.
-  void endTrial(bool keep);
-
 private:
-  /// A change of a trial: what was replaced, or where a vertex was.
-  struct Change
-  {
-    Cavity cavity;
-    std::array<std::size_t, 3> counts{}; ///< Of cells, facets and segments before.
-    Index vertex = -1;
-    Vertex before;
-  };
-
   std::vector<Vertex> vertices_;
   SimplexStore<4> cells_;
   SimplexStore<3> facets_;
   SimplexStore<2> segments_;
-  bool isTrial_ = false;
-  std::size_t verticesBefore_ = 0;
-  std::vector<Change> changes_;
 };
 
 } // namespace cadrefine

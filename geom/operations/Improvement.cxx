@@ -16,7 +16,6 @@ namespace
 
 /// What the worst cell must gain, of what it lacks.
 constexpr double leastGain = 0.01;
-constexpr int longestDetour = 20; ///< Operations.
 constexpr int mostPasses = 10;
 
 class Improver
@@ -50,7 +49,7 @@ public:
       if (isWorthATry(cell))
       {
         ++result_.counts.cells;
-        const bool improves = improve(cell) || (quality < limits_.detour && improveByDetour(cell));
+        const bool improves = improve(cell);
         changed = changed || improves;
         if (!improves)
         {
@@ -150,66 +149,9 @@ private:
     return carryOut();
   }
 
-  /// Several operations that make the worst cell better together, the first of which may make it
-  /// worse: it halves or collapses an edge of the cell. The others are of what that leaves.
-  bool improveByDetour(Index cell)
-  {
-    const auto corners = mesh_.cells()[cell].corners;
-    const double wanted = withGain(mesh_.quality(corners));
-    for (const bool splits : { true, false })
-    {
-      const ImprovementResult before = result_;
-      const Index middle = middle_;
-      const std::vector<std::int64_t> changes = changes_;
-      const std::size_t first = mesh_.cells().size();
-      mesh_.beginTrial();
-      mayLose_ = true;
-      best_ = {};
-      splits ? split(corners) : collapse(corners);
-      mayLose_ = false;
-      const bool succeeds = carryOut() && improveSince(first, wanted);
-      mesh_.endTrial(succeeds);
-      if (succeeds)
-      {
-        return true;
-      }
-      result_ = before;
-      middle_ = middle;
-      changes_ = changes;
-    }
-    return false;
-  }
-
-  /// Operates on the worst of the cells from this one on until all are so good.
-  bool improveSince(std::size_t first, double wanted)
-  {
-    for (int k = 0; k < longestDetour; ++k)
-    {
-      double worst = wanted;
-      Index cell = -1;
-      for (std::size_t c = first; c < mesh_.cells().size(); ++c)
-      {
-        const auto candidate = static_cast<Index>(c);
-        if (mesh_.cells().exists(candidate))
-        {
-          const double quality = mesh_.quality(mesh_.cells()[candidate].corners);
-          cell = quality < worst ? candidate : cell;
-          worst = std::min(quality, worst);
-        }
-      }
-      if (cell < 0 || !improve(cell))
-      {
-        return cell < 0;
-      }
-    }
-    return false;
-  }
-
-  static double withGain(double quality) { return quality + leastGain * (1 - quality); }
-
   bool isBetter(double before, double after) const
   {
-    return after > best_.worst && (mayLose_ || after > withGain(before));
+    return after > best_.worst && after > before + leastGain * (1 - before);
   }
 
   /// Whether the operation in the cavity is the best so far.
@@ -246,7 +188,7 @@ private:
   /// worse one, as vertices may never come to where they are wanted.
   double worstPresent(const std::vector<Index>& cells) const
   {
-    double worst = limits_.detour;
+    double worst = limits_.minimum;
     for (const Index cell : cells)
     {
       worst = std::min(worst, mesh_.presentQuality(mesh_.cells()[cell].corners));
@@ -435,8 +377,7 @@ private:
   EditableMesh& mesh_;
   const SurfaceRule* rule_;
   const ImprovementLimits limits_;
-  bool mayLose_ = false; ///< The worst cell may get worse.
-  Index middle_ = -1;    ///< A vertex without cells.
+  Index middle_ = -1; ///< A vertex without cells.
   Cavity cavity_;
   Best best_;
   std::int64_t now_ = 0;              ///< Operations so far.

@@ -40,24 +40,23 @@ struct ImprovementResult
   OperationCounts counts;
 };
 
-/// Mean ratios of cells where their vertices are wanted.
+/// Mean ratios of cells.
 struct ImprovementLimits
 {
-  double floor = 0.3;  ///< Cells below this are operated on,
-  double detour = 0.1; ///< and below this also by several operations that gain together alone.
+  double floor = 0.3;   ///< Cells below this where their vertices are wanted are operated on;
+  double minimum = 0.1; ///< below this where vertices are none gets worse.
 };
 
 /// Operates on cells below a floor, the worst first. Of the removals of their edges and faces and
 /// the moves of their vertices inside the mesh it does the one with the best worst cell; where none
 /// makes the worst cell better, of the collapses of their edges; then of the splits of these. Cells
-/// where vertices are stay valid. The boundary changes only as `rule` accepts; null: it does not.
-/// It ends when nothing is gained, or after ten passes over the cells that changed. The result
-/// depends on the order of vertices and cells alone.
+/// where vertices are stay valid, and none of them gets worse than `minimum` and those that it
+/// comes from. The boundary changes only as `rule` accepts; null: it does not. It ends when nothing
+/// is gained, or after ten passes over the cells that changed. The result depends on the order of
+/// vertices and cells alone.
 ///
 /// Work: some 50 microseconds a cell that is tried, and the projections of SurfaceRule for
-/// operations on the boundary; 1 to 3 ms for a detour. (L. Freitag, C. Ollivier-Gooch, 1997; B.
-/// Klingner, J. Shewchuk, "Aggressive tetrahedral mesh improvement", 16th Int. Meshing Roundtable,
-/// 2007.)
+/// operations on the boundary. (L. Freitag, C. Ollivier-Gooch, 1997.)
 ImprovementResult improveCells(
   EditableMesh& mesh, const SurfaceRule* rule, const ImprovementLimits& limits);
 

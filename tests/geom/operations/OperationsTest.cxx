@@ -297,28 +297,4 @@ TEST(Split, keepsVolumeAndLabels)
   EXPECT_NEAR(volumeOf(mesh), 1, 1e-15);
 }
 
-TEST(EditableMesh, trialsAreUndone)
-{
-  EditableMesh mesh = cube(2);
-  const double volume = volumeOf(mesh);
-  const std::size_t cells = mesh.cells().size();
-  const std::size_t vertices = mesh.vertexCount();
-  const auto corners = mesh.cells()[7].corners;
-  mesh.beginTrial();
-  const Point3 middle = 0.5 * (mesh.vertex(corners[0]).point + mesh.vertex(corners[3]).point);
-  const Index vertex = mesh.addVertex({ middle, middle, {}, false, false });
-  Cavity cavity;
-  ASSERT_TRUE(proposeSplit(mesh, corners[0], corners[3], vertex, cavity));
-  mesh.replace(cavity);
-  mesh.moveVertex(vertex, { 9, 9, 9 });
-  EXPECT_FALSE(mesh.cells().exists(7));
-  mesh.endTrial(false);
-  EXPECT_EQ(mesh.cells().size(), cells);
-  EXPECT_EQ(mesh.vertexCount(), vertices);
-  EXPECT_EQ(volumeOf(mesh), volume);
-  EXPECT_TRUE(mesh.cells().exists(7));
-  const auto& list = mesh.cells().at(corners[0]);
-  EXPECT_NE(std::find(list.begin(), list.end(), 7), list.end());
-}
-
 } // namespace
