@@ -29,11 +29,6 @@ namespace
 
 constexpr int maximumRounds = 6;
 constexpr int ringsOfCells = 3;
-/// So many rounds in a row that leave as many bad cells and vertices are the last ones. Only where
-/// there are several blocks does another round, whose blocks end elsewhere, have anything new to
-/// try.
-constexpr int patience = 2;
-constexpr int patienceWithOneBlock = 1;
 /// Cells below this are operated on in the neighbourhood of those below the user's limit.
 constexpr double aim = 0.3;
 
@@ -74,16 +69,14 @@ public:
   void run()
   {
     std::int64_t before = std::numeric_limits<std::int64_t>::max();
-    int idle = 0;
     for (int round = 0; round < maximumRounds; ++round)
     {
       const auto [flags, count] = findBad();
-      idle = count < before ? 0 : idle + 1;
-      before = count;
-      if (count == 0 || idle == (hasOneBlock_ ? patienceWithOneBlock : patience))
+      if (count == 0 || count >= before)
       {
         return;
       }
+      before = count;
       exchange_.progress().say(static_cast<double>(round) / maximumRounds,
         "improving cells, round " + std::to_string(round + 1) + " of at most " +
           std::to_string(maximumRounds));
@@ -202,7 +195,6 @@ private:
       [&](const std::array<Index, 4>& cell) { return mayChange(cell); } };
     const OperationBlocks blocks =
       gather(findOperationBlocks(exchange_, state_.mesh, flags, settings, state_.parallelFor));
-    hasOneBlock_ = blocks.sizes.size() == 1;
     ClassifiedBoundary& boundary = boundaryOf(context_, state_);
     const CellLabels labels{ labelsOf(state_.arrays.ofCells, firstCellOfDimension(mesh(), 3),
                                mesh().tetrahedra.size()),
@@ -241,7 +233,6 @@ private:
   MeshState& state_;
   const CellImprovementOptions& options_;
   std::int64_t operations_ = 0;
-  bool hasOneBlock_ = false;
 };
 
 } // namespace

@@ -123,7 +123,7 @@ private:
     return cells;
   }
 
-  /// One operation, if one makes the worst cell better at once: the best of those that cost least.
+  /// One operation, if one makes the worst cell better: the best of those that cost least.
   bool improve(Index cell)
   {
     const auto corners = mesh_.cells()[cell].corners;
@@ -142,16 +142,16 @@ private:
     {
       collapse(corners);
     }
-    if (!best_.count)
+    if (!best_.count && mesh_.quality(corners) < limits_.minimum)
     {
       split(corners);
     }
     return carryOut();
   }
 
-  bool isBetter(double before, double after) const
+  static bool gains(double before, double after)
   {
-    return after > best_.worst && after > before + leastGain * (1 - before);
+    return after > before + leastGain * (1 - before);
   }
 
   /// Whether the operation in the cavity is the best so far.
@@ -166,7 +166,7 @@ private:
     for (const auto& cell : cavity_.newCells)
     {
       after = std::min(after, mesh_.quality(cell.corners));
-      if (!isBetter(before, after))
+      if (after <= best_.worst || !gains(before, after))
       {
         return false;
       }
@@ -211,7 +211,8 @@ private:
 
   void considerMove(Index vertex)
   {
-    if (mesh_.freedomOf(vertex) != EditableMesh::Freedom::Space)
+    std::int64_t& stuck = stuck_.try_emplace(vertex, -1).first->second;
+    if (stuck == changedAt(vertex) || mesh_.freedomOf(vertex) != EditableMesh::Freedom::Space)
     {
       return;
     }
@@ -225,7 +226,11 @@ private:
       cells.push_back(mesh_.cells()[cell].corners);
     }
     const double after = relocate(mesh_, vertex, cells);
-    if (isBetter(before, after) && worstPresent(around) >= present)
+    if (!gains(before, after))
+    {
+      stuck = changedAt(vertex);
+    }
+    else if (after > best_.worst && worstPresent(around) >= present)
     {
       best_.worst = after;
       best_.count = &OperationCounts::moves;
@@ -380,9 +385,11 @@ private:
   Index middle_ = -1; ///< A vertex without cells.
   Cavity cavity_;
   Best best_;
-  std::int64_t now_ = 0;              ///< Operations so far.
-  std::vector<std::int64_t> changes_; ///< See changedAt.
-  std::unordered_map<Index, std::int64_t> tried_;
+  std::int64_t now_ = 0;                          ///< Operations so far.
+  std::vector<std::int64_t> changes_;             ///< See changedAt.
+  std::unordered_map<Index, std::int64_t> tried_; ///< When nothing helped a cell.
+  std::unordered_map<Index, std::int64_t>
+    stuck_; ///< See changedAt: then a vertex gained by no move.
   ImprovementResult result_;
 };
 

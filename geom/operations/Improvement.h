@@ -43,8 +43,8 @@ struct ImprovementResult
 /// Mean ratios of cells.
 struct ImprovementLimits
 {
-  double floor = 0.3;   ///< Cells below this where their vertices are wanted are operated on;
-  double minimum = 0.1; ///< below this where vertices are none gets worse.
+  double floor = 0.3;   ///< Cells below this, with their vertices where they are wanted, are tried.
+  double minimum = 0.1; ///< Edges of cells below this are split; below it none gets worse in place.
 };
 
 /// Operates on cells below a floor, the worst first. Of the removals of their edges and faces and

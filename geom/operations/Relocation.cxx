@@ -16,14 +16,16 @@ namespace
 constexpr int newtonSteps = 4;
 constexpr double shortestStep = 1.0 / 8;
 
-/// Moves the vertex there; the smallest quality of the cells, -2 where one is invalid.
-double worstAt(EditableMesh& mesh, Index vertex, const Simplices<4>& cells, const Point3& point)
+/// Moves the vertex there; the smallest quality of the cells, if it is above the bar; -2 where one
+/// is invalid.
+double worstAt(
+  EditableMesh& mesh, Index vertex, const Simplices<4>& cells, const Point3& point, double bar = -2)
 {
   mesh.moveVertex(vertex, point);
   double worst = std::numeric_limits<double>::infinity();
   for (const auto& cell : cells)
   {
-    if (!mesh.isValid(cell))
+    if (worst <= bar || !mesh.isValid(cell))
     {
       return -2;
     }
@@ -76,7 +78,7 @@ double relocate(EditableMesh& mesh, Index vertex, const Simplices<4>& cells)
          length *= 0.5)
     {
       const Point3 next = from + length * step;
-      const double there = worstAt(mesh, vertex, cells, next);
+      const double there = worstAt(mesh, vertex, cells, next, worst);
       if (there > worst)
       {
         worst = there;
