@@ -85,13 +85,13 @@ public:
   /// The point of the CAD for the midpoint of an edge; with no entity for Straight. The same for
   /// both directions of the edge.
   ClosestPoint projectMidpoint(const BoundaryEdge& edge) const;
+  /// The same for another point that stands for the edge, such as one of a curved edge.
+  ClosestPoint project(
+    const EdgeClass& edgeClass, const Point3& point, const std::array<EntityId, 2>& entities) const;
   /// A place for the midpoint of an edge that is projected to `where`, but not on a crease that the
   /// edge is not on, where it would meet the vertices of the crease's own mesh edges: in the face,
   /// as far from the crease as the midpoint is outside. So it is with a chord that leaves its face.
   ClosestPoint offCrease(const BoundaryEdge& edge, const ClosestPoint& where) const;
-  /// The same for another point that stands for the edge, such as one of a curved edge.
-  ClosestPoint project(
-    const EdgeClass& edgeClass, const Point3& point, const std::array<EntityId, 2>& entities) const;
 
   /// CAD vertices that want a mesh vertex of their own: see findCorners.
   const std::vector<std::int32_t>& corners() const { return corners_; }

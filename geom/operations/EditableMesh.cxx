@@ -100,10 +100,8 @@ void EditableMesh::setVertex(Index v, const Vertex& vertex)
 
 void EditableMesh::moveVertex(Index v, const Point3& point)
 {
-  Vertex vertex = vertices_[v];
-  vertex.point = point;
-  vertex.wanted = point;
-  setVertex(v, vertex);
+  vertices_[v].point = point;
+  vertices_[v].wanted = point;
 }
 
 EditableMesh::Freedom EditableMesh::freedomOf(Index v) const

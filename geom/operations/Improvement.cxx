@@ -46,15 +46,18 @@ public:
     bool changed = false;
     for (const auto& [quality, cell] : bad)
     {
-      if (isWorthATry(cell))
+      if (!isWorthATry(cell))
       {
-        ++result_.counts.cells;
-        const bool improves = improve(cell);
-        changed = changed || improves;
-        if (!improves)
-        {
-          tried_[cell] = now_;
-        }
+        continue;
+      }
+      ++result_.counts.cells;
+      if (improve(cell))
+      {
+        changed = true;
+      }
+      else
+      {
+        tried_[cell] = now_;
       }
     }
     return changed;
@@ -212,7 +215,7 @@ private:
   void considerMove(Index vertex)
   {
     std::int64_t& stuck = stuck_.try_emplace(vertex, -1).first->second;
-    if (stuck == changedAt(vertex) || mesh_.freedomOf(vertex) != EditableMesh::Freedom::Space)
+    if (changedAt(vertex) <= stuck || mesh_.freedomOf(vertex) != EditableMesh::Freedom::Space)
     {
       return;
     }
@@ -228,7 +231,7 @@ private:
     const double after = relocate(mesh_, vertex, cells);
     if (!gains(before, after))
     {
-      stuck = changedAt(vertex);
+      stuck = now_;
     }
     else if (after > best_.worst && worstPresent(around) >= present)
     {
@@ -388,8 +391,7 @@ private:
   std::int64_t now_ = 0;                          ///< Operations so far.
   std::vector<std::int64_t> changes_;             ///< See changedAt.
   std::unordered_map<Index, std::int64_t> tried_; ///< When nothing helped a cell.
-  std::unordered_map<Index, std::int64_t>
-    stuck_; ///< See changedAt: then a vertex gained by no move.
+  std::unordered_map<Index, std::int64_t> stuck_; ///< When no move helped a vertex.
   ImprovementResult result_;
 };
 
