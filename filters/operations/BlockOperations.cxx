@@ -274,7 +274,7 @@ OperationTrace operateOnBlocks(RankExchange& exchange, DistributedMesh& mesh,
   }
   std::vector<BlockMesh> meshes(
     list.size(), BlockMesh(mesh, ofVertices, classification, boundary, task.labels));
-  std::vector<ImprovementResult> results(list.size());
+  std::vector<OperationResult> results(list.size());
   agreeOnFailure(exchange,
     [&]
     {
@@ -282,7 +282,7 @@ OperationTrace operateOnBlocks(RankExchange& exchange, DistributedMesh& mesh,
         [&](std::size_t i)
         {
           meshes[i].fill(*list[i].second, mesh.converted.cellIds[3]);
-          results[i] = improveCells(meshes[i].mesh(), &rule, task.limits);
+          results[i] = task.work(meshes[i].mesh(), rule);
         });
     });
 

@@ -8,7 +8,8 @@
 
 #include <cadrefine/base/ParallelFor.h>
 #include <cadrefine/classification/Classification.h>
-#include <cadrefine/operations/Improvement.h>
+#include <cadrefine/operations/Operations.h>
+#include <cadrefine/operations/SurfaceRule.h>
 #include <cadrefine/refinement/RefinementTrace.h>
 
 #include <array>
@@ -46,12 +47,15 @@ OperationBlocks findOperationBlocks(RankExchange& exchange, const DistributedMes
 std::vector<int> ranksOfBlocks(
   RankExchange& exchange, const DistributedMesh& mesh, const OperationBlocks& blocks);
 
+/// What is done with the cells of a block; a function of these alone, called on several threads.
+using BlockWork = std::function<OperationResult(EditableMesh&, const SurfaceRule&)>;
+
 /// What is to be done.
 struct OperationTask
 {
   const OperationBlocks& blocks; ///< Each on one rank: see ranksOfBlocks.
   const CellLabels& labels;
-  ImprovementLimits limits;
+  const BlockWork& work;
 };
 
 /// What operations made of a mesh: it was refined (though some cells have no children), and of the
@@ -63,7 +67,7 @@ struct OperationTrace
   std::int64_t operations = 0; ///< Over all ranks.
 };
 
-/// Improves the cells of each block (see improveCells), with the vertices that it shares with
+/// Works on the cells of each block (see improveCells), with the vertices that it shares with
 /// others, or with cells that stay, in place. A vertex of `classification` that has a distance from
 /// the CAD is wanted at its place there; new ones are given theirs. New cells have ids in the order
 /// of their parents', new vertices by the order of the blocks: all is the same on any number of

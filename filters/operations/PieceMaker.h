@@ -3,7 +3,7 @@
 
 #include "operations/BlockMesh.h"
 
-#include <cadrefine/operations/Improvement.h>
+#include <cadrefine/operations/Operations.h>
 #include <cadrefine/refinement/Split.h>
 
 #include <array>

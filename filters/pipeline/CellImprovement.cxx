@@ -1,23 +1,17 @@
 #include "pipeline/CellImprovement.h"
 
-#include "fields/ArrayTransfer.h"
 #include "motion/BoundaryMotion.h"
-#include "operations/BlockOperations.h"
+#include "pipeline/LocalOperations.h"
 #include "refinement/DistributedRefinement.h"
 
 #include <cadrefine/base/IndicesWhere.h>
 #include <cadrefine/base/ParallelFor.h>
 #include <cadrefine/mesh/Quality.h>
 #include <cadrefine/motion/MoveGuard.h>
-
-#include <vtkCellData.h>
-#include <vtkDataArray.h>
-#include <vtkNew.h>
-#include <vtkTypeInt64Array.h>
+#include <cadrefine/operations/Improvement.h>
 
 #include <algorithm>
 #include <limits>
-#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,31 +25,6 @@ constexpr int maximumRounds = 6;
 constexpr int ringsOfCells = 3;
 /// Cells below this are operated on in the neighbourhood of those below the user's limit.
 constexpr double aim = 0.3;
-
-constexpr const char* blockArray = "cadrefine:block";
-
-/// Numbers of the different tags of `count` cells from the first one on.
-std::vector<Index> labelsOf(vtkCellData* data, vtkIdType first, std::size_t count)
-{
-  std::vector<Index> labels(count, 0);
-  for (int a = 0; a < data->GetNumberOfArrays(); ++a)
-  {
-    vtkDataArray* array = data->GetArray(a);
-    if (!array || !isTag(array))
-    {
-      continue;
-    }
-    std::map<std::pair<Index, std::vector<double>>, Index> numbers;
-    std::vector<double> tag(array->GetNumberOfComponents());
-    for (std::size_t c = 0; c < count; ++c)
-    {
-      array->GetTuple(first + static_cast<vtkIdType>(c), tag.data());
-      const auto next = static_cast<Index>(numbers.size());
-      labels[c] = numbers.emplace(std::pair(labels[c], tag), next).first->second;
-    }
-  }
-  return labels;
-}
 
 class CellImprovement
 {
@@ -80,7 +49,7 @@ public:
       exchange_.progress().say(static_cast<double>(round) / maximumRounds,
         "improving cells, round " + std::to_string(round + 1) + " of at most " +
           std::to_string(maximumRounds));
-      if (!operate(flags, round))
+      if (!improve(flags, round))
       {
         return;
       }
@@ -159,62 +128,19 @@ private:
              [&](Index vertex) { return options_.inRegion(state_.mesh.mesh().points[vertex]); });
   }
 
-  /// Brings each block to one rank. The blocks after that.
-  OperationBlocks gather(OperationBlocks blocks)
-  {
-    const auto ranks = ranksOfBlocks(exchange_, state_.mesh, blocks);
-    if (!exchange_.any(!ranks.empty()))
-    {
-      return blocks;
-    }
-    const vtkIdType first = firstCellOfDimension(mesh(), 3);
-    vtkNew<vtkTypeInt64Array> ofCells;
-    ofCells->SetName(blockArray);
-    ofCells->SetNumberOfValues(static_cast<vtkIdType>(mesh().cellCount()));
-    ofCells->FillValue(-1);
-    std::copy(blocks.ofCells.begin(), blocks.ofCells.end(), ofCells->GetPointer(first));
-    state_.arrays.ofCells->AddArray(ofCells);
-    meshHasChanged(state_);
-    redistribute(context_, state_, ranks);
-    const auto* sent =
-      vtkTypeInt64Array::SafeDownCast(state_.arrays.ofCells->GetAbstractArray(blockArray));
-    blocks.ofCells.clear();
-    for (std::size_t c = 0; c < mesh().tetrahedra.size(); ++c)
-    {
-      blocks.ofCells.push_back(
-        sent->GetValue(firstCellOfDimension(mesh(), 3) + static_cast<vtkIdType>(c)));
-    }
-    state_.arrays.ofCells->RemoveArray(blockArray);
-    return blocks;
-  }
-
   /// Returns whether cells have changed.
-  bool operate(const std::vector<unsigned char>& flags, int round)
+  bool improve(const std::vector<unsigned char>& flags, int round)
   {
-    const BlockSettings settings{ ringsOfCells, round, options_.largestBlock,
-      [&](const std::array<Index, 4>& cell) { return mayChange(cell); } };
-    const OperationBlocks blocks =
-      gather(findOperationBlocks(exchange_, state_.mesh, flags, settings, state_.parallelFor));
-    ClassifiedBoundary& boundary = boundaryOf(context_, state_);
-    const CellLabels labels{ labelsOf(state_.arrays.ofCells, firstCellOfDimension(mesh(), 3),
-                               mesh().tetrahedra.size()),
-      labelsOf(state_.arrays.ofCells, firstCellOfDimension(mesh(), 2), mesh().triangles.size()) };
-    const OperationTask task{ blocks, labels,
-      { std::max(options_.minimumQuality, aim), options_.minimumQuality } };
-    OperationTrace trace = operateOnBlocks(
-      exchange_, state_.mesh, *state_.classification, boundary, task, state_.parallelFor);
-    meshHasChanged(state_);
-    state_.onBoundary.clear();
-    state_.arrays = refineArrays(state_.arrays, trace.cells.parentEdges, trace.cells.firstChildren);
-    ArraySelection kept{
-      std::vector<vtkIdType>(trace.keptVertices.begin(), trace.keptVertices.end()), {}
-    };
-    state_.arrays = select(state_.arrays, kept);
-    state_.mapping.refine(std::move(trace.cells));
-    state_.mapping.convert(std::move(kept));
-    operations_ += trace.operations;
+    const ImprovementLimits limits{ std::max(options_.minimumQuality, aim),
+      options_.minimumQuality };
+    const std::int64_t operations = operate(context_, state_, flags,
+      { ringsOfCells, round, options_.largestBlock,
+        [&](const std::array<Index, 4>& cell) { return mayChange(cell); } },
+      [&](EditableMesh& block, const SurfaceRule& rule)
+      { return improveCells(block, &rule, limits); });
+    operations_ += operations;
     context_.statistics.set("local operations", static_cast<double>(operations_));
-    return trace.operations > 0;
+    return operations > 0;
   }
 
   /// Vertices that stopped on the way to the CAD try again.

@@ -63,7 +63,7 @@ public:
     return changed;
   }
 
-  ImprovementResult result() { return std::move(result_); }
+  OperationResult result() { return std::move(result_); }
 
 private:
   using Count = std::int64_t OperationCounts::*;
@@ -392,12 +392,12 @@ private:
   std::vector<std::int64_t> changes_;             ///< See changedAt.
   std::unordered_map<Index, std::int64_t> tried_; ///< When nothing helped a cell.
   std::unordered_map<Index, std::int64_t> stuck_; ///< When no move helped a vertex.
-  ImprovementResult result_;
+  OperationResult result_;
 };
 
 } // namespace
 
-ImprovementResult improveCells(
+OperationResult improveCells(
   EditableMesh& mesh, const SurfaceRule* rule, const ImprovementLimits& limits)
 {
   Improver improver(mesh, rule, limits);

@@ -2,43 +2,11 @@
 #pragma once
 
 #include <cadrefine/operations/EditableMesh.h>
+#include <cadrefine/operations/Operations.h>
 #include <cadrefine/operations/SurfaceRule.h>
-
-#include <array>
-#include <cstdint>
-#include <vector>
 
 namespace cadrefine
 {
-
-/// A vertex that an operation made.
-struct AddedVertex
-{
-  std::array<Index, 2> parents; ///< The ends of its edge.
-  ClosestPoint where;           ///< On the CAD; no entity: it is not there.
-};
-
-/// How often each operation was done.
-struct OperationCounts
-{
-  std::int64_t edgeRemovals = 0;
-  std::int64_t faceRemovals = 0;
-  std::int64_t collapses = 0;
-  std::int64_t splits = 0;
-  std::int64_t moves = 0; ///< Of vertices inside the mesh.
-  std::int64_t cells = 0; ///< That were tried.
-
-  std::int64_t operations() const
-  {
-    return edgeRemovals + faceRemovals + collapses + splits + moves;
-  }
-};
-
-struct ImprovementResult
-{
-  std::vector<AddedVertex> added; ///< Their numbers follow those of the vertices that were there.
-  OperationCounts counts;
-};
 
 /// Mean ratios of cells.
 struct ImprovementLimits
@@ -57,7 +25,7 @@ struct ImprovementLimits
 ///
 /// Work: some 50 microseconds a cell that is tried, and the projections of SurfaceRule for
 /// operations on the boundary. (L. Freitag, C. Ollivier-Gooch, 1997.)
-ImprovementResult improveCells(
+OperationResult improveCells(
   EditableMesh& mesh, const SurfaceRule* rule, const ImprovementLimits& limits);
 
 } // namespace cadrefine

@@ -1,7 +1,13 @@
 // The local operations on a mesh of tetrahedra: what each takes out, and what it puts there.
 #pragma once
 
+#include <cadrefine/nurbs/ClosestPointSearch.h>
 #include <cadrefine/operations/EditableMesh.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
 
 namespace cadrefine
 {
@@ -33,5 +39,35 @@ bool proposeCollapse(const EditableMesh& mesh, Index from, Index to, Cavity& cav
 
 /// The vertex `middle`, which has no cells yet, halves the edge.
 bool proposeSplit(const EditableMesh& mesh, Index a, Index b, Index middle, Cavity& cavity);
+
+/// A vertex that an operation made.
+struct AddedVertex
+{
+  std::array<Index, 2> parents; ///< The ends of its edge.
+  ClosestPoint where;           ///< On the CAD; no entity: it is not there.
+};
+
+/// How often each operation was done.
+struct OperationCounts
+{
+  std::int64_t edgeRemovals = 0;
+  std::int64_t faceRemovals = 0;
+  std::int64_t collapses = 0;
+  std::int64_t splits = 0;
+  std::int64_t moves = 0; ///< Of vertices inside the mesh.
+  std::int64_t cells = 0; ///< That were tried.
+
+  std::int64_t operations() const
+  {
+    return edgeRemovals + faceRemovals + collapses + splits + moves;
+  }
+};
+
+/// What operations did to a mesh.
+struct OperationResult
+{
+  std::vector<AddedVertex> added; ///< Their numbers follow those of the vertices that were there.
+  OperationCounts counts;
+};
 
 } // namespace cadrefine

@@ -91,7 +91,7 @@ TEST(Improvement, makesBadCellsBetter)
     EditableMesh mesh = spoiltCube(seed);
     const Summary before = summaryOf(mesh);
     ASSERT_TRUE(before.isValid);
-    const ImprovementResult result = improveCells(mesh, nullptr, { 0.3, 0.1 });
+    const OperationResult result = improveCells(mesh, nullptr, { 0.3, 0.1 });
     const Summary after = summaryOf(mesh);
     EXPECT_TRUE(after.isValid);
     EXPECT_GT(after.worst, before.worst);
@@ -149,7 +149,7 @@ TEST(Improvement, leavesGoodCellsAlone)
 {
   EditableMesh mesh = spoiltCube(4);
   const std::size_t cells = mesh.cells().size();
-  const ImprovementResult result = improveCells(mesh, nullptr, { summaryOf(mesh).worst, 0.1 });
+  const OperationResult result = improveCells(mesh, nullptr, { summaryOf(mesh).worst, 0.1 });
   EXPECT_EQ(mesh.cells().size(), cells);
   EXPECT_EQ(result.counts.cells, 0);
 }

@@ -1,0 +1,100 @@
+#include "pipeline/LocalOperations.h"
+
+#include "fields/ArrayTransfer.h"
+
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkNew.h>
+#include <vtkTypeInt64Array.h>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace cadrefine
+{
+namespace
+{
+
+constexpr const char* blockArray = "cadrefine:block";
+
+/// Numbers of the different tags of `count` cells from the first one on.
+std::vector<Index> labelsOf(vtkCellData* data, vtkIdType first, std::size_t count)
+{
+  std::vector<Index> labels(count, 0);
+  for (int a = 0; a < data->GetNumberOfArrays(); ++a)
+  {
+    vtkDataArray* array = data->GetArray(a);
+    if (!array || !isTag(array))
+    {
+      continue;
+    }
+    std::map<std::pair<Index, std::vector<double>>, Index> numbers;
+    std::vector<double> tag(array->GetNumberOfComponents());
+    for (std::size_t c = 0; c < count; ++c)
+    {
+      array->GetTuple(first + static_cast<vtkIdType>(c), tag.data());
+      const auto next = static_cast<Index>(numbers.size());
+      labels[c] = numbers.emplace(std::pair(labels[c], tag), next).first->second;
+    }
+  }
+  return labels;
+}
+
+/// Brings each block to one rank. The blocks after that.
+OperationBlocks gather(const PipelineContext& context, MeshState& state, OperationBlocks blocks)
+{
+  const SimplexMesh& mesh = state.mesh.mesh();
+  const auto ranks = ranksOfBlocks(context.exchange, state.mesh, blocks);
+  if (!context.exchange.any(!ranks.empty()))
+  {
+    return blocks;
+  }
+  const vtkIdType first = firstCellOfDimension(mesh, 3);
+  vtkNew<vtkTypeInt64Array> ofCells;
+  ofCells->SetName(blockArray);
+  ofCells->SetNumberOfValues(static_cast<vtkIdType>(mesh.cellCount()));
+  ofCells->FillValue(-1);
+  std::copy(blocks.ofCells.begin(), blocks.ofCells.end(), ofCells->GetPointer(first));
+  state.arrays.ofCells->AddArray(ofCells);
+  meshHasChanged(state);
+  redistribute(context, state, ranks);
+  const auto* sent =
+    vtkTypeInt64Array::SafeDownCast(state.arrays.ofCells->GetAbstractArray(blockArray));
+  blocks.ofCells.clear();
+  for (std::size_t c = 0; c < mesh.tetrahedra.size(); ++c)
+  {
+    blocks.ofCells.push_back(
+      sent->GetValue(firstCellOfDimension(mesh, 3) + static_cast<vtkIdType>(c)));
+  }
+  state.arrays.ofCells->RemoveArray(blockArray);
+  return blocks;
+}
+
+} // namespace
+
+std::int64_t operate(const PipelineContext& context, MeshState& state,
+  const std::vector<unsigned char>& flags, const BlockSettings& settings, const BlockWork& work)
+{
+  RankExchange& exchange = context.exchange;
+  const OperationBlocks blocks = gather(
+    context, state, findOperationBlocks(exchange, state.mesh, flags, settings, state.parallelFor));
+  ClassifiedBoundary& boundary = boundaryOf(context, state);
+  const SimplexMesh& mesh = state.mesh.mesh();
+  const CellLabels labels{ labelsOf(state.arrays.ofCells, firstCellOfDimension(mesh, 3),
+                             mesh.tetrahedra.size()),
+    labelsOf(state.arrays.ofCells, firstCellOfDimension(mesh, 2), mesh.triangles.size()) };
+  OperationTrace trace = operateOnBlocks(exchange, state.mesh, *state.classification, boundary,
+    { blocks, labels, work }, state.parallelFor);
+  meshHasChanged(state);
+  state.onBoundary.clear();
+  state.arrays = refineArrays(state.arrays, trace.cells.parentEdges, trace.cells.firstChildren);
+  ArraySelection kept{ std::vector<vtkIdType>(trace.keptVertices.begin(), trace.keptVertices.end()),
+    {} };
+  state.arrays = select(state.arrays, kept);
+  state.mapping.refine(std::move(trace.cells));
+  state.mapping.convert(std::move(kept));
+  return trace.operations;
+}
+
+} // namespace cadrefine

@@ -1,0 +1,21 @@
+// One round of local operations on a mesh and all that belongs to it.
+#pragma once
+
+#include "operations/BlockOperations.h"
+#include "pipeline/MeshState.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace cadrefine
+{
+
+/// Does `work` with blocks of the cells round flagged vertices (1; see findOperationBlocks), which
+/// are brought to one rank each, and takes arrays and classification along. Cells and listed
+/// triangles are told apart by their tags (see isTag). Of a mesh that is classified. Returns the
+/// number of operations over all ranks. Collective. Work and messages: those of findBlocks,
+/// redistribute where a block is on several ranks, findBoundary and operateOnBlocks.
+std::int64_t operate(const PipelineContext& context, MeshState& state,
+  const std::vector<unsigned char>& flags, const BlockSettings& settings, const BlockWork& work);
+
+} // namespace cadrefine
