@@ -71,8 +71,9 @@ EditableMesh::Vertex BlockMesh::vertexOf(Index v) const
   return vertex;
 }
 
-/// In the order of their corners. Those that are not on the CAD, and listed ones inside the mesh,
-/// have labels of their own, so that they stay.
+/// In the order of their corners. Labels tell their tags apart, and those that are not on the CAD,
+/// whose labels are below 0. Listed ones inside the mesh have labels of their own, so that they
+/// stay.
 void BlockMesh::addFacets(const Members& members)
 {
   std::map<std::array<Index, 3>, LabelledSimplex<3>> facets;
@@ -80,7 +81,7 @@ void BlockMesh::addFacets(const Members& members)
   {
     const auto corners = localCorners(boundary_.boundary.facets[f].vertices);
     const bool onCAD = boundary_.classes.facets[f].onCAD != 0;
-    facets[sorted(corners)] = { corners, onCAD ? 0 : -2 - f, -1 };
+    facets[sorted(corners)] = { corners, onCAD ? 0 : -2, -1 };
   }
   for (const Index t : members.triangles)
   {
@@ -88,12 +89,12 @@ void BlockMesh::addFacets(const Members& members)
     const auto found = facets.find(sorted(corners));
     if (found == facets.end())
     {
-      const auto f = static_cast<Index>(boundary_.boundary.facets.size()) + t;
-      facets[sorted(corners)] = { corners, -2 - f, t };
+      facets[sorted(corners)] = { corners, -3 - 2 * t, t };
       continue;
     }
+    const Index tag = 1 + labels_.ofTriangles[t];
     found->second.parent = t;
-    found->second.label += found->second.label < 0 ? 0 : 1 + labels_.ofTriangles[t];
+    found->second.label += found->second.label < 0 ? -2 * tag : tag;
   }
   for (const auto& [key, facet] : facets)
   {
@@ -110,7 +111,9 @@ void BlockMesh::addSegments(const Members& members)
     for (const Index e : boundary_.boundary.facetEdges[f])
     {
       const EdgeClass& edgeClass = boundary_.classes.ofEdges[e];
-      if (edgeClass.kind != EdgeClass::Smooth)
+      const bool isOnWall =
+        edgeClass.kind == EdgeClass::Straight && boundary_.classes.facets[f].onCAD == 0;
+      if (edgeClass.kind != EdgeClass::Smooth && !isOnWall)
       {
         const auto corners = sorted(localCorners(edges.edges()[e]));
         const bool isOnEdge = edgeClass.kind == EdgeClass::OnEdge;

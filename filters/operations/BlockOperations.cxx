@@ -282,7 +282,7 @@ OperationTrace operateOnBlocks(RankExchange& exchange, DistributedMesh& mesh,
         [&](std::size_t i)
         {
           meshes[i].fill(*list[i].second, mesh.converted.cellIds[3]);
-          results[i] = task.work(meshes[i].mesh(), rule);
+          results[i] = task.work(meshes[i], rule);
         });
     });
 

@@ -48,7 +48,7 @@ std::vector<int> ranksOfBlocks(
   RankExchange& exchange, const DistributedMesh& mesh, const OperationBlocks& blocks);
 
 /// What is done with the cells of a block; a function of these alone, called on several threads.
-using BlockWork = std::function<OperationResult(EditableMesh&, const SurfaceRule&)>;
+using BlockWork = std::function<OperationResult(BlockMesh&, const SurfaceRule&)>;
 
 /// What is to be done.
 struct OperationTask

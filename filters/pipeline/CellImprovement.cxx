@@ -136,8 +136,8 @@ private:
     const std::int64_t operations = operate(context_, state_, flags,
       { ringsOfCells, round, options_.largestBlock,
         [&](const std::array<Index, 4>& cell) { return mayChange(cell); } },
-      [&](EditableMesh& block, const SurfaceRule& rule)
-      { return improveCells(block, &rule, limits); });
+      [&](BlockMesh& block, const SurfaceRule& rule)
+      { return improveCells(block.mesh(), &rule, limits); });
     operations_ += operations;
     context_.statistics.set("local operations", static_cast<double>(operations_));
     return operations > 0;

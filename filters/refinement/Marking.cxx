@@ -20,6 +20,12 @@ namespace
 
 using Strategy = MarkingCriterion::Strategy;
 
+/// Whether the criterion's value is a part, not a value of the array.
+bool isFraction(const MarkingCriterion& criterion)
+{
+  return criterion.strategy == Strategy::FractionOfLargest || criterion.strategy == Strategy::Bulk;
+}
+
 /// Values of the array for the cells of the mesh's own dimension. A rank without any need not have
 /// the array.
 std::vector<double> valuesOf(
@@ -47,9 +53,8 @@ std::vector<double> valuesOf(
   {
     throw Error("the marking array " + criterion.array + " contains NaN");
   }
-  if (criterion.strategy != Strategy::Threshold &&
-      !std::all_of(
-        values.begin(), values.end(), [](double x) { return std::isfinite(x) && x >= 0; }))
+  if (isFraction(criterion) && !std::all_of(values.begin(), values.end(),
+                                 [](double x) { return std::isfinite(x) && x >= 0; }))
   {
     throw Error("the marking array " + criterion.array +
                 " has a value that is negative or not finite; marking by a fraction or in bulk "
@@ -60,8 +65,7 @@ std::vector<double> valuesOf(
 
 void checkFraction(const MarkingCriterion& criterion)
 {
-  if (criterion.strategy != Strategy::Threshold &&
-      !(std::isgreater(criterion.value, 0.0) && criterion.value <= 1))
+  if (isFraction(criterion) && !(std::isgreater(criterion.value, 0.0) && criterion.value <= 1))
   {
     throw Error(
       "the fraction by which " + criterion.array + " marks cells must be above 0 and at most 1");
@@ -80,6 +84,12 @@ std::vector<unsigned char> marksOf(RankExchange& exchange, const MarkingCriterio
   {
     std::transform(values.begin(), values.end(), marks.begin(),
       [&](double value) { return std::isgreater(value, criterion.value); });
+    return marks;
+  }
+  if (criterion.strategy == Strategy::Below)
+  {
+    std::transform(values.begin(), values.end(), marks.begin(),
+      [&](double value) { return std::isless(value, criterion.value); });
     return marks;
   }
   const double largest =

@@ -17,8 +17,9 @@ struct MarkingCriterion
   {
     Threshold,         ///< Values larger than `value`.
     FractionOfLargest, ///< Positive values of at least `value` times the largest of all ranks.
-    Bulk ///< The fewest cells that carry `value` of the sum (W. Doerfler, SIAM J. Numer. Anal. 33,
-         ///< 1996, pp. 1106-1124), see markBulk.
+    Bulk, ///< The fewest cells that carry `value` of the sum (W. Doerfler, SIAM J. Numer. Anal.
+          ///< 33, 1996, pp. 1106-1124), see markBulk.
+    Below ///< Values smaller than `value`.
   };
 
   std::string array; ///< Cell array with one component.
@@ -28,8 +29,8 @@ struct MarkingCriterion
 
 /// 1 for the cells of the mesh's own dimension that any of the criteria marks; all cells if there
 /// are no criteria. Throws Error, on all ranks, where an array is missing or has several
-/// components, where a value is no number, and for other strategies than Threshold where one is
-/// negative or infinite, or the fraction is not in (0, 1]. Collective. Work: a look at each cell a
+/// components, where a value is no number, and for a fraction or bulk where one is negative or
+/// infinite, or the fraction is not in (0, 1]. Collective. Work: a look at each cell a
 /// criterion, and that of markBulk.
 std::vector<unsigned char> markCells(RankExchange& exchange, const DistributedMesh& mesh,
   const MeshArrays& arrays, const std::vector<MarkingCriterion>& criteria);

@@ -4,6 +4,7 @@
 #include <cadrefine/mesh/Quality.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <limits>
 
@@ -14,6 +15,8 @@ namespace
 
 /// Of segments that are not listed.
 constexpr Index ownLabel = -1;
+/// Of those between facets off the CAD.
+constexpr Index creaseLabel = -2;
 
 } // namespace
 
@@ -85,9 +88,19 @@ void EditableMesh::closeFacets()
       const std::vector<Index> around = facets_.at(a, b);
       const bool areAlike =
         around.size() == 2 && facets_[around[0]].label == facets_[around[1]].label;
-      if (!areAlike && segmentOf(a, b) < 0)
+      const auto isFlat = [&]
+      {
+        const auto& others = facets_[around[around[0] == static_cast<Index>(f) ? 1 : 0]].corners;
+        return std::all_of(
+          others.begin(), others.end(), [&](Index v) { return isInPlaneOf(corners, v); });
+      };
+      if (segmentOf(a, b) < 0 && !areAlike)
       {
         addSegment({ { a, b }, ownLabel });
+      }
+      else if (segmentOf(a, b) < 0 && facets_[around[0]].label < 0 && !isFlat())
+      {
+        addSegment({ { a, b }, creaseLabel });
       }
     }
   }
@@ -132,6 +145,23 @@ bool EditableMesh::hasFacet(const std::array<Index, 3>& corners) const
       return hasCorner(facets_[facet].corners, corners[1]) &&
              hasCorner(facets_[facet].corners, corners[2]);
     });
+}
+
+bool EditableMesh::isInPlaneOf(const std::array<Index, 3>& facet, Index v) const
+{
+  const Point3& origin = vertices_[facet[0]].point;
+  const Vector3 normal =
+    normalized(twofoldAreaVector(origin, vertices_[facet[1]].point, vertices_[facet[2]].point));
+  double size = 0;
+  for (const Index corner : { facet[0], facet[1], facet[2], v })
+  {
+    for (const double x : vertices_[corner].point)
+    {
+      size = std::max(size, std::abs(x));
+    }
+  }
+  constexpr double rounding = 1e-13; // of coordinates that are middles of middles
+  return std::abs(dot(normal, vertices_[v].point - origin)) <= rounding * size;
 }
 
 Index EditableMesh::segmentOf(Index a, Index b) const

@@ -95,7 +95,9 @@ public:
   void addCell(const LabelledSimplex<4>& cell) { cells_.add(cell); }
   void addFacet(const LabelledSimplex<3>& facet) { facets_.add(facet); }
   void addSegment(const LabelledSimplex<2>& segment) { segments_.add(segment); }
-  /// Once all are there: adds a segment wherever the facets at an edge are not two of one label.
+  /// Once all are there: adds a segment wherever the facets at an edge are not two of one label, or
+  /// off the CAD (their labels are below 0) do not lie in one plane. Along the latter, if straight,
+  /// vertices may go.
   void closeFacets();
 
   std::size_t vertexCount() const { return vertices_.size(); }
@@ -109,6 +111,8 @@ public:
 
   Freedom freedomOf(Index v) const;
   bool hasFacet(const std::array<Index, 3>& corners) const;
+  /// Whether a vertex lies in the plane of a facet but for rounding of the coordinates.
+  bool isInPlaneOf(const std::array<Index, 3>& facet, Index v) const;
   /// The segment between two vertices; -1: none.
   Index segmentOf(Index a, Index b) const;
 

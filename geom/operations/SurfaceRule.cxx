@@ -1,10 +1,12 @@
 #include <cadrefine/operations/SurfaceRule.h>
 
 #include <cadrefine/classification/ClassificationTolerances.h>
+#include <cadrefine/error/GeometricError.h>
 #include <cadrefine/mesh/Quality.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <vector>
 
@@ -12,6 +14,9 @@ namespace cadrefine
 {
 namespace
 {
+
+/// Of the error before it is extrapolated, as where meshes are measured.
+constexpr int errorDepth = 2;
 
 /// Of the turn of a facet's normal (40 degrees).
 const double turnCosine = ClassificationTolerances::cosineOfDegrees(40);
@@ -32,7 +37,10 @@ SurfaceRule::Fit SurfaceRule::fitOf(
   fit.distance = ClassificationTolerances::leastExact * projector_.model().size();
   for (const Index facet : facets)
   {
-    widen(mesh, mesh.facets()[facet].corners, fit);
+    if (mesh.facets()[facet].label >= 0)
+    {
+      widen(mesh, mesh.facets()[facet].corners, fit);
+    }
   }
   return fit;
 }
@@ -48,7 +56,22 @@ bool SurfaceRule::isOnCAD(const EditableMesh& mesh, const std::array<Index, 3>& 
   return projector_.isOnCAD(onCAD);
 }
 
-bool SurfaceRule::accepts(const EditableMesh& mesh, const Cavity& cavity) const
+/// Whether a new facet off the CAD is a part of those before.
+bool SurfaceRule::isOnWall(
+  const EditableMesh& mesh, const Cavity& cavity, const LabelledSimplex<3>& facet)
+{
+  return std::any_of(cavity.facets.begin(), cavity.facets.end(),
+    [&](Index f)
+    {
+      const auto& old = mesh.facets()[f];
+      return old.label == facet.label &&
+             dot(normalOf(mesh, facet.corners), normalOf(mesh, old.corners)) > 0 &&
+             std::all_of(facet.corners.begin(), facet.corners.end(),
+               [&](Index v) { return mesh.isInPlaneOf(old.corners, v); });
+    });
+}
+
+bool SurfaceRule::accepts(const EditableMesh& mesh, const Cavity& cavity, double distance) const
 {
   const auto turnsLittle = [&](const LabelledSimplex<3>& facet)
   {
@@ -58,7 +81,9 @@ bool SurfaceRule::accepts(const EditableMesh& mesh, const Cavity& cavity) const
       { return dot(normal, normalOf(mesh, mesh.facets()[old].corners)) >= turnCosine; });
   };
   // What costs least comes first.
-  if (!std::all_of(cavity.newFacets.begin(), cavity.newFacets.end(), turnsLittle))
+  if (!std::all_of(cavity.newFacets.begin(), cavity.newFacets.end(),
+        [&](const auto& facet)
+        { return facet.label < 0 ? isOnWall(mesh, cavity, facet) : turnsLittle(facet); }))
   {
     return false;
   }
@@ -66,14 +91,108 @@ bool SurfaceRule::accepts(const EditableMesh& mesh, const Cavity& cavity) const
   return std::all_of(cavity.newFacets.begin(), cavity.newFacets.end(),
     [&](const auto& facet)
     {
+      if (facet.label < 0)
+      {
+        return true;
+      }
       if (!isOnCAD(mesh, facet.corners))
       {
         return false;
       }
       Fit fit;
       widen(mesh, facet.corners, fit);
-      return fit.distance <= before.distance && fit.cosine >= std::min(turnCosine, before.cosine);
+      return fit.distance <= std::max(before.distance, distance) &&
+             fit.cosine >= std::min(turnCosine, before.cosine);
     });
+}
+
+/// Of an edge of the facets before or after.
+EdgeClass SurfaceRule::classOf(
+  const EditableMesh& mesh, const Cavity& cavity, Index a, Index b) const
+{
+  const auto isBetween = [&](const LabelledSimplex<2>& segment)
+  { return hasCorner(segment.corners, a) && hasCorner(segment.corners, b); };
+  const auto added = std::find_if(cavity.newSegments.begin(), cavity.newSegments.end(), isBetween);
+  const Index there = mesh.segmentOf(a, b);
+  if (added == cavity.newSegments.end() && there < 0)
+  {
+    return { EdgeClass::Smooth, -1 };
+  }
+  const Index edge = there < 0 ? added->label : mesh.segments()[there].label;
+  return edge < 0 ? EdgeClass{} : EdgeClass{ EdgeClass::OnEdge, edge };
+}
+
+double SurfaceRule::errorOf(const EditableMesh& mesh, const Cavity& cavity,
+  const std::vector<LabelledSimplex<3>>& facets) const
+{
+  ClassifiedSurface surface;
+  std::vector<Index> vertices;
+  const auto pointOf = [&](Index vertex)
+  {
+    const auto found = std::find(vertices.begin(), vertices.end(), vertex);
+    if (found == vertices.end())
+    {
+      vertices.push_back(vertex);
+      surface.points.push_back({ mesh.vertex(vertex).wanted, mesh.vertex(vertex).entity });
+      return static_cast<Index>(vertices.size()) - 1;
+    }
+    return static_cast<Index>(found - vertices.begin());
+  };
+  const auto edgeOf = [&](Index a, Index b)
+  {
+    const std::array<Index, 2> ends{ pointOf(std::min(a, b)), pointOf(std::max(a, b)) };
+    const auto found = std::find_if(surface.edges.begin(), surface.edges.end(),
+      [&](const SurfaceEdge& edge) { return edge.ends == ends; });
+    if (found == surface.edges.end())
+    {
+      surface.edges.push_back({ ends, classOf(mesh, cavity, a, b) });
+      return static_cast<Index>(surface.edges.size()) - 1;
+    }
+    return static_cast<Index>(found - surface.edges.begin());
+  };
+  for (const auto& [corners, label, parent] : facets)
+  {
+    if (label < 0)
+    {
+      continue;
+    }
+    SurfaceFacet facet;
+    for (int k = 0; k < 3; ++k)
+    {
+      facet.corners[k] = pointOf(corners[k]);
+      facet.edges[k] = edgeOf(corners[k], corners[(k + 1) % 3]);
+    }
+    surface.facets.push_back(facet);
+  }
+  const auto project = [&](const std::vector<BoundaryEdge>& edges)
+  {
+    std::vector<ClosestPoint> places;
+    std::transform(edges.begin(), edges.end(), std::back_inserter(places),
+      [&](const BoundaryEdge& edge) { return projector_.projectMidpoint(edge); });
+    return places;
+  };
+  double error = 0;
+  for (const FacetError& ofFacet :
+    geometricErrors(surface, project(surface.allEdges()), errorDepth, 1, project))
+  {
+    error += extrapolatedMeasure(ofFacet);
+  }
+  return error;
+}
+
+double SurfaceRule::errorGain(const EditableMesh& mesh, const Cavity& cavity) const
+{
+  std::vector<LabelledSimplex<3>> before;
+  double area = 0;
+  for (const Index facet : cavity.facets)
+  {
+    const auto& [a, b, c] = before.emplace_back(mesh.facets()[facet]).corners;
+    area +=
+      norm(twofoldAreaVector(mesh.vertex(a).wanted, mesh.vertex(b).wanted, mesh.vertex(c).wanted));
+  }
+  const double gain = errorOf(mesh, cavity, cavity.newFacets) - errorOf(mesh, cavity, before);
+  const double rounding = ClassificationTolerances::leastExact * projector_.model().size() * area;
+  return std::abs(gain) <= rounding ? 0 : gain;
 }
 
 /// Makes the fit that of another facet, too.

@@ -29,15 +29,26 @@ public:
   /// Whether the new facets of a cavity follow the CAD as well as those before: each is classified
   /// as on the CAD; its normal makes no more than 40 degrees with one of theirs, and with those of
   /// the CAD at its centroid and the middles of its edges, unless theirs do; and none of these
-  /// points is farther from the CAD. Work: up to 4 projections a facet.
-  bool accepts(const EditableMesh& mesh, const Cavity& cavity) const;
+  /// points is farther from the CAD than `distance`, or than those of the facets before. Facets off
+  /// the CAD stay in the planes of those before. Work: up to 4 projections a facet.
+  bool accepts(const EditableMesh& mesh, const Cavity& cavity, double distance = 0) const;
+
+  /// By how much the geometric error (see geometricErrors; extrapolated from depth 2) of the new
+  /// facets is larger than that of those before; 0 where that is rounding. Work: some 10
+  /// projections a facet.
+  double errorGain(const EditableMesh& mesh, const Cavity& cavity) const;
 
   /// The place on the CAD of the middle of an edge of facets, between its ends where they are
   /// wanted; no entity where it cannot be told.
   ClosestPoint placeOfMiddle(const EditableMesh& mesh, Index a, Index b) const;
 
 private:
+  static bool isOnWall(
+    const EditableMesh& mesh, const Cavity& cavity, const LabelledSimplex<3>& facet);
   bool isOnCAD(const EditableMesh& mesh, const std::array<Index, 3>& facet) const;
+  EdgeClass classOf(const EditableMesh& mesh, const Cavity& cavity, Index a, Index b) const;
+  double errorOf(const EditableMesh& mesh, const Cavity& cavity,
+    const std::vector<LabelledSimplex<3>>& facets) const;
   void widen(const EditableMesh& mesh, const std::array<Index, 3>& facet, Fit& fit) const;
 
   const BoundaryProjector& projector_;

@@ -1,5 +1,5 @@
-"""CADRefine's VTK classes: vtkCADReader, vtkProjectOntoCAD, vtkCADGeometricError, vtkRefineWithCAD, vtkAdaptToCAD,
-vtkCADBoundary, vtkMeshValidity, vtkMeshReader, vtkMeshWriter.
+"""CADRefine's VTK classes: vtkCADReader, vtkProjectOntoCAD, vtkCADGeometricError, vtkRefineWithCAD,
+vtkCoarsenWithCAD, vtkAdaptToCAD, vtkCADBoundary, vtkMeshValidity, vtkMeshReader, vtkMeshWriter.
 
 They work on ParaView's VTK: run in pvpython or pvbatch, or in a Python that finds ParaView's vtkmodules.
 """

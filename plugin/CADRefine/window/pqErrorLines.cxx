@@ -15,8 +15,9 @@ void pqErrorLines::startup()
     return;
   }
   QStringList beginnings;
-  for (const char* filter : { "AdaptToCAD", "CADBoundary", "CADGeometricError", "CADReader",
-         "CADSelectedFaces", "MeshReader", "MeshValidity", "ProjectOntoCAD", "RefineWithCAD" })
+  for (const char* filter :
+    { "AdaptToCAD", "CADBoundary", "CADGeometricError", "CADReader", "CADSelectedFaces",
+      "CoarsenWithCAD", "MeshReader", "MeshValidity", "ProjectOntoCAD", "RefineWithCAD" })
   {
     beginnings << QString("Algorithm vtk%1 (").arg(filter);
   }

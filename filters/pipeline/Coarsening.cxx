@@ -1,0 +1,176 @@
+#include "pipeline/Coarsening.h"
+
+#include "error/DistributedError.h"
+#include "operations/VertexRemoval.h"
+#include "pipeline/CellImprovement.h"
+#include "pipeline/LocalOperations.h"
+#include "pipeline/MeshSummary.h"
+
+#include <cadrefine/operations/Coarsening.h>
+
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace cadrefine
+{
+namespace
+{
+
+/// Of vertices that are to go in this level; it goes along where cells are sent to other ranks.
+constexpr const char* goesArray = "cadrefine:goes";
+constexpr int maximumRounds = 8;
+
+class Coarsening
+{
+public:
+  Coarsening(const PipelineContext& context, MeshState& state, const CoarseningOptions& options)
+    : context_(context), exchange_(context.exchange), state_(state), options_(options)
+  {
+  }
+
+  CoarseningOutcome run()
+  {
+    for (int level = 0; level < options_.levels && coarsenOnce(level); ++level)
+    {
+    }
+    summariseMesh(exchange_, state_.mesh, qualityOf(exchange_, state_), state_.arrays.ofMesh);
+    summariseProjection(exchange_, state_.mesh, *state_.classification, 0, state_.arrays.ofMesh);
+    return outcome_;
+  }
+
+private:
+  /// A level. Returns whether vertices went.
+  bool coarsenOnce(int level)
+  {
+    const Progress::Part part(exchange_.progress(), static_cast<double>(level) / options_.levels,
+      static_cast<double>(level + 1) / options_.levels);
+    exchange_.progress().say(0, "choosing vertices to take out");
+    const std::int64_t before = countMesh(exchange_, state_.mesh).vertices;
+    flag(verticesToRemove(exchange_, state_.mesh, *state_.classification,
+      boundaryOf(context_, state_), verticesThatMayGo()));
+    for (int round = 0; round < maximumRounds && takeOut(round); ++round)
+    {
+    }
+    state_.arrays.ofVertices->RemoveArray(goesArray);
+    improveCells(context_, state_, { options_.minimumQuality, {}, options_.largestBlock });
+    const std::int64_t gone = before - countMesh(exchange_, state_.mesh).vertices;
+    outcome_.vertices += gone;
+    return gone > 0;
+  }
+
+  /// Those all of whose cells are marked. Collective.
+  std::vector<unsigned char> verticesThatMayGo()
+  {
+    const std::vector<unsigned char> cells =
+      markCells(exchange_, state_.mesh, state_.arrays, options_.criteria);
+    const SimplexMesh& mesh = state_.mesh.mesh();
+    std::vector<unsigned char> mayGo(mesh.points.size(), 1);
+    const auto keep = [&](const auto& corners)
+    {
+      for (const Index vertex : corners)
+      {
+        mayGo[vertex] = 0;
+      }
+    };
+    const auto keepAtOthers = [&](const auto& simplices)
+    {
+      for (std::size_t c = 0; c < simplices.size(); ++c)
+      {
+        if (!cells[c])
+        {
+          keep(simplices[c]);
+        }
+      }
+    };
+    mesh.dimension == 3 ? keepAtOthers(mesh.tetrahedra) : keepAtOthers(mesh.triangles);
+    std::for_each(mesh.vertices.begin(), mesh.vertices.end(), keep);
+    combineShared(exchange_, state_.mesh.shared, mayGo,
+      [](unsigned char a, unsigned char b) { return std::min(a, b); });
+    return mayGo;
+  }
+
+  void flag(const std::vector<unsigned char>& flags)
+  {
+    vtkNew<vtkUnsignedCharArray> array;
+    array->SetName(goesArray);
+    array->SetNumberOfValues(static_cast<vtkIdType>(flags.size()));
+    std::copy(flags.begin(), flags.end(), array->GetPointer(0));
+    state_.arrays.ofVertices->AddArray(array);
+  }
+
+  std::vector<unsigned char> flags() const
+  {
+    auto* array =
+      vtkUnsignedCharArray::SafeDownCast(state_.arrays.ofVertices->GetAbstractArray(goesArray));
+    const unsigned char* first = array->GetPointer(0);
+    return { first, first + array->GetNumberOfValues() };
+  }
+
+  /// A round of collapses. Returns whether there may be more.
+  bool takeOut(int round)
+  {
+    const std::vector<unsigned char> flagged = flags();
+    if (!exchange_.any(std::find(flagged.begin(), flagged.end(), 1) != flagged.end()))
+    {
+      return false;
+    }
+    exchange_.progress().say(static_cast<double>(round) / maximumRounds,
+      "taking out vertices, round " + std::to_string(round + 1) + " of at most " +
+        std::to_string(maximumRounds));
+    const CoarseningLimits limits = findLimits();
+    const auto work = [&](BlockMesh& block, const SurfaceRule& rule)
+    {
+      const std::vector<unsigned char> ofPiece = flags();
+      std::vector<unsigned char> goes;
+      std::transform(block.vertices().begin(), block.vertices().end(), std::back_inserter(goes),
+        [&](Index vertex) { return ofPiece[vertex]; });
+      return coarsenCells(block.mesh(), rule, goes, limits);
+    };
+    return operate(context_, state_, flagged,
+             { 2, round, options_.largestBlock, [](const std::array<Index, 4>&) { return true; } },
+             work) > 0;
+  }
+
+  /// Collective.
+  CoarseningLimits findLimits()
+  {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    CoarseningLimits limits{ options_.minimumQuality, options_.maximumDistance, infinity };
+    if (options_.targetError > 0)
+    {
+      ClassifiedBoundary& boundary = boundaryOf(context_, state_);
+      const double error = measureError(
+        exchange_, state_.mesh, boundary, *state_.classification, {}, state_.cache, false)
+                             .global;
+      const auto& facets = boundary.classes.facets;
+      const std::int64_t count = exchange_.sum(std::count_if(
+        facets.begin(), facets.end(), [](const FacetRecord& facet) { return facet.onCAD != 0; }));
+      limits.errorPerFacet = std::max(0.0, options_.targetError - error) /
+                             static_cast<double>(std::max<std::int64_t>(count, 1));
+      limits.distance = options_.maximumDistance > 0 ? options_.maximumDistance : infinity;
+    }
+    return limits;
+  }
+
+  const PipelineContext& context_;
+  RankExchange& exchange_;
+  MeshState& state_;
+  const CoarseningOptions& options_;
+  CoarseningOutcome outcome_;
+};
+
+} // namespace
+
+CoarseningOutcome coarsenMesh(
+  const PipelineContext& context, MeshState& state, const CoarseningOptions& options)
+{
+  return Coarsening(context, state, options).run();
+}
+
+} // namespace cadrefine

@@ -1,0 +1,38 @@
+// What Coarsen With CAD does with a mesh.
+#pragma once
+
+#include "pipeline/MeshState.h"
+#include "refinement/Marking.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace cadrefine
+{
+
+struct CoarseningOptions
+{
+  int levels = 1;
+  /// Cells that may become larger: those that any of these marks; none: all.
+  std::vector<MarkingCriterion> criteria;
+  double targetError = 0;     ///< The global geometric error stays at most this large; 0: not used.
+  double maximumDistance = 0; ///< New facets are no farther from the CAD; 0: not used.
+  double minimumQuality = 0.1;      ///< See improveCells.
+  std::int64_t largestBlock = 8192; ///< Cells of a block.
+};
+
+struct CoarseningOutcome
+{
+  std::int64_t vertices = 0; ///< That went, over all ranks.
+};
+
+/// Coarsens a classified mesh, level by level: of the vertices all of whose cells may become
+/// larger, those of verticesToRemove go, by edge collapses (see coarsenCells) in rounds of blocks
+/// that lie elsewhere in each (see operate), so far as the limits allow; then cells are improved
+/// (see improveCells). Without a target or a distance new facets are no farther from the CAD than
+/// those before. Collective. Work and messages: those of these, and in each round measureError
+/// where there is a target.
+CoarseningOutcome coarsenMesh(
+  const PipelineContext& context, MeshState& state, const CoarseningOptions& options);
+
+} // namespace cadrefine
