@@ -7,6 +7,8 @@
 #include "pipeline/Projection.h"
 #include "pipeline/PropertyCheck.h"
 
+#include <cadrefine/base/Error.h>
+
 #include <vtkCellData.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
@@ -83,6 +85,7 @@ cadrefine::PipelineResult vtkAdaptToCAD::Execute(
   options.uniformSteps = this->UniformSteps;
   options.maximumSteps = this->MaximumSteps;
   options.targetError = this->TargetError;
+  options.coarseningFraction = this->FindCoarseningFraction();
   options.quadraticCells = this->QuadraticCells;
   options.boundaryCells = this->GetBoundaryCells();
   const cadrefine::PipelineContext context = this->MakeContext(exchange, *model);
@@ -100,6 +103,18 @@ cadrefine::PipelineResult vtkAdaptToCAD::Execute(
     };
   }
   return cadrefine::adaptMesh(context, input, options, observer);
+}
+
+double vtkAdaptToCAD::FindCoarseningFraction() const
+{
+  checkProperty("CoarseningFraction", this->CoarseningFraction, 0, 1);
+  if (this->CoarseningFraction > 0 && !this->FindMinimumQuality())
+  {
+    throw cadrefine::Error("coarsening (CoarseningFraction) takes vertices out, which the property "
+                           "Operations, Cut only, rules out: choose All, or set "
+                           "CoarseningFraction to 0");
+  }
+  return this->CoarseningFraction;
 }
 
 MarkingCriterion vtkAdaptToCAD::GetOwnCriterion() const
@@ -135,6 +150,7 @@ void vtkAdaptToCAD::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MaximumSteps: " << this->MaximumSteps << "\n";
   os << indent << "MaximumCells: " << this->MaximumCells << "\n";
   os << indent << "TargetError: " << this->TargetError << "\n";
+  os << indent << "CoarseningFraction: " << this->CoarseningFraction << "\n";
   os << indent << "QuadraticCells: " << this->QuadraticCells << "\n";
   os << indent << "ErrorMarking: " << this->ErrorMarking << "\n";
   os << indent << "ErrorThreshold: " << this->ErrorThreshold << "\n";

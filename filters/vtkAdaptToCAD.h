@@ -127,6 +127,18 @@ public:
 
   ///@{
   /**
+   * Above 0: after each step by LONGEST_EDGE_BISECTION vertices are taken out (see
+   * vtkCoarsenWithCAD) all of whose cells have values below this part of the smallest that each
+   * criterion marks. The boundary keeps to TargetError, or, where that is 0, gets no farther from
+   * the CAD; and TargetError does not end the adaptation before its first step. In [0, 1]; not with
+   * CUT_ONLY. Default 0: no coarsening.
+   */
+  vtkSetMacro(CoarseningFraction, double);
+  vtkGetMacro(CoarseningFraction, double);
+  ///@}
+
+  ///@{
+  /**
    * Whether in the end the cells become quadratic, in a step of its own; see vtkRefineWithCAD.
    * Default off.
    */
@@ -167,6 +179,8 @@ private:
   vtkAdaptToCAD(const vtkAdaptToCAD&) = delete;
   void operator=(const vtkAdaptToCAD&) = delete;
 
+  double FindCoarseningFraction() const;
+
   std::string StepStatistics = "{}";
   bool StartProjected = false;
   bool UseRegion = false;
@@ -177,6 +191,7 @@ private:
   int MaximumSteps = 5;
   vtkIdType MaximumCells = 10000000;
   double TargetError = 0;
+  double CoarseningFraction = 0;
   bool QuadraticCells = false;
   int ErrorMarking = AUTOMATIC;
   double ErrorThreshold = 0;

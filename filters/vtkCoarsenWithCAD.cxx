@@ -42,7 +42,7 @@ cadrefine::PipelineResult vtkCoarsenWithCAD::Execute(
   cadrefine::CoarseningOptions options;
   for (const std::string& array : this->GetCellArraysRead())
   {
-    options.criteria.push_back({ array, MarkingCriterion::Strategy::Below, this->Threshold });
+    options.criteria.push_back({ array, MarkingCriterion::Strategy::AtLeast, this->Threshold });
   }
   options.targetError = this->TargetError;
   options.maximumDistance = this->MaximumDistance;

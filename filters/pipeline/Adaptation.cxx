@@ -2,6 +2,7 @@
 
 #include "fields/CADArrays.h"
 #include "pipeline/BoundaryMesh.h"
+#include "pipeline/Coarsening.h"
 #include "pipeline/ConvergenceTable.h"
 #include "pipeline/ErrorMeasurement.h"
 #include "pipeline/InputSplit.h"
@@ -19,6 +20,7 @@
 #include <sstream>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace cadrefine
 {
@@ -167,7 +169,8 @@ private:
   std::string reasonToStop() const
   {
     const double error = state_.arrays.ofMesh->GetArray("GlobalGeometricError")->GetComponent(0, 0);
-    if (options_.targetError > 0 && error <= options_.targetError)
+    const bool mayStop = steps_ > 0 || options_.coarseningFraction == 0;
+    if (options_.targetError > 0 && error <= options_.targetError && mayStop)
     {
       return "the global geometric error has reached its target (TargetError)";
     }
@@ -191,6 +194,46 @@ private:
     return outcome;
   }
 
+  /// What keeps cells from being coarsened, by the values of the mesh as it is.
+  std::vector<MarkingCriterion> criteriaToKeep()
+  {
+    std::vector<MarkingCriterion> criteria;
+    for (const MarkingCriterion& criterion : options_.refinement.criteria)
+    {
+      criteria.push_back(asThreshold(exchange_, state_.mesh, state_.arrays, criterion));
+    }
+    const EntitySelection faces = selectFaces(context_, state_, options_.refinement.faces);
+    for (const double tolerance : faces.chordTolerances)
+    {
+      if (tolerance > 0)
+      {
+        criteria.push_back({ arrays::chordError, MarkingCriterion::Strategy::AtLeast, tolerance });
+      }
+    }
+    for (MarkingCriterion& criterion : criteria)
+    {
+      criterion.value *= options_.coarseningFraction;
+    }
+    return criteria;
+  }
+
+  /// Returns whether the mesh has changed.
+  bool coarsen(std::vector<MarkingCriterion> criteria)
+  {
+    CoarseningOptions options;
+    options.criteria = std::move(criteria);
+    options.targetError = options_.targetError;
+    options.minimumQuality = *options_.refinement.minimumQuality;
+    std::int64_t gone = 0;
+    inPhase(phases::refine,
+      [&](const PipelineContext& context) { gone = coarsenMesh(context, state_, options); });
+    if (gone > 0)
+    {
+      told_ = {};
+    }
+    return gone > 0;
+  }
+
   /// Makes a step, or says why not.
   std::string makeStep()
   {
@@ -198,14 +241,20 @@ private:
     const bool uniform = isUniform();
     RefinementOptions options = options_.refinement;
     options.uniform = uniform;
-    const RefinementOutcome outcome = refine(options);
-    if (outcome.markedCells == 0)
+    std::vector<MarkingCriterion> toKeep;
+    if (!uniform && options_.coarseningFraction > 0)
     {
-      return "no cell is marked: " + outcome.whyNone;
+      toKeep = criteriaToKeep();
     }
+    const RefinementOutcome outcome = refine(options);
     if (outcome.limited)
     {
       return "there would be more cells than allowed (MaximumCells)";
+    }
+    const bool coarsened = !toKeep.empty() && coarsen(std::move(toKeep));
+    if (outcome.markedCells == 0 && !coarsened)
+    {
+      return "no cell is marked: " + outcome.whyNone;
     }
     ++steps_;
     measure(outcome.markedCells);

@@ -22,8 +22,12 @@ struct AdaptationOptions
   int recursionDepth = 0; ///< Of the error; 0: automatic.
   /// One level a step; `maximumCells` is that of the whole adaptation.
   RefinementOptions refinement;
-  int uniformSteps = 0;        ///< All cells, before those of `refinement`.
-  int maximumSteps = 0;        ///< Of `refinement`.
+  int uniformSteps = 0; ///< All cells, before those of `refinement`.
+  int maximumSteps = 0; ///< Of `refinement`.
+  /// Above 0: after each step of `refinement` cells are coarsened (see coarsenMesh) that have
+  /// values below this part of the smallest that each criterion marks, with `targetError`; and
+  /// there is at least one step.
+  double coarseningFraction = 0;
   double targetError = 0;      ///< Global; 0: none.
   bool quadraticCells = false; ///< In the end make the cells quadratic, in a step of its own.
   bool boundaryCells = false;  ///< See makeDataSetWithBoundary.
@@ -52,11 +56,11 @@ struct AdaptationObserver
   std::function<void(const AdaptationStep&)> onStep;
 };
 
-/// Projects the mesh, unless it is projected already; then measures the error, marks and refines,
-/// until the error, the steps or the cells reach their limit, no cell is marked, or the user
-/// interrupts. The cells of a step are counted before any is cut. Collective. Memory: that of a
-/// step, and of the mesh before it; with `onStep` that of a mesh more. `isInterrupted` is asked on
-/// every rank between steps; one that says so is enough.
+/// Projects the mesh, unless it is projected already; then measures the error, marks, refines and
+/// coarsens, until the error, the steps or the cells reach their limit, no cell is marked, or the
+/// user interrupts. The cells of a step are counted before any is cut. Collective. Memory: that of
+/// a step, and of the mesh before it; with `onStep` that of a mesh more. `isInterrupted` is asked
+/// on every rank between steps; one that says so is enough.
 ///
 /// The mesh is that of the last whole step, with its error. The table has a row a step, the first
 /// for the mesh after projection, on rank 0: Step, MarkedCells (cells that were marked to make it),

@@ -34,14 +34,15 @@ public:
   {
   }
 
-  CoarseningOutcome run()
+  /// Returns how many vertices went.
+  std::int64_t run()
   {
     for (int level = 0; level < options_.levels && coarsenOnce(level); ++level)
     {
     }
     summariseMesh(exchange_, state_.mesh, qualityOf(exchange_, state_), state_.arrays.ofMesh);
     summariseProjection(exchange_, state_.mesh, *state_.classification, 0, state_.arrays.ofMesh);
-    return outcome_;
+    return gone_;
   }
 
 private:
@@ -60,15 +61,13 @@ private:
     state_.arrays.ofVertices->RemoveArray(goesArray);
     improveCells(context_, state_, { options_.minimumQuality, {}, options_.largestBlock });
     const std::int64_t gone = before - countMesh(exchange_, state_.mesh).vertices;
-    outcome_.vertices += gone;
+    gone_ += gone;
     return gone > 0;
   }
 
-  /// Those all of whose cells are marked. Collective.
+  /// Those none of whose cells is marked. Collective.
   std::vector<unsigned char> verticesThatMayGo()
   {
-    const std::vector<unsigned char> cells =
-      markCells(exchange_, state_.mesh, state_.arrays, options_.criteria);
     const SimplexMesh& mesh = state_.mesh.mesh();
     std::vector<unsigned char> mayGo(mesh.points.size(), 1);
     const auto keep = [&](const auto& corners)
@@ -78,17 +77,21 @@ private:
         mayGo[vertex] = 0;
       }
     };
-    const auto keepAtOthers = [&](const auto& simplices)
+    const auto keepMarked = [&](const auto& cells)
     {
-      for (std::size_t c = 0; c < simplices.size(); ++c)
+      const auto marks = markCells(exchange_, state_.mesh, state_.arrays, options_.criteria);
+      for (std::size_t c = 0; c < cells.size(); ++c)
       {
-        if (!cells[c])
+        if (marks[c])
         {
-          keep(simplices[c]);
+          keep(cells[c]);
         }
       }
     };
-    mesh.dimension == 3 ? keepAtOthers(mesh.tetrahedra) : keepAtOthers(mesh.triangles);
+    if (!options_.criteria.empty())
+    {
+      mesh.dimension == 3 ? keepMarked(mesh.tetrahedra) : keepMarked(mesh.triangles);
+    }
     std::for_each(mesh.vertices.begin(), mesh.vertices.end(), keep);
     combineShared(exchange_, state_.mesh.shared, mayGo,
       [](unsigned char a, unsigned char b) { return std::min(a, b); });
@@ -162,12 +165,12 @@ private:
   RankExchange& exchange_;
   MeshState& state_;
   const CoarseningOptions& options_;
-  CoarseningOutcome outcome_;
+  std::int64_t gone_ = 0;
 };
 
 } // namespace
 
-CoarseningOutcome coarsenMesh(
+std::int64_t coarsenMesh(
   const PipelineContext& context, MeshState& state, const CoarseningOptions& options)
 {
   return Coarsening(context, state, options).run();

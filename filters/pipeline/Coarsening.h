@@ -13,7 +13,7 @@ namespace cadrefine
 struct CoarseningOptions
 {
   int levels = 1;
-  /// Cells that may become larger: those that any of these marks; none: all.
+  /// Cells that any of these marks stay as they are.
   std::vector<MarkingCriterion> criteria;
   double targetError = 0;     ///< The global geometric error stays at most this large; 0: not used.
   double maximumDistance = 0; ///< New facets are no farther from the CAD; 0: not used.
@@ -21,18 +21,13 @@ struct CoarseningOptions
   std::int64_t largestBlock = 8192; ///< Cells of a block.
 };
 
-struct CoarseningOutcome
-{
-  std::int64_t vertices = 0; ///< That went, over all ranks.
-};
-
-/// Coarsens a classified mesh, level by level: of the vertices all of whose cells may become
-/// larger, those of verticesToRemove go, by edge collapses (see coarsenCells) in rounds of blocks
-/// that lie elsewhere in each (see operate), so far as the limits allow; then cells are improved
-/// (see improveCells). Without a target or a distance new facets are no farther from the CAD than
-/// those before. Collective. Work and messages: those of these, and in each round measureError
-/// where there is a target.
-CoarseningOutcome coarsenMesh(
+/// Coarsens a classified mesh, level by level: of the vertices none of whose cells is marked, those
+/// of verticesToRemove go, by edge collapses (see coarsenCells) in rounds of blocks that lie
+/// elsewhere in each (see operate), so far as the limits allow; then cells are improved (see
+/// improveCells). Without a target or a distance new facets are no farther from the CAD than those
+/// before. Collective. Returns the number of vertices that went, over all ranks. Work and messages:
+/// those of these, and in each round measureError where there is a target.
+std::int64_t coarsenMesh(
   const PipelineContext& context, MeshState& state, const CoarseningOptions& options);
 
 } // namespace cadrefine

@@ -86,10 +86,10 @@ std::vector<unsigned char> marksOf(RankExchange& exchange, const MarkingCriterio
       [&](double value) { return std::isgreater(value, criterion.value); });
     return marks;
   }
-  if (criterion.strategy == Strategy::Below)
+  if (criterion.strategy == Strategy::AtLeast)
   {
     std::transform(values.begin(), values.end(), marks.begin(),
-      [&](double value) { return std::isless(value, criterion.value); });
+      [&](double value) { return std::isgreaterequal(value, criterion.value); });
     return marks;
   }
   const double largest =
@@ -140,6 +140,24 @@ std::vector<unsigned char> markCells(RankExchange& exchange, const DistributedMe
       [](unsigned char a, unsigned char b) { return a | b; });
   }
   return marks;
+}
+
+MarkingCriterion asThreshold(RankExchange& exchange, const DistributedMesh& mesh,
+  const MeshArrays& arrays, const MarkingCriterion& criterion)
+{
+  MarkingCriterion threshold{ criterion.array, Strategy::AtLeast, criterion.value };
+  if (isFraction(criterion))
+  {
+    const auto marks = markCells(exchange, mesh, arrays, { criterion });
+    const auto values = valuesOf(criterion, mesh, arrays);
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t c = 0; c < marks.size(); ++c)
+    {
+      least = marks[c] ? std::min(least, values[c]) : least;
+    }
+    threshold.value = exchange.min(least);
+  }
+  return threshold;
 }
 
 } // namespace cadrefine

@@ -17,9 +17,9 @@ struct MarkingCriterion
   {
     Threshold,         ///< Values larger than `value`.
     FractionOfLargest, ///< Positive values of at least `value` times the largest of all ranks.
-    Bulk, ///< The fewest cells that carry `value` of the sum (W. Doerfler, SIAM J. Numer. Anal.
-          ///< 33, 1996, pp. 1106-1124), see markBulk.
-    Below ///< Values smaller than `value`.
+    Bulk,   ///< The fewest cells that carry `value` of the sum (W. Doerfler, SIAM J. Numer. Anal.
+            ///< 33, 1996, pp. 1106-1124), see markBulk.
+    AtLeast ///< Values of at least `value`.
   };
 
   std::string array; ///< Cell array with one component.
@@ -34,6 +34,12 @@ struct MarkingCriterion
 /// criterion, and that of markBulk.
 std::vector<unsigned char> markCells(RankExchange& exchange, const DistributedMesh& mesh,
   const MeshArrays& arrays, const std::vector<MarkingCriterion>& criteria);
+
+/// The criterion by a value of the array: AtLeast the smallest value that it marks, and of
+/// Threshold its own; AtLeast infinity where it marks none. Throws and costs as markCells.
+/// Collective.
+MarkingCriterion asThreshold(RankExchange& exchange, const DistributedMesh& mesh,
+  const MeshArrays& arrays, const MarkingCriterion& criterion);
 
 /// Why these criteria, which can be used, mark no cell: "the largest GeometricError is 2e-08, the
 /// threshold 1e-07", and so on. Collective.

@@ -14,7 +14,8 @@ UNITS = ("m", "cm", "mm", "in", "inch", "ft")  # Of the CAD Reader.
 BOX = ("X0", "X1", "Y0", "Y1", "Z0", "Z1")
 NEGATIVE = re.compile(r"-(\.?\d|inf|nan)", re.IGNORECASE)  # How negative numbers begin.
 MSH_VERSIONS = ("2.2", "4.1")
-MARKING = ("threshold", "marking", "indicator", "chord_tolerance", "normal_angle", "cut_facets")
+MARKING = ("threshold", "marking", "indicator", "chord_tolerance", "normal_angle", "cut_facets",
+           "coarsening_fraction")
 
 
 def parse(arguments):
@@ -93,6 +94,10 @@ def add_steps(group):
                        help="end before there are more cells than that (default: no limit)")
     group.add_argument("--target-error", type=positive, metavar="E",
                        help="end at this global geometric error, an area in 2D, a volume in 3D (default: not used)")
+    group.add_argument("--coarsening-fraction", type=part, default=0.0, metavar="F",
+                       help="each step also takes vertices out where all values are below the part F of the smallest "
+                       "that each criterion marks; the boundary keeps to --target-error, or gets no farther from the "
+                       "CAD (default 0: no coarsening)")
     group.add_argument("--operations", choices=list(OPERATIONS), default="all",
                        help="what may be done with tetrahedra where vertices do not reach the CAD or cells are badly "
                        "shaped: all swaps, collapses and splits edges there (default); cut-only does not")

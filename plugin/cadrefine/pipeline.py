@@ -117,7 +117,8 @@ def adaptation_properties(options):
 def marking_properties(options):
     """By what cells are marked."""
     properties = {"ChordTolerance": options.chord_tolerance, "NormalAngle": options.normal_angle,
-                  "CutFacets": int(options.cut_facets is not False)}
+                  "CutFacets": int(options.cut_facets is not False),
+                  "CoarseningFraction": options.coarsening_fraction}
     properties.update(criterion("Error", *error_marking(options)))
     if options.indicator is not None:
         properties["IndicatorArray"] = options.indicator
