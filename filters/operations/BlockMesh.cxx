@@ -1,6 +1,9 @@
 #include "operations/BlockMesh.h"
 
+#include <cadrefine/classification/CADAdjacency.h>
+
 #include <algorithm>
+#include <iterator>
 
 namespace cadrefine
 {
@@ -14,13 +17,23 @@ std::array<Index, Corners> sorted(std::array<Index, Corners> corners)
   return corners;
 }
 
+EditableMesh::Kind kindOf(const SimplexMesh& mesh, BoundaryKind boundary)
+{
+  if (mesh.dimension == 3)
+  {
+    return EditableMesh::Kind::Solid;
+  }
+  return boundary == BoundaryKind::Segments ? EditableMesh::Kind::Plane
+                                            : EditableMesh::Kind::Surface;
+}
+
 } // namespace
 
-BlockMesh::BlockMesh(const DistributedMesh& mesh, const std::vector<std::int64_t>& blocksOfVertices,
-  const Classification& classification, const ClassifiedBoundary& boundary,
-  const CellLabels& labels)
+BlockMesh::BlockMesh(const DistributedMesh& mesh, const Vector3& plane,
+  const std::vector<std::int64_t>& blocksOfVertices, const Classification& classification,
+  const ClassifiedBoundary& boundary, const CellLabels& labels)
   : mesh_(mesh.mesh()), blocksOfVertices_(blocksOfVertices), classification_(classification),
-    boundary_(boundary), labels_(labels)
+    boundary_(boundary), labels_(labels), block_(kindOf(mesh.mesh(), boundary.boundary.kind), plane)
 {
 }
 
@@ -38,10 +51,30 @@ void BlockMesh::fill(const Members& members, const std::vector<GlobalId>& cellId
 {
   std::vector<Index> cells = members.cells;
   std::sort(cells.begin(), cells.end(), [&](Index a, Index b) { return cellIds[a] < cellIds[b]; });
+  visitCells(mesh_, [&](const auto& all) { addVertices(all, cells); });
+  if (mesh_.dimension == 3)
+  {
+    for (const Index cell : cells)
+    {
+      block_.addCell({ localCorners(mesh_.tetrahedra[cell]), labels_.ofTetrahedra[cell], cell });
+    }
+    addFacets(members);
+  }
+  else
+  {
+    addTriangles(members, cells);
+  }
+  addSegments(members);
+  keepEndsOfTags();
+  block_.closeFacets();
+}
+
+template<std::size_t Corners>
+void BlockMesh::addVertices(const Simplices<Corners>& all, const std::vector<Index>& cells)
+{
   for (const Index cell : cells)
   {
-    const auto& corners = mesh_.tetrahedra[cell];
-    vertices_.insert(vertices_.end(), corners.begin(), corners.end());
+    vertices_.insert(vertices_.end(), all[cell].begin(), all[cell].end());
   }
   std::sort(vertices_.begin(), vertices_.end(),
     [&](Index a, Index b) { return mesh_.ids[a] < mesh_.ids[b]; });
@@ -51,13 +84,6 @@ void BlockMesh::fill(const Members& members, const std::vector<GlobalId>& cellId
     numbers_.emplace(vertices_[v], static_cast<Index>(v));
     block_.addVertex(vertexOf(vertices_[v]));
   }
-  for (const Index cell : cells)
-  {
-    block_.addCell({ localCorners(mesh_.tetrahedra[cell]), labels_.ofTetrahedra[cell], cell });
-  }
-  addFacets(members);
-  addSegments(members);
-  block_.closeFacets();
 }
 
 EditableMesh::Vertex BlockMesh::vertexOf(Index v) const
@@ -102,6 +128,27 @@ void BlockMesh::addFacets(const Members& members)
   }
 }
 
+/// The cells of a mesh of triangles. Those of a surface that are not on the CAD have labels of
+/// their own, so that they stay.
+void BlockMesh::addTriangles(const Members& members, const std::vector<Index>& cells)
+{
+  std::map<Index, Index> ownLabels;
+  for (const Index f : members.facets)
+  {
+    const bool stays = boundary_.boundary.ofSurface && boundary_.classes.facets[f].onCAD == 0;
+    if (stays)
+    {
+      ownLabels[boundary_.boundary.facets[f].cell] = -2 - f;
+    }
+  }
+  for (const Index cell : cells)
+  {
+    const auto own = ownLabels.find(cell);
+    block_.addFacet({ localCorners(mesh_.triangles[cell]),
+      own == ownLabels.end() ? labels_.ofTriangles[cell] : own->second, cell });
+  }
+}
+
 void BlockMesh::addSegments(const Members& members)
 {
   const EdgeList& edges = boundary_.boundary.edges;
@@ -110,12 +157,20 @@ void BlockMesh::addSegments(const Members& members)
   {
     for (const Index e : boundary_.boundary.facetEdges[f])
     {
-      const EdgeClass& edgeClass = boundary_.classes.ofEdges[e];
-      const bool isOnWall =
-        edgeClass.kind == EdgeClass::Straight && boundary_.classes.facets[f].onCAD == 0;
-      if (edgeClass.kind != EdgeClass::Smooth && !isOnWall)
+      if (e < 0)
       {
-        const auto corners = sorted(localCorners(edges.edges()[e]));
+        continue; // the second and third of a segment
+      }
+      const EdgeClass& edgeClass = boundary_.classes.ofEdges[e];
+      const bool onCAD = boundary_.classes.facets[f].onCAD != 0;
+      const bool isOnWall = edgeClass.kind == EdgeClass::Straight && !onCAD;
+      const auto corners = sorted(localCorners(edges.edges()[e]));
+      if (boundary_.boundary.kind == BoundaryKind::Segments)
+      {
+        segments[corners] = { corners, onCAD ? lineOf(boundary_.boundary.facets[f]) : -1, -1 };
+      }
+      else if (edgeClass.kind != EdgeClass::Smooth && !isOnWall)
+      {
         const bool isOnEdge = edgeClass.kind == EdgeClass::OnEdge;
         segments[corners] = { corners, isOnEdge ? edgeClass.edge : -1, -1 };
       }
@@ -130,6 +185,50 @@ void BlockMesh::addSegments(const Members& members)
   for (const auto& [key, segment] : segments)
   {
     block_.addSegment(segment);
+  }
+}
+
+/// The line of CAD edges that both ends of a planar mesh's segment are on; -1 where there is none,
+/// or more than one.
+Index BlockMesh::lineOf(const Facet& segment) const
+{
+  const BoundaryProjector& projector = boundary_.projector;
+  const auto linesAt = [&](Index vertex)
+  {
+    std::vector<std::int32_t> lines =
+      entitiesAround(projector.model().nurbs(), classification_.entities[vertex], 1);
+    std::transform(lines.begin(), lines.end(), lines.begin(),
+      [&](std::int32_t edge) { return projector.lines()[edge]; });
+    std::sort(lines.begin(), lines.end());
+    lines.erase(std::unique(lines.begin(), lines.end()), lines.end());
+    return lines;
+  };
+  const auto first = linesAt(segment.vertices[0]);
+  const auto second = linesAt(segment.vertices[1]);
+  std::vector<std::int32_t> common;
+  std::set_intersection(
+    first.begin(), first.end(), second.begin(), second.end(), std::back_inserter(common));
+  return common.size() == 1 ? common.front() : -1;
+}
+
+/// Vertices stay between segments of which one is listed, or has another tag.
+void BlockMesh::keepEndsOfTags()
+{
+  const auto tagOf = [&](Index segment)
+  {
+    const Index parent = block_.segments()[segment].parent;
+    return parent < 0 ? -1 : labels_.ofSegments[parent];
+  };
+  for (std::size_t v = 0; v < block_.vertexCount(); ++v)
+  {
+    const auto& segments = block_.segments().at(static_cast<Index>(v));
+    if (std::any_of(segments.begin(), segments.end(),
+          [&](Index segment) { return tagOf(segment) != tagOf(segments.front()); }))
+    {
+      EditableMesh::Vertex vertex = block_.vertex(static_cast<Index>(v));
+      vertex.stays = true;
+      block_.setVertex(static_cast<Index>(v), vertex);
+    }
   }
 }
 

@@ -15,19 +15,20 @@
 namespace cadrefine
 {
 
-/// What must not be mixed: cells, and listed facets, whose labels differ stay apart.
+/// What must not be mixed: cells, and listed facets and segments, whose labels differ stay apart.
 struct CellLabels
 {
   std::vector<Index> ofTetrahedra;
   std::vector<Index> ofTriangles;
+  std::vector<Index> ofSegments;
 };
 
 /// Numbers of things that belong to a block.
 struct Members
 {
-  std::vector<Index> cells;
-  std::vector<Index> facets; ///< Of the boundary.
-  std::vector<Index> triangles;
+  std::vector<Index> cells;     ///< Of the mesh's own dimension.
+  std::vector<Index> facets;    ///< Of the boundary.
+  std::vector<Index> triangles; ///< Listed ones.
   std::vector<Index> segments;
 };
 
@@ -36,10 +37,10 @@ struct Members
 class BlockMesh
 {
 public:
-  /// `blocksOfVertices`: negative for those that stay.
-  BlockMesh(const DistributedMesh& mesh, const std::vector<std::int64_t>& blocksOfVertices,
-    const Classification& classification, const ClassifiedBoundary& boundary,
-    const CellLabels& labels);
+  /// `plane`: see planeNormal. `blocksOfVertices`: negative for those that stay.
+  BlockMesh(const DistributedMesh& mesh, const Vector3& plane,
+    const std::vector<std::int64_t>& blocksOfVertices, const Classification& classification,
+    const ClassifiedBoundary& boundary, const CellLabels& labels);
 
   void fill(const Members& members, const std::vector<GlobalId>& cellIds);
 
@@ -49,11 +50,16 @@ public:
   const std::vector<Index>& vertices() const { return vertices_; }
 
 private:
+  template<std::size_t Corners>
+  void addVertices(const Simplices<Corners>& all, const std::vector<Index>& cells);
   EditableMesh::Vertex vertexOf(Index v) const;
   template<std::size_t Corners>
   std::array<Index, Corners> localCorners(std::array<Index, Corners> corners) const;
   void addFacets(const Members& members);
+  void addTriangles(const Members& members, const std::vector<Index>& cells);
   void addSegments(const Members& members);
+  Index lineOf(const Facet& segment) const;
+  void keepEndsOfTags();
 
   const SimplexMesh& mesh_;
   const std::vector<std::int64_t>& blocksOfVertices_;

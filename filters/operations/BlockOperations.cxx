@@ -1,6 +1,7 @@
 #include "operations/BlockOperations.h"
 
 #include "comm/CollectiveErrors.h"
+#include "mesh/MeshPlane.h"
 #include "operations/BlockMesh.h"
 #include "operations/PieceMaker.h"
 #include "refinement/DistributedRefinement.h"
@@ -39,14 +40,17 @@ std::vector<std::int64_t> blocksOfVertices(
 {
   std::vector<std::int64_t> result(
     mesh.mesh().points.size(), std::numeric_limits<std::int64_t>::max());
-  const auto& cells = mesh.mesh().tetrahedra;
-  for (std::size_t c = 0; c < cells.size(); ++c)
+  const auto joinAt = [&](const auto& cells)
   {
-    for (const Index vertex : cells[c])
+    for (std::size_t c = 0; c < cells.size(); ++c)
     {
-      result[vertex] = joined(result[vertex], ofCells[c]);
+      for (const Index vertex : cells[c])
+      {
+        result[vertex] = joined(result[vertex], ofCells[c]);
+      }
     }
-  }
+  };
+  visitCells(mesh.mesh(), joinAt);
   for (const auto& [vertex] : mesh.mesh().vertices)
   {
     result[vertex] = manyBlocks; // it is listed
@@ -154,6 +158,26 @@ void dropVertices(
   mesh.shared = makeSharedItems(mesh.shared.rank, mesh.shared.neighbours, std::move(items));
 }
 
+/// Gives vertices that moved along the CAD the parameters of their new places.
+void moveParameters(const std::vector<Point3>& before, const std::vector<Point3>& after,
+  const BoundaryProjector& projector, Classification& classification)
+{
+  for (std::size_t v = 0; v < before.size(); ++v)
+  {
+    const EntityId entity = classification.entities[v];
+    if (entity && before[v] != after[v])
+    {
+      classification.parameters[v] = projector.nearestOn(entity, after[v]).parameters;
+    }
+  }
+}
+
+/// The triangles that are no cells of the mesh's own dimension.
+std::size_t listedTriangles(const SimplexMesh& mesh)
+{
+  return mesh.dimension == 3 ? mesh.triangles.size() : 0;
+}
+
 /// What each block has, and what is in none.
 std::pair<std::map<std::int64_t, Members>, Members> findMembers(const DistributedMesh& mesh,
   const std::vector<std::int64_t>& ofCells, const std::vector<std::int64_t>& ofVertices,
@@ -172,7 +196,7 @@ std::pair<std::map<std::int64_t, Members>, Members> findMembers(const Distribute
     sort(ofCells[boundary.facets[f].cell], &Members::facets, f);
   }
   const SimplexMesh& cells = mesh.mesh();
-  for (std::size_t t = 0; t < cells.triangles.size(); ++t)
+  for (std::size_t t = 0; t < listedTriangles(cells); ++t)
   {
     sort(blockOf(cells.triangles[t], ofVertices), &Members::triangles, t);
   }
@@ -181,6 +205,24 @@ std::pair<std::map<std::int64_t, Members>, Members> findMembers(const Distribute
     sort(blockOf(cells.segments[s], ofVertices), &Members::segments, s);
   }
   return { std::move(members), std::move(others) };
+}
+
+template<std::size_t Corners>
+std::vector<Point3> centresOf(
+  const Simplices<Corners>& all, const std::vector<Index>& cells, const std::vector<Point3>& points)
+{
+  std::vector<Point3> centres;
+  centres.reserve(cells.size());
+  for (const Index cell : cells)
+  {
+    Point3 sum = points[all[cell][0]];
+    for (std::size_t k = 1; k < Corners; ++k)
+    {
+      sum = sum + points[all[cell][k]];
+    }
+    centres.push_back((1.0 / Corners) * sum);
+  }
+  return centres;
 }
 
 } // namespace
@@ -197,21 +239,15 @@ OperationBlocks findOperationBlocks(RankExchange& exchange, const DistributedMes
     combineShared(exchange, mesh.shared, flags, larger);
   }
   std::vector<Index> cells = cellsAt(piece, flags, parallelFor);
-  cells.erase(std::remove_if(cells.begin(), cells.end(),
-                [&](Index cell) { return !settings.mayChange(piece.tetrahedra[cell]); }),
+  cells.erase(std::remove_if(
+                cells.begin(), cells.end(), [&](Index cell) { return !settings.mayChange(cell); }),
     cells.end());
-  std::vector<Point3> centres;
-  centres.reserve(cells.size());
-  for (const Index cell : cells)
-  {
-    const auto& [a, b, c, d] = piece.tetrahedra[cell];
-    centres.push_back(
-      0.25 * (piece.points[a] + piece.points[b] + piece.points[c] + piece.points[d]));
-  }
+  const std::vector<Point3> centres =
+    visitCells(piece, [&](const auto& all) { return centresOf(all, cells, piece.points); });
   const Blocks found =
     findBlocks(exchange, centres, findBounds(exchange, piece), settings.round, settings.largest);
-  OperationBlocks blocks{ std::vector<std::int64_t>(piece.tetrahedra.size(), noBlock),
-    found.sizes };
+  const std::size_t count = mesh.converted.cellIds[piece.dimension].size();
+  OperationBlocks blocks{ std::vector<std::int64_t>(count, noBlock), found.sizes };
   for (std::size_t i = 0; i < cells.size(); ++i)
   {
     blocks.ofCells[cells[i]] = found.ofPoints[i];
@@ -232,9 +268,9 @@ std::vector<int> ranksOfBlocks(
   {
     ofCells.push_back(blockOf(segment, ofVertices));
   }
-  for (const auto& triangle : piece.triangles)
+  for (std::size_t t = 0; t < listedTriangles(piece); ++t)
   {
-    ofCells.push_back(blockOf(triangle, ofVertices));
+    ofCells.push_back(blockOf(piece.triangles[t], ofVertices));
   }
   ofCells.insert(ofCells.end(), blocks.ofCells.begin(), blocks.ofCells.end());
   for (const std::int64_t block : ofCells)
@@ -272,8 +308,9 @@ OperationTrace operateOnBlocks(RankExchange& exchange, DistributedMesh& mesh,
   {
     list.emplace_back(number, &ofBlock);
   }
+  const Vector3 plane = mesh.mesh().dimension == 2 ? planeNormal(exchange, mesh.mesh()) : Vector3{};
   std::vector<BlockMesh> meshes(
-    list.size(), BlockMesh(mesh, ofVertices, classification, boundary, task.labels));
+    list.size(), BlockMesh(mesh, plane, ofVertices, classification, boundary, task.labels));
   std::vector<OperationResult> results(list.size());
   agreeOnFailure(exchange,
     [&]
@@ -281,7 +318,7 @@ OperationTrace operateOnBlocks(RankExchange& exchange, DistributedMesh& mesh,
       forEachIndex(parallelFor, list.size(), 1,
         [&](std::size_t i)
         {
-          meshes[i].fill(*list[i].second, mesh.converted.cellIds[3]);
+          meshes[i].fill(*list[i].second, mesh.converted.cellIds[mesh.mesh().dimension]);
           results[i] = task.work(meshes[i], rule);
         });
     });
@@ -300,6 +337,8 @@ OperationTrace operateOnBlocks(RankExchange& exchange, DistributedMesh& mesh,
   mesh.converted.cellIds = numberChildren(exchange, mesh, trace.cells.firstChildren);
   trace.cells.parentEdges = maker.parents();
   const std::size_t oldCount = mesh.mesh().points.size();
+  agreeOnFailure(exchange,
+    [&] { moveParameters(mesh.mesh().points, made.points, boundary.projector, classification); });
   mesh.mesh() = std::move(made);
   mesh.converted.pointOf.clear();
   mesh.converted.cellOf = {};

@@ -23,7 +23,7 @@ namespace cadrefine
 /// Cells that may be operated on.
 struct OperationBlocks
 {
-  std::vector<std::int64_t> ofCells; ///< Of each tetrahedron of the piece; -1: it stays.
+  std::vector<std::int64_t> ofCells; ///< Of each cell of the mesh's own dimension; -1: it stays.
   std::vector<std::int64_t> sizes;   ///< Cells of each block, over all ranks.
 };
 
@@ -32,8 +32,8 @@ struct BlockSettings
 {
   int rings = 1; ///< Of cells round the vertices where something is to be done.
   int round = 0;
-  std::int64_t largest = 0;                                   ///< Cells of a block.
-  std::function<bool(const std::array<Index, 4>&)> mayChange; ///< Of a cell.
+  std::int64_t largest = 0;             ///< Cells of a block.
+  std::function<bool(Index)> mayChange; ///< Of a cell.
 };
 
 /// The blocks of the cells round the flagged vertices. Collective; the messages of findBlocks, and

@@ -36,8 +36,11 @@ void PieceMaker::keep(const Members& others)
       into.push_back({ cell, cells[cell] });
     }
   };
-  keepAll(mesh_.tetrahedra, others.cells, tetrahedra_);
-  keepAll(mesh_.triangles, others.triangles, triangles_);
+  if (mesh_.dimension == 3)
+  {
+    keepAll(mesh_.tetrahedra, others.cells, tetrahedra_);
+  }
+  keepAll(mesh_.triangles, mesh_.dimension == 3 ? others.triangles : others.cells, triangles_);
   keepAll(mesh_.segments, others.segments, segments_);
 }
 

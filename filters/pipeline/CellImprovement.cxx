@@ -1,5 +1,6 @@
 #include "pipeline/CellImprovement.h"
 
+#include "mesh/MeshPlane.h"
 #include "motion/BoundaryMotion.h"
 #include "pipeline/LocalOperations.h"
 #include "refinement/DistributedRefinement.h"
@@ -37,6 +38,15 @@ public:
 
   void run()
   {
+    if (mesh().dimension == 2)
+    {
+      plane_ = planeNormal(exchange_, mesh());
+      if (plane_ == Vector3{} &&
+          boundaryOf(context_, state_).boundary.kind == BoundaryKind::Segments)
+      {
+        return; // the CAD's edges do not tell on which surface they are
+      }
+    }
     std::int64_t before = std::numeric_limits<std::int64_t>::max();
     for (int round = 0; round < maximumRounds; ++round)
     {
@@ -103,25 +113,41 @@ private:
     return { std::move(flags), exchange_.sum(owned + static_cast<std::ptrdiff_t>(cells.size())) };
   }
 
+  double qualityOfCell(const std::array<Index, 4>& cell, const std::vector<Point3>& points) const
+  {
+    const auto& [i, j, k, l] = cell;
+    return meanRatio(points[i], points[j], points[k], points[l]);
+  }
+
+  double qualityOfCell(const std::array<Index, 3>& cell, const std::vector<Point3>& points) const
+  {
+    const std::vector<Point3>& now = state_.mesh.mesh().points;
+    const Vector3 side =
+      plane_ != Vector3{} ? plane_ : twofoldAreaVector(now[cell[0]], now[cell[1]], now[cell[2]]);
+    return stateOf(cell, points, side).quality;
+  }
+
   std::vector<Index> badCells(const std::vector<Point3>& points) const
   {
-    const auto& cells = state_.mesh.mesh().tetrahedra;
-    return collect<Index>(state_.parallelFor, cells.size(), fineGrain,
-      [&](std::size_t begin, std::size_t end, std::vector<Index>& bad)
+    return visitCells(state_.mesh.mesh(),
+      [&](const auto& cells)
       {
-        for (std::size_t c = begin; c < end; ++c)
-        {
-          const auto& [i, j, k, l] = cells[c];
-          if (mayChange(cells[c]) &&
-              meanRatio(points[i], points[j], points[k], points[l]) < options_.minimumQuality)
+        return collect<Index>(state_.parallelFor, cells.size(), fineGrain,
+          [&](std::size_t begin, std::size_t end, std::vector<Index>& bad)
           {
-            bad.push_back(static_cast<Index>(c));
-          }
-        }
+            for (std::size_t c = begin; c < end; ++c)
+            {
+              if (mayChange(cells[c]) && qualityOfCell(cells[c], points) < options_.minimumQuality)
+              {
+                bad.push_back(static_cast<Index>(c));
+              }
+            }
+          });
       });
   }
 
-  bool mayChange(const std::array<Index, 4>& cell) const
+  template<std::size_t Corners>
+  bool mayChange(const std::array<Index, Corners>& cell) const
   {
     return !options_.inRegion ||
            std::all_of(cell.begin(), cell.end(),
@@ -135,7 +161,8 @@ private:
       options_.minimumQuality };
     const std::int64_t operations = operate(context_, state_, flags,
       { ringsOfCells, round, options_.largestBlock,
-        [&](const std::array<Index, 4>& cell) { return mayChange(cell); } },
+        [&](Index cell)
+        { return visitCells(mesh(), [&](const auto& cells) { return mayChange(cells[cell]); }); } },
       [&](BlockMesh& block, const SurfaceRule& rule)
       { return improveCells(block.mesh(), &rule, limits); });
     operations_ += operations;
@@ -158,6 +185,7 @@ private:
   RankExchange& exchange_;
   MeshState& state_;
   const CellImprovementOptions& options_;
+  Vector3 plane_{}; ///< See planeNormal.
   std::int64_t operations_ = 0;
 };
 
@@ -166,7 +194,7 @@ private:
 void improveCells(
   const PipelineContext& context, MeshState& state, const CellImprovementOptions& options)
 {
-  if (state.mesh.mesh().dimension == 3 && state.classification)
+  if (state.mesh.mesh().dimension >= 2 && state.classification)
   {
     CellImprovement(context, state, options).run();
   }

@@ -136,8 +136,7 @@ private:
       return coarsenCells(block.mesh(), rule, goes, limits);
     };
     return operate(context_, state_, flagged,
-             { 2, round, options_.largestBlock, [](const std::array<Index, 4>&) { return true; } },
-             work) > 0;
+             { 2, round, options_.largestBlock, [](Index) { return true; } }, work) > 0;
   }
 
   /// Collective.

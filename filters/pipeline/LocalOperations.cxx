@@ -50,7 +50,7 @@ OperationBlocks gather(const PipelineContext& context, MeshState& state, Operati
   {
     return blocks;
   }
-  const vtkIdType first = firstCellOfDimension(mesh, 3);
+  const vtkIdType first = firstCellOfDimension(mesh, mesh.dimension);
   vtkNew<vtkTypeInt64Array> ofCells;
   ofCells->SetName(blockArray);
   ofCells->SetNumberOfValues(static_cast<vtkIdType>(mesh.cellCount()));
@@ -62,10 +62,10 @@ OperationBlocks gather(const PipelineContext& context, MeshState& state, Operati
   const auto* sent =
     vtkTypeInt64Array::SafeDownCast(state.arrays.ofCells->GetAbstractArray(blockArray));
   blocks.ofCells.clear();
-  for (std::size_t c = 0; c < mesh.tetrahedra.size(); ++c)
+  const vtkIdType firstSent = firstCellOfDimension(mesh, mesh.dimension);
+  for (std::size_t c = 0; c < state.mesh.converted.cellIds[mesh.dimension].size(); ++c)
   {
-    blocks.ofCells.push_back(
-      sent->GetValue(firstCellOfDimension(mesh, 3) + static_cast<vtkIdType>(c)));
+    blocks.ofCells.push_back(sent->GetValue(firstSent + static_cast<vtkIdType>(c)));
   }
   state.arrays.ofCells->RemoveArray(blockArray);
   return blocks;
@@ -81,11 +81,12 @@ std::int64_t operate(const PipelineContext& context, MeshState& state,
     context, state, findOperationBlocks(exchange, state.mesh, flags, settings, state.parallelFor));
   ClassifiedBoundary& boundary = boundaryOf(context, state);
   const SimplexMesh& mesh = state.mesh.mesh();
-  const CellLabels labels{ labelsOf(state.arrays.ofCells, firstCellOfDimension(mesh, 3),
-                             mesh.tetrahedra.size()),
-    labelsOf(state.arrays.ofCells, firstCellOfDimension(mesh, 2), mesh.triangles.size()) };
+  const auto labels = [&](int dimension, std::size_t count)
+  { return labelsOf(state.arrays.ofCells, firstCellOfDimension(mesh, dimension), count); };
+  const CellLabels ofCells{ labels(3, mesh.tetrahedra.size()), labels(2, mesh.triangles.size()),
+    labels(1, mesh.segments.size()) };
   OperationTrace trace = operateOnBlocks(exchange, state.mesh, *state.classification, boundary,
-    { blocks, labels, work }, state.parallelFor);
+    { blocks, ofCells, work }, state.parallelFor);
   meshHasChanged(state);
   state.onBoundary.clear();
   state.arrays = refineArrays(state.arrays, trace.cells.parentEdges, trace.cells.firstChildren);

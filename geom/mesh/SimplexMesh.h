@@ -33,6 +33,13 @@ struct SimplexMesh
   }
 };
 
+/// visit(cells) of the cells of the mesh's own dimension.
+template<class Mesh, class Visit>
+decltype(auto) visitCells(Mesh& mesh, const Visit& visit)
+{
+  return mesh.dimension == 3 ? visit(mesh.tetrahedra) : visit(mesh.triangles);
+}
+
 /// Local edges of a tetrahedron, as pairs of local vertices. The same order holds wherever six
 /// values a tetrahedron are kept. Edge 5 - i is opposite to edge i.
 constexpr int tetrahedronEdges[6][2] = { { 0, 1 }, { 0, 2 }, { 0, 3 }, { 1, 2 }, { 1, 3 },

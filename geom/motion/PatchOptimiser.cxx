@@ -47,7 +47,8 @@ std::array<GlobalId, Corners> sortedIds(
   return result;
 }
 
-/// Where a vertex that keeps to an entity may go from a point.
+} // namespace
+
 Directions directionsOn(const BoundaryProjector& projector, EntityId entity, const Point3& point)
 {
   const ClosestPoint where = projector.nearestOn(entity, point);
@@ -60,8 +61,6 @@ Directions directionsOn(const BoundaryProjector& projector, EntityId entity, con
            ? Directions::across(model.normal(entity.index, where.parameters))
            : Directions::along(model.tangent(entity.index, where.parameters[0]));
 }
-
-} // namespace
 
 PatchOptimiser::PatchOptimiser(
   Patch& patch, const BoundaryProjector* projector, ParallelFor parallelFor)

@@ -26,6 +26,9 @@ struct Patch
   Vector3 plane{}; ///< Unit normal of a planar mesh; zero: triangles keep the side of `start`.
 };
 
+/// Where a vertex that keeps to a CAD face or edge may go from a point of it: nowhere at a pole.
+Directions directionsOn(const BoundaryProjector& projector, EntityId entity, const Point3& point);
+
 /// Minimises the energies of the free vertices one after the other (see ShapeEnergy), each with the
 /// others in place, in sweeps. A vertex waits for its free neighbours that come before it, in the
 /// order of a hash of the global ids, so that a sweep has one result however the patch is split

@@ -20,6 +20,12 @@ constexpr Index creaseLabel = -2;
 
 } // namespace
 
+bool goesAlong(const std::array<Index, 3>& triangle, Index a, Index b)
+{
+  const auto place = std::find(triangle.begin(), triangle.end(), a) - triangle.begin();
+  return place < 3 && triangle[(place + 1) % 3] == b;
+}
+
 void Cavity::clear()
 {
   cells.clear();
@@ -28,6 +34,7 @@ void Cavity::clear()
   newCells.clear();
   newFacets.clear();
   newSegments.clear();
+  sides.clear();
 }
 
 template<std::size_t Corners>
@@ -86,8 +93,10 @@ void EditableMesh::closeFacets()
       const Index a = corners[k];
       const Index b = corners[(k + 1) % 3];
       const std::vector<Index> around = facets_.at(a, b);
-      const bool areAlike =
-        around.size() == 2 && facets_[around[0]].label == facets_[around[1]].label;
+      const bool areAlike = around.size() == 2 &&
+                            facets_[around[0]].label == facets_[around[1]].label &&
+                            (kind_ == Kind::Solid || goesAlong(facets_[around[0]].corners, a, b) !=
+                                                       goesAlong(facets_[around[1]].corners, a, b));
       const auto isFlat = [&]
       {
         const auto& others = facets_[around[around[0] == static_cast<Index>(f) ? 1 : 0]].corners;
@@ -131,8 +140,13 @@ EditableMesh::Freedom EditableMesh::freedomOf(Index v) const
   {
     return facets_.at(v).empty() ? Freedom::Space : Freedom::Facet;
   }
-  const bool continues = segments.size() == 2 && segments_[segments[0]].label != ownLabel &&
-                         segments_[segments[0]].label == segments_[segments[1]].label;
+  const LabelledSimplex<2>& segment = segments_[segments.front()];
+  if (kind_ != Kind::Solid && segments.size() == 1)
+  {
+    return segment.label != ownLabel && segment.parent < 0 ? Freedom::Segment : Freedom::None;
+  }
+  const bool continues = segments.size() == 2 && segment.label != ownLabel &&
+                         segment.label == segments_[segments[1]].label;
   return continues ? Freedom::Segment : Freedom::None;
 }
 
@@ -184,10 +198,28 @@ double EditableMesh::presentQuality(const std::array<Index, 4>& cell) const
     vertices_[cell[3]].point);
 }
 
-bool EditableMesh::isValid(const std::array<Index, 4>& cell) const
+double EditableMesh::quality(const std::array<Index, 3>& cell) const
+{
+  const auto at = [&](int k) -> const Point3& { return vertices_[cell[k]].wanted; };
+  const int turn = turnOf(at(0), at(1), at(2), plane_ != Vector3{} ? plane_ : areaVector(cell));
+  return std::copysign(meanRatio(at(0), at(1), at(2)), turn);
+}
+
+double EditableMesh::presentQuality(const std::array<Index, 3>& cell) const
+{
+  return meanRatio(vertices_[cell[0]].point, vertices_[cell[1]].point, vertices_[cell[2]].point);
+}
+
+bool EditableMesh::isValid(const std::array<Index, 4>& cell, const Vector3&) const
 {
   return orientation(vertices_[cell[0]].point, vertices_[cell[1]].point, vertices_[cell[2]].point,
            vertices_[cell[3]].point) > 0;
+}
+
+bool EditableMesh::isValid(const std::array<Index, 3>& cell, const Vector3& side) const
+{
+  return turnOf(vertices_[cell[0]].point, vertices_[cell[1]].point, vertices_[cell[2]].point,
+           plane_ != Vector3{} ? plane_ : side) > 0;
 }
 
 double EditableMesh::worst(const std::vector<Index>& cells) const
@@ -195,9 +227,45 @@ double EditableMesh::worst(const std::vector<Index>& cells) const
   double result = std::numeric_limits<double>::infinity();
   for (const Index cell : cells)
   {
-    result = std::min(result, quality(cells_[cell].corners));
+    result = std::min(result,
+      kind_ == Kind::Solid ? quality(cells_[cell].corners) : quality(facets_[cell].corners));
   }
   return result;
+}
+
+bool EditableMesh::isValid(const Cavity& cavity) const
+{
+  for (std::size_t f = 0; f < cavity.newFacets.size() && kind_ != Kind::Solid; ++f)
+  {
+    if (!isValid(cavity.newFacets[f].corners, cavity.sides[f]))
+    {
+      return false;
+    }
+  }
+  return std::all_of(cavity.newCells.begin(), cavity.newCells.end(),
+    [&](const auto& cell) { return isValid(cell.corners); });
+}
+
+Vector3 EditableMesh::areaVector(const std::array<Index, 3>& facet) const
+{
+  return twofoldAreaVector(
+    vertices_[facet[0]].point, vertices_[facet[1]].point, vertices_[facet[2]].point);
+}
+
+Vector3 EditableMesh::sideOf(const std::vector<Index>& facets) const
+{
+  Vector3 sum{};
+  for (const Index facet : facets)
+  {
+    sum = sum + areaVector(facets_[facet].corners);
+  }
+  return sum;
+}
+
+bool EditableMesh::touchesBoundary(const Cavity& cavity) const
+{
+  return kind_ == Kind::Plane ? !cavity.segments.empty() || !cavity.newSegments.empty()
+                              : !cavity.facets.empty() || !cavity.newFacets.empty();
 }
 
 void EditableMesh::replace(const Cavity& cavity)

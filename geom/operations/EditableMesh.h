@@ -1,4 +1,4 @@
-// A mesh of tetrahedra whose cells may be exchanged for others.
+// A mesh of tetrahedra or triangles whose cells may be exchanged for others.
 #pragma once
 
 #include <cadrefine/base/EntityId.h>
@@ -27,7 +27,11 @@ bool hasCorner(const std::array<Index, Corners>& corners, Index vertex)
   return std::find(corners.begin(), corners.end(), vertex) != corners.end();
 }
 
-/// What an operation takes out of a mesh, and what it puts there.
+/// Whether a triangle turns from `a` to `b`.
+bool goesAlong(const std::array<Index, 3>& triangle, Index a, Index b);
+
+/// What an operation takes out of a mesh, and what it puts there. The cells of a mesh of triangles
+/// are its facets.
 struct Cavity
 {
   std::vector<Index> cells;
@@ -36,8 +40,37 @@ struct Cavity
   std::vector<LabelledSimplex<4>> newCells;
   std::vector<LabelledSimplex<3>> newFacets;
   std::vector<LabelledSimplex<2>> newSegments;
+  /// Of a mesh of triangles: for each new facet a normal of any length of those that it replaces,
+  /// from the end of which it turns as they do.
+  std::vector<Vector3> sides = {};
 
   void clear();
+
+  /// The cells of a mesh of this dimension.
+  template<int Dimension>
+  const std::vector<Index>& cellsOf() const
+  {
+    if constexpr (Dimension == 3)
+    {
+      return cells;
+    }
+    else
+    {
+      return facets;
+    }
+  }
+  template<int Dimension>
+  const std::vector<LabelledSimplex<Dimension + 1>>& newCellsOf() const
+  {
+    if constexpr (Dimension == 3)
+    {
+      return newCells;
+    }
+    else
+    {
+      return newFacets;
+    }
+  }
 };
 
 /// Simplices that come and go, each known to its corners. Numbers are not used again.
@@ -67,11 +100,20 @@ private:
 
 /// Tetrahedra, the facets that are to be kept up (of the boundary, and others that are listed) and
 /// the segments along which facets must not be joined: creases, the rims of facets, where labels
-/// change, and listed ones. Vertices have two places: where they are, and where they are wanted
-/// (on the CAD). There cells are valid, here their shape is judged.
+/// change, and listed ones. A mesh of triangles, in the plane or on a surface in space, has no
+/// tetrahedra: its cells are the facets, and in the plane its boundary is segments. Vertices have
+/// two places: where they are, and where they are wanted (on the CAD). There cells are valid, here
+/// their shape is judged.
 class EditableMesh
 {
 public:
+  enum class Kind
+  {
+    Solid,  ///< Tetrahedra, whose boundary is facets.
+    Plane,  ///< Triangles, whose boundary is segments.
+    Surface ///< Triangles that are the boundary themselves.
+  };
+
   struct Vertex
   {
     Point3 point;
@@ -91,23 +133,44 @@ public:
     Space
   };
 
+  EditableMesh() = default;
+  /// `plane` is the unit normal of a planar mesh, from the end of which its triangles turn; where
+  /// it is zero, triangles keep the side that they have.
+  explicit EditableMesh(Kind kind, const Vector3& plane = {}) : kind_(kind), plane_(plane) {}
+
   Index addVertex(const Vertex& vertex);
   void addCell(const LabelledSimplex<4>& cell) { cells_.add(cell); }
   void addFacet(const LabelledSimplex<3>& facet) { facets_.add(facet); }
   void addSegment(const LabelledSimplex<2>& segment) { segments_.add(segment); }
   /// Once all are there: adds a segment wherever the facets at an edge are not two of one label, or
   /// off the CAD (their labels are below 0) do not lie in one plane. Along the latter, if straight,
-  /// vertices may go.
+  /// vertices may go. Of a mesh of triangles also where two facets do not turn alike.
   void closeFacets();
 
+  Kind kind() const { return kind_; }
+  int dimension() const { return kind_ == Kind::Solid ? 3 : 2; }
+  const Vector3& plane() const { return plane_; }
   std::size_t vertexCount() const { return vertices_.size(); }
   const Vertex& vertex(Index v) const { return vertices_[v]; }
   void setVertex(Index v, const Vertex& vertex);
-  /// Of a vertex that is not on the CAD.
+  /// To a place where it is wanted.
   void moveVertex(Index v, const Point3& point);
   const SimplexStore<4>& cells() const { return cells_; }
   const SimplexStore<3>& facets() const { return facets_; }
   const SimplexStore<2>& segments() const { return segments_; }
+  /// The cells of a mesh of this dimension.
+  template<int Dimension>
+  const SimplexStore<Dimension + 1>& cellsOf() const
+  {
+    if constexpr (Dimension == 3)
+    {
+      return cells_;
+    }
+    else
+    {
+      return facets_;
+    }
+  }
 
   Freedom freedomOf(Index v) const;
   bool hasFacet(const std::array<Index, 3>& corners) const;
@@ -116,19 +179,34 @@ public:
   /// The segment between two vertices; -1: none.
   Index segmentOf(Index a, Index b) const;
 
-  /// Mean ratio with the vertices where they are wanted, negative where it is inverted.
+  /// Mean ratio with the vertices where they are wanted, negative where it is inverted: in space,
+  /// where it would turn over on the way there.
   double quality(const std::array<Index, 4>& cell) const;
+  double quality(const std::array<Index, 3>& cell) const;
   /// Mean ratio with the vertices where they are.
   double presentQuality(const std::array<Index, 4>& cell) const;
-  /// With the vertices where they are; exact.
-  bool isValid(const std::array<Index, 4>& cell) const;
+  double presentQuality(const std::array<Index, 3>& cell) const;
+  /// With the vertices where they are; exact. A triangle is valid where it turns as seen from the
+  /// end of `side`, or of the plane's normal.
+  bool isValid(const std::array<Index, 4>& cell, const Vector3& side = {}) const;
+  bool isValid(const std::array<Index, 3>& cell, const Vector3& side) const;
   /// The smallest quality; infinite of none.
   double worst(const std::vector<Index>& cells) const;
+  /// Whether all new cells are.
+  bool isValid(const Cavity& cavity) const;
+  /// Twice the sum of the facets' areas times normals, with the vertices where they are.
+  Vector3 sideOf(const std::vector<Index>& facets) const;
+  /// Whether the boundary changes, or is cut.
+  bool touchesBoundary(const Cavity& cavity) const;
 
   /// The numbers of the new cells are the last ones.
   void replace(const Cavity& cavity);
 
 private:
+  Vector3 areaVector(const std::array<Index, 3>& facet) const;
+
+  Kind kind_ = Kind::Solid;
+  Vector3 plane_{};
   std::vector<Vertex> vertices_;
   SimplexStore<4> cells_;
   SimplexStore<3> facets_;

@@ -3,6 +3,7 @@
 #include <cadrefine/mesh/Quality.h>
 #include <cadrefine/operations/Operations.h>
 #include <cadrefine/operations/Relocation.h>
+#include <cadrefine/operations/TriangleOperations.h>
 
 #include <algorithm>
 #include <limits>
@@ -18,9 +19,55 @@ namespace
 constexpr double leastGain = 0.01;
 constexpr int mostPasses = 10;
 
+/// A tetrahedron's or a triangle's.
+template<int Dimension>
+constexpr const auto& edgesOfCell()
+{
+  if constexpr (Dimension == 3)
+  {
+    return tetrahedronEdges;
+  }
+  else
+  {
+    return triangleEdges;
+  }
+}
+
+/// How far a point is within a tetrahedron, in parts of it: the smallest of its four coordinates.
+double depthIn(const std::array<Point3, 4>& cell, const Point3& point)
+{
+  const double volume = sixfoldVolume(cell[0], cell[1], cell[2], cell[3]);
+  double depth = std::numeric_limits<double>::infinity();
+  for (const auto& face : tetrahedronFaces)
+  {
+    const double part = -sixfoldVolume(cell[face[0]], cell[face[1]], cell[face[2]], point);
+    depth = std::min(depth, volume > 0 ? part / volume : part);
+  }
+  return depth;
+}
+
+/// The same of a triangle, seen along its normal.
+double depthIn(const std::array<Point3, 3>& cell, const Point3& point)
+{
+  const Vector3 whole = twofoldAreaVector(cell[0], cell[1], cell[2]);
+  const double area = squaredNorm(whole);
+  double depth = std::numeric_limits<double>::infinity();
+  for (const auto& [i, j] : triangleEdges)
+  {
+    const double part = dot(whole, twofoldAreaVector(cell[i], cell[j], point));
+    depth = std::min(depth, area > 0 ? part / area : part);
+  }
+  return depth;
+}
+
+/// Of the cells of a mesh of this dimension.
+template<int Dimension>
 class Improver
 {
 public:
+  using Corners = std::array<Index, Dimension + 1>;
+  using Cell = LabelledSimplex<Dimension + 1>;
+
   Improver(EditableMesh& mesh, const SurfaceRule* rule, const ImprovementLimits& limits)
     : mesh_(mesh), rule_(rule), limits_(limits)
   {
@@ -30,12 +77,12 @@ public:
   bool pass()
   {
     std::vector<std::pair<double, Index>> bad;
-    for (std::size_t c = 0; c < mesh_.cells().size(); ++c)
+    for (std::size_t c = 0; c < cells().size(); ++c)
     {
       const auto cell = static_cast<Index>(c);
-      if (mesh_.cells().exists(cell))
+      if (cells().exists(cell))
       {
-        const double quality = mesh_.quality(mesh_.cells()[cell].corners);
+        const double quality = mesh_.quality(cells()[cell].corners);
         if (quality < limits_.floor)
         {
           bad.emplace_back(quality, cell);
@@ -68,6 +115,10 @@ public:
 private:
   using Count = std::int64_t OperationCounts::*;
 
+  const SimplexStore<Dimension + 1>& cells() const { return mesh_.cellsOf<Dimension>(); }
+  const std::vector<Index>& removedCells() const { return cavity_.cellsOf<Dimension>(); }
+  const std::vector<Cell>& newCells() const { return cavity_.newCellsOf<Dimension>(); }
+
   /// The best operation so far.
   struct Best
   {
@@ -83,11 +134,11 @@ private:
   /// Whether a cell is there, bad, and not as it was when nothing helped.
   bool isWorthATry(Index cell) const
   {
-    if (!mesh_.cells().exists(cell))
+    if (!cells().exists(cell))
     {
       return false;
     }
-    const auto& corners = mesh_.cells()[cell].corners;
+    const auto& corners = cells()[cell].corners;
     const auto last = tried_.find(cell);
     return mesh_.quality(corners) < limits_.floor &&
            (last == tried_.end() ||
@@ -103,7 +154,7 @@ private:
   }
 
   /// Of these cells.
-  void noteChange(const std::vector<LabelledSimplex<4>>& cells)
+  void noteChange(const std::vector<Cell>& cells)
   {
     changes_.resize(std::max(changes_.size(), mesh_.vertexCount()), 0);
     for (const auto& cell : cells)
@@ -115,30 +166,44 @@ private:
     }
   }
 
-  std::vector<LabelledSimplex<4>> cellsOf(const std::vector<Index>& numbers) const
+  std::vector<Cell> copiesOf(const std::vector<Index>& numbers) const
   {
-    std::vector<LabelledSimplex<4>> cells;
-    cells.reserve(numbers.size());
+    std::vector<Cell> copies;
+    copies.reserve(numbers.size());
     for (const Index number : numbers)
     {
-      cells.push_back(mesh_.cells()[number]);
+      copies.push_back(cells()[number]);
     }
-    return cells;
+    return copies;
+  }
+
+  static Simplices<Dimension + 1> cornersOf(const std::vector<Cell>& cells)
+  {
+    Simplices<Dimension + 1> corners;
+    corners.reserve(cells.size());
+    for (const Cell& cell : cells)
+    {
+      corners.push_back(cell.corners);
+    }
+    return corners;
   }
 
   /// One operation, if one makes the worst cell better: the best of those that cost least.
   bool improve(Index cell)
   {
-    const auto corners = mesh_.cells()[cell].corners;
+    const auto corners = cells()[cell].corners;
     best_ = {};
-    for (const auto& [i, j] : tetrahedronEdges)
+    for (const auto& [i, j] : edgesOfCell<Dimension>())
     {
       consider(
         proposeEdgeRemoval(mesh_, corners[i], corners[j], cavity_), &OperationCounts::edgeRemovals);
     }
-    for (int k = 0; k < 4; ++k)
+    for (int k = 0; k <= Dimension; ++k)
     {
-      consider(proposeFaceRemoval(mesh_, cell, k, cavity_), &OperationCounts::faceRemovals);
+      if constexpr (Dimension == 3)
+      {
+        consider(proposeFaceRemoval(mesh_, cell, k, cavity_), &OperationCounts::faceRemovals);
+      }
       considerMove(corners[k]);
     }
     if (!best_.count)
@@ -152,9 +217,11 @@ private:
     return carryOut();
   }
 
+  /// Of triangles also a half of what a bad cell has: a narrow face of the CAD takes many splits.
   static bool gains(double before, double after)
   {
-    return after > before + leastGain * (1 - before);
+    const double least = leastGain * (1 - before);
+    return after > before + (Dimension == 2 && before > 0 ? std::min(least, 0.5 * before) : least);
   }
 
   /// Whether the operation in the cavity is the best so far.
@@ -165,8 +232,8 @@ private:
       return false;
     }
     double after = std::numeric_limits<double>::infinity();
-    const double before = mesh_.worst(cavity_.cells);
-    for (const auto& cell : cavity_.newCells)
+    const double before = mesh_.worst(removedCells());
+    for (const Cell& cell : newCells())
     {
       after = std::min(after, mesh_.quality(cell.corners));
       if (after <= best_.worst || !gains(before, after))
@@ -174,9 +241,7 @@ private:
         return false;
       }
     }
-    const bool isValid = std::all_of(cavity_.newCells.begin(), cavity_.newCells.end(),
-      [&](const auto& cell) { return mesh_.isValid(cell.corners); });
-    if (!isValid || !keepsPresentQuality() || !keepsSurface())
+    if (!mesh_.isValid(cavity_) || !keepsPresentQuality() || !keepsSurface())
     {
       return false;
     }
@@ -194,41 +259,74 @@ private:
     double worst = limits_.minimum;
     for (const Index cell : cells)
     {
-      worst = std::min(worst, mesh_.presentQuality(mesh_.cells()[cell].corners));
+      worst = std::min(worst, mesh_.presentQuality(this->cells()[cell].corners));
     }
     return worst;
   }
 
   bool keepsPresentQuality() const
   {
-    const double least = worstPresent(cavity_.cells);
-    return std::all_of(cavity_.newCells.begin(), cavity_.newCells.end(),
-      [&](const auto& cell) { return mesh_.presentQuality(cell.corners) >= least; });
+    const double least = worstPresent(removedCells());
+    return std::all_of(newCells().begin(), newCells().end(),
+      [&](const Cell& cell) { return mesh_.presentQuality(cell.corners) >= least; });
   }
 
   bool keepsSurface() const
   {
-    return (cavity_.facets.empty() && cavity_.newFacets.empty()) ||
-           (rule_ && rule_->accepts(mesh_, cavity_));
+    return !mesh_.touchesBoundary(cavity_) || (rule_ && rule_->accepts(mesh_, cavity_));
+  }
+
+  /// Of triangles also on the CAD, where it has got there.
+  bool mayMove(Index number) const
+  {
+    using Freedom = EditableMesh::Freedom;
+    const Freedom freedom = mesh_.freedomOf(number);
+    if (Dimension == 3 || freedom == Freedom::None)
+    {
+      return freedom == Freedom::Space;
+    }
+    const EditableMesh::Vertex& vertex = mesh_.vertex(number);
+    const int dimension = freedom == Freedom::Facet ? 2 : 1;
+    return isInside(number) ||
+           (rule_ && vertex.entity.dimension == dimension && vertex.point == vertex.wanted);
+  }
+
+  bool isInside(Index vertex) const
+  {
+    return mesh_.kind() != EditableMesh::Kind::Surface && !mesh_.vertex(vertex).entity;
+  }
+
+  /// Moves a vertex. The quality of its worst cell then; -2 where the boundary would follow the CAD
+  /// less well.
+  double relocated(Index vertex, const std::vector<Index>& around, double before)
+  {
+    const Simplices<Dimension + 1> corners = cornersOf(copiesOf(around));
+    if constexpr (Dimension == 2)
+    {
+      if (!isInside(vertex))
+      {
+        const SurfaceRule::Fit fit = rule_->fitAt(mesh_, vertex);
+        const double after = relocateOnCAD(mesh_, vertex, corners, rule_->projector());
+        const bool isAllowed =
+          gains(before, after) && SurfaceRule::isAsGood(rule_->fitAt(mesh_, vertex), fit);
+        return isAllowed ? after : -2;
+      }
+    }
+    return relocate(mesh_, vertex, corners);
   }
 
   void considerMove(Index vertex)
   {
     std::int64_t& stuck = stuck_.try_emplace(vertex, -1).first->second;
-    if (changedAt(vertex) <= stuck || mesh_.freedomOf(vertex) != EditableMesh::Freedom::Space)
+    if (changedAt(vertex) <= stuck || !mayMove(vertex))
     {
       return;
     }
     const Point3 start = mesh_.vertex(vertex).point;
-    const std::vector<Index>& around = mesh_.cells().at(vertex);
+    const std::vector<Index>& around = cells().at(vertex);
     const double before = mesh_.worst(around);
     const double present = worstPresent(around);
-    Simplices<4> cells;
-    for (const Index cell : around)
-    {
-      cells.push_back(mesh_.cells()[cell].corners);
-    }
-    const double after = relocate(mesh_, vertex, cells);
+    const double after = relocated(vertex, around, before);
     if (!gains(before, after))
     {
       stuck = now_;
@@ -260,7 +358,7 @@ private:
     if (best_.moved >= 0)
     {
       mesh_.moveVertex(best_.moved, best_.place);
-      noteChange(cellsOf(mesh_.cells().at(best_.moved)));
+      noteChange(copiesOf(cells().at(best_.moved)));
     }
     else
     {
@@ -272,48 +370,64 @@ private:
   /// Gives the new cells the parents that they lie in.
   void replace(Cavity& cavity)
   {
-    for (auto& cell : cavity.newCells)
+    for (Cell& cell : newCellsOf(cavity))
     {
       if (cell.parent < 0)
       {
-        cell.parent = parentOf(cell.corners, cavity.cells);
+        cell.parent = parentOf(cell.corners, cavity.cellsOf<Dimension>());
       }
     }
     mesh_.replace(cavity);
-    noteChange(cavity.newCells);
+    noteChange(newCellsOf(cavity));
+  }
+
+  static std::vector<Cell>& newCellsOf(Cavity& cavity)
+  {
+    if constexpr (Dimension == 3)
+    {
+      return cavity.newCells;
+    }
+    else
+    {
+      return cavity.newFacets;
+    }
+  }
+
+  std::array<Point3, Dimension + 1> pointsOf(const Corners& corners) const
+  {
+    std::array<Point3, Dimension + 1> points;
+    std::transform(corners.begin(), corners.end(), points.begin(),
+      [&](Index vertex) { return mesh_.vertex(vertex).point; });
+    return points;
   }
 
   /// The parent of the cell that the centroid lies in, or least outside of.
-  Index parentOf(const std::array<Index, 4>& corners, const std::vector<Index>& cells) const
+  Index parentOf(const Corners& corners, const std::vector<Index>& numbers) const
   {
-    const auto at = [&](Index v) -> const Point3& { return mesh_.vertex(v).point; };
-    const Point3 centroid =
-      0.25 * (at(corners[0]) + at(corners[1]) + at(corners[2]) + at(corners[3]));
+    const auto points = pointsOf(corners);
+    Point3 sum = points[0];
+    for (int k = 1; k <= Dimension; ++k)
+    {
+      sum = sum + points[k];
+    }
+    const Point3 centroid = (1.0 / (Dimension + 1)) * sum;
     Index parent = -1;
     double deepest = -std::numeric_limits<double>::infinity();
-    for (const Index cell : cells)
+    for (const Index cell : numbers)
     {
-      const auto& c = mesh_.cells()[cell].corners;
-      const double volume = sixfoldVolume(at(c[0]), at(c[1]), at(c[2]), at(c[3]));
-      double depth = std::numeric_limits<double>::infinity();
-      for (const auto& face : tetrahedronFaces)
-      {
-        const double part =
-          -sixfoldVolume(at(c[face[0]]), at(c[face[1]]), at(c[face[2]]), centroid);
-        depth = std::min(depth, volume > 0 ? part / volume : part);
-      }
+      const double depth = depthIn(pointsOf(cells()[cell].corners), centroid);
       if (depth > deepest)
       {
         deepest = depth;
-        parent = mesh_.cells()[cell].parent;
+        parent = cells()[cell].parent;
       }
     }
     return parent;
   }
 
-  void collapse(const std::array<Index, 4>& corners)
+  void collapse(const Corners& corners)
   {
-    for (const auto& [i, j] : tetrahedronEdges)
+    for (const auto& [i, j] : edgesOfCell<Dimension>())
     {
       consider(
         proposeCollapse(mesh_, corners[i], corners[j], cavity_), &OperationCounts::collapses);
@@ -323,9 +437,9 @@ private:
   }
 
   /// Halves the edge for which that gains most.
-  void split(const std::array<Index, 4>& corners)
+  void split(const Corners& corners)
   {
-    for (const auto& [i, j] : tetrahedronEdges)
+    for (const auto& [i, j] : edgesOfCell<Dimension>())
     {
       considerSplit(corners[i], corners[j]);
     }
@@ -347,7 +461,7 @@ private:
     vertex.point = 0.5 * (one.point + other.point);
     vertex.wanted = vertex.point;
     AddedVertex added{ { a, b }, {} };
-    if (!cavity_.facets.empty())
+    if (mesh_.touchesBoundary(cavity_))
     {
       added.where = rule_ ? rule_->placeOfMiddle(mesh_, a, b) : ClosestPoint{};
       if (!added.where.entity)
@@ -359,21 +473,19 @@ private:
       vertex.entity = added.where.entity;
     }
     mesh_.setVertex(middle_, vertex);
-    Simplices<4> cells;
-    for (const auto& cell : cavity_.newCells)
-    {
-      cells.push_back(cell.corners);
-    }
-    if (!std::all_of(
-          cells.begin(), cells.end(), [&](const auto& cell) { return mesh_.isValid(cell); }))
+    if (!mesh_.isValid(cavity_))
     {
       return; // too short to be halved, or in the way of what would go onto the CAD
     }
-    const bool isOfOneLabel = std::all_of(cavity_.newCells.begin(), cavity_.newCells.end(),
-      [&](const auto& cell) { return cell.label == cavity_.newCells.front().label; });
-    if (cavity_.facets.empty() && isOfOneLabel)
+    const bool isOfOneLabel = std::all_of(newCells().begin(), newCells().end(),
+      [&](const Cell& cell) { return cell.label == newCells().front().label; });
+    if (!mesh_.touchesBoundary(cavity_) && isOfOneLabel)
     {
-      relocate(mesh_, middle_, cells);
+      relocate(mesh_, middle_, cornersOf(newCells()));
+    }
+    if (Dimension == 2)
+    {
+      swapRoundMiddle(mesh_, middle_, cavity_);
     }
     if (consider(true, &OperationCounts::splits))
     {
@@ -395,16 +507,23 @@ private:
   OperationResult result_;
 };
 
+template<int Dimension>
+OperationResult improve(
+  EditableMesh& mesh, const SurfaceRule* rule, const ImprovementLimits& limits)
+{
+  Improver<Dimension> improver(mesh, rule, limits);
+  for (int k = 0; k < mostPasses && improver.pass(); ++k)
+  {
+  }
+  return improver.result();
+}
+
 } // namespace
 
 OperationResult improveCells(
   EditableMesh& mesh, const SurfaceRule* rule, const ImprovementLimits& limits)
 {
-  Improver improver(mesh, rule, limits);
-  for (int k = 0; k < mostPasses && improver.pass(); ++k)
-  {
-  }
-  return improver.result();
+  return mesh.dimension() == 3 ? improve<3>(mesh, rule, limits) : improve<2>(mesh, rule, limits);
 }
 
 } // namespace cadrefine

@@ -1,5 +1,7 @@
 #include <cadrefine/operations/Operations.h>
 
+#include <cadrefine/operations/TriangleOperations.h>
+
 #include <algorithm>
 #include <limits>
 #include <vector>
@@ -184,42 +186,48 @@ bool areAlike(const EditableMesh& mesh, const std::vector<Index>& cells)
     [&](Index cell) { return mesh.cells()[cell].label == mesh.cells()[cells.front()].label; });
 }
 
-/// Vertices joined to both by an edge.
-std::vector<Index> commonNeighbours(const EditableMesh& mesh, Index a, Index b)
+/// The corners of these cells, each once, ascending, but for two vertices.
+template<std::size_t Corners>
+std::vector<Index> otherCorners(
+  const SimplexStore<Corners>& store, const std::vector<Index>& cells, Index a, Index b)
 {
-  const auto neighboursOf = [&](Index vertex)
-  {
-    std::vector<Index> result;
-    for (const Index cell : mesh.cells().at(vertex))
-    {
-      const auto& corners = mesh.cells()[cell].corners;
-      result.insert(result.end(), corners.begin(), corners.end());
-    }
-    std::sort(result.begin(), result.end());
-    result.erase(std::unique(result.begin(), result.end()), result.end());
-    return result;
-  };
-  const std::vector<Index> ofA = neighboursOf(a);
-  const std::vector<Index> ofB = neighboursOf(b);
   std::vector<Index> result;
-  std::set_intersection(ofA.begin(), ofA.end(), ofB.begin(), ofB.end(), std::back_inserter(result));
-  result.erase(std::remove_if(result.begin(), result.end(),
-                 [&](Index vertex) { return vertex == a || vertex == b; }),
-    result.end());
+  for (const Index cell : cells)
+  {
+    const auto& corners = store[cell].corners;
+    std::copy_if(corners.begin(), corners.end(), std::back_inserter(result),
+      [&](Index vertex) { return vertex != a && vertex != b; });
+  }
+  std::sort(result.begin(), result.end());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
   return result;
+}
+
+/// Whether the vertices that are joined to both ends of an edge are those of the cells round it.
+template<std::size_t Corners>
+bool keepsLinks(const SimplexStore<Corners>& cells, Index a, Index b)
+{
+  const std::vector<Index> ofA = otherCorners(cells, cells.at(a), a, b);
+  const std::vector<Index> ofB = otherCorners(cells, cells.at(b), a, b);
+  std::vector<Index> common;
+  std::set_intersection(ofA.begin(), ofA.end(), ofB.begin(), ofB.end(), std::back_inserter(common));
+  return common == otherCorners(cells, cells.at(a, b), a, b);
 }
 
 /// Whether a vertex may go along this edge.
 bool mayGo(const EditableMesh& mesh, Index from, Index to)
 {
+  const std::size_t facets = mesh.facets().at(from, to).size();
+  // Those of the border of triangles have one facet.
+  const std::size_t fewest = mesh.dimension() == 3 ? 2 : 1;
   switch (mesh.freedomOf(from))
   {
     case EditableMesh::Freedom::Space:
       return true;
     case EditableMesh::Freedom::Facet:
-      return mesh.facets().at(from, to).size() == 2;
+      return facets == 2;
     case EditableMesh::Freedom::Segment:
-      return mesh.segmentOf(from, to) >= 0 && mesh.facets().at(from, to).size() == 2;
+      return mesh.segmentOf(from, to) >= 0 && facets >= fewest && facets <= 2;
     default:
       return false;
   }
@@ -262,6 +270,10 @@ void split(const SimplexStore<Corners>& store, Index a, Index b, Index middle,
 
 bool proposeEdgeRemoval(const EditableMesh& mesh, Index a, Index b, Cavity& cavity)
 {
+  if (mesh.dimension() == 2)
+  {
+    return proposeSwap(mesh, a, b, cavity);
+  }
   cavity.clear();
   if ((mesh.vertex(a).isOnRim && mesh.vertex(b).isOnRim) || mesh.segmentOf(a, b) >= 0)
   {
@@ -340,26 +352,17 @@ bool proposeFaceRemoval(const EditableMesh& mesh, Index cell, int corner, Cavity
 bool proposeCollapse(const EditableMesh& mesh, Index from, Index to, Cavity& cavity)
 {
   cavity.clear();
-  if (!mayGo(mesh, from, to))
-  {
-    return false;
-  }
-  std::vector<Index> ring;
-  for (const Index cell : mesh.cells().at(from, to))
-  {
-    const auto link = acrossEdge(mesh.cells()[cell].corners, from, to);
-    ring.insert(ring.end(), link.begin(), link.end());
-  }
-  std::sort(ring.begin(), ring.end());
-  ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
-  if (commonNeighbours(mesh, from, to) != ring)
+  const bool isSolid = mesh.dimension() == 3;
+  if (!mayGo(mesh, from, to) ||
+      !(isSolid ? keepsLinks(mesh.cells(), from, to) : keepsLinks(mesh.facets(), from, to)))
   {
     return false;
   }
   collapse(mesh.cells(), from, to, cavity.cells, cavity.newCells);
   collapse(mesh.facets(), from, to, cavity.facets, cavity.newFacets);
   collapse(mesh.segments(), from, to, cavity.segments, cavity.newSegments);
-  return std::none_of(cavity.newFacets.begin(), cavity.newFacets.end(),
+  return (isSolid || findSidesOfCollapse(mesh, from, to, cavity)) &&
+         std::none_of(cavity.newFacets.begin(), cavity.newFacets.end(),
            [&](const auto& facet) { return mesh.hasFacet(facet.corners); }) &&
          std::none_of(cavity.newSegments.begin(), cavity.newSegments.end(),
            [&](const auto& segment)
@@ -376,6 +379,11 @@ bool proposeSplit(const EditableMesh& mesh, Index a, Index b, Index middle, Cavi
   split(mesh.cells(), a, b, middle, cavity.cells, cavity.newCells);
   split(mesh.facets(), a, b, middle, cavity.facets, cavity.newFacets);
   split(mesh.segments(), a, b, middle, cavity.segments, cavity.newSegments);
+  if (mesh.dimension() == 2)
+  {
+    findSidesOfSplit(mesh, cavity);
+    return !cavity.facets.empty();
+  }
   return !cavity.cells.empty();
 }
 

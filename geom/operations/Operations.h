@@ -1,4 +1,5 @@
-// The local operations on a mesh of tetrahedra: what each takes out, and what it puts there.
+// The local operations on a mesh of tetrahedra or triangles: what each takes out, and what it puts
+// there.
 #pragma once
 
 #include <cadrefine/nurbs/ClosestPointSearch.h>
@@ -24,7 +25,7 @@ namespace cadrefine
 /// all triangulations that which has the best worst cell (G. Klincsek, "Minimal triangulations of
 /// polygonal domains", Ann. Discrete Math. 9, 1980; work cubic in the ring). Three cells round the
 /// edge become two; an edge between two facets becomes the other diagonal of these, so that one
-/// cell with two facets, as is flat where they are, is none.
+/// cell with two facets, as is flat where they are, is none. Of triangles: proposeSwap.
 bool proposeEdgeRemoval(const EditableMesh& mesh, Index a, Index b, Cavity& cavity);
 constexpr std::size_t largestRing = 7;
 

@@ -1,6 +1,7 @@
-// Moving a vertex inside a mesh to where its worst cell is better.
+// Moving a vertex to where its worst cell is better.
 #pragma once
 
+#include <cadrefine/classification/BoundaryProjector.h>
 #include <cadrefine/operations/EditableMesh.h>
 
 namespace cadrefine
@@ -8,7 +9,14 @@ namespace cadrefine
 
 /// Moves a vertex that is not on the CAD by a few steps of Newton's method (see ShapeEnergy), each
 /// halved until the worst of these cells, which are all that are to be at it, gets better and none
-/// becomes invalid. Returns the quality of the worst; -2 where one is invalid from the start.
+/// becomes invalid: in space, or in the plane of a planar mesh. Returns the quality of the worst;
+/// -2 where one is invalid from the start.
 double relocate(EditableMesh& mesh, Index vertex, const Simplices<4>& cells);
+double relocate(EditableMesh& mesh, Index vertex, const Simplices<3>& cells);
+
+/// The same of a vertex of triangles on the CAD, along its face or edge, where it stays. Work: some
+/// 3 projections a step.
+double relocateOnCAD(
+  EditableMesh& mesh, Index vertex, const Simplices<3>& cells, const BoundaryProjector& projector);
 
 } // namespace cadrefine

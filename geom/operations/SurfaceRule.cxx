@@ -27,6 +27,11 @@ Vector3 normalOf(const EditableMesh& mesh, const std::array<Index, 3>& facet)
     mesh.vertex(facet[0]).wanted, mesh.vertex(facet[1]).wanted, mesh.vertex(facet[2]).wanted));
 }
 
+Vector3 directionOf(const EditableMesh& mesh, const std::array<Index, 2>& segment)
+{
+  return normalized(mesh.vertex(segment[1]).wanted - mesh.vertex(segment[0]).wanted);
+}
+
 } // namespace
 
 SurfaceRule::Fit SurfaceRule::fitOf(
@@ -45,8 +50,14 @@ SurfaceRule::Fit SurfaceRule::fitOf(
   return fit;
 }
 
+/// As a mesh's boundary is classified: of a mesh of triangles all with corners on the CAD.
 bool SurfaceRule::isOnCAD(const EditableMesh& mesh, const std::array<Index, 3>& facet) const
 {
+  if (mesh.kind() == EditableMesh::Kind::Surface)
+  {
+    return std::all_of(facet.begin(), facet.end(),
+      [&](Index vertex) { return static_cast<bool>(mesh.vertex(vertex).entity); });
+  }
   ClassifiedFacet onCAD{};
   for (int k = 0; k < 3; ++k)
   {
@@ -73,6 +84,10 @@ bool SurfaceRule::isOnWall(
 
 bool SurfaceRule::accepts(const EditableMesh& mesh, const Cavity& cavity, double distance) const
 {
+  if (mesh.kind() == EditableMesh::Kind::Plane)
+  {
+    return acceptsSegments(mesh, cavity, distance);
+  }
   const auto turnsLittle = [&](const LabelledSimplex<3>& facet)
   {
     const Vector3 normal = normalOf(mesh, facet.corners);
@@ -101,8 +116,7 @@ bool SurfaceRule::accepts(const EditableMesh& mesh, const Cavity& cavity, double
       }
       Fit fit;
       widen(mesh, facet.corners, fit);
-      return fit.distance <= std::max(before.distance, distance) &&
-             fit.cosine >= std::min(turnCosine, before.cosine);
+      return isAsGood(fit, { std::max(before.distance, distance), before.cosine });
     });
 }
 
@@ -195,12 +209,71 @@ double SurfaceRule::errorGain(const EditableMesh& mesh, const Cavity& cavity) co
   return std::abs(gain) <= rounding ? 0 : gain;
 }
 
+SurfaceRule::Fit SurfaceRule::fitAt(const EditableMesh& mesh, Index vertex) const
+{
+  if (mesh.kind() != EditableMesh::Kind::Plane)
+  {
+    return fitOf(mesh, mesh.facets().at(vertex));
+  }
+  Fit fit;
+  fit.distance = farthestMiddle(mesh, mesh.segments().at(vertex));
+  return fit;
+}
+
+bool SurfaceRule::isAsGood(const Fit& fit, const Fit& before)
+{
+  return fit.distance <= before.distance && fit.cosine >= std::min(turnCosine, before.cosine);
+}
+
+/// Of the middles of these segments from the CAD, but for rounding.
+double SurfaceRule::farthestMiddle(
+  const EditableMesh& mesh, const std::vector<Index>& segments) const
+{
+  double farthest = ClassificationTolerances::leastExact * projector_.model().size();
+  for (const Index segment : segments)
+  {
+    farthest = std::max(farthest, distanceOfMiddle(mesh, mesh.segments()[segment].corners));
+  }
+  return farthest;
+}
+
+bool SurfaceRule::acceptsSegments(
+  const EditableMesh& mesh, const Cavity& cavity, double distance) const
+{
+  const double farthest = std::max(farthestMiddle(mesh, cavity.segments), distance);
+  return std::all_of(cavity.newSegments.begin(), cavity.newSegments.end(),
+    [&](const auto& segment)
+    {
+      const Vector3 direction = directionOf(mesh, segment.corners);
+      const bool turnsLittle = std::any_of(cavity.segments.begin(), cavity.segments.end(),
+        [&](Index old)
+        {
+          return std::abs(dot(direction, directionOf(mesh, mesh.segments()[old].corners))) >=
+                 turnCosine;
+        });
+      const auto& [a, b] = segment.corners;
+      return turnsLittle && distanceOfMiddle(mesh, segment.corners) <= farthest &&
+             projector_.isOnCAD({ { mesh.vertex(a).wanted, mesh.vertex(b).wanted }, {} });
+    });
+}
+
+double SurfaceRule::distanceOfMiddle(
+  const EditableMesh& mesh, const std::array<Index, 2>& segment) const
+{
+  const Point3 middle = 0.5 * (mesh.vertex(segment[0]).wanted + mesh.vertex(segment[1]).wanted);
+  return projector_.nearest(middle, std::numeric_limits<double>::infinity()).distance;
+}
+
 /// Makes the fit that of another facet, too.
 void SurfaceRule::widen(const EditableMesh& mesh, const std::array<Index, 3>& facet, Fit& fit) const
 {
   const std::array<Point3, 3> p{ mesh.vertex(facet[0]).wanted, mesh.vertex(facet[1]).wanted,
     mesh.vertex(facet[2]).wanted };
   const Vector3 normal = normalOf(mesh, facet);
+  for (int k = 0; k < 3 && mesh.dimension() == 2; ++k)
+  {
+    fit.distance = std::max(fit.distance, distance(mesh.vertex(facet[k]).point, p[k]));
+  }
   for (const Point3& point : { (1.0 / 3) * (p[0] + p[1] + p[2]), 0.5 * (p[0] + p[1]),
          0.5 * (p[1] + p[2]), 0.5 * (p[2] + p[0]) })
   {

@@ -10,8 +10,9 @@
 namespace cadrefine
 {
 
-/// Judges new boundary facets with their vertices where they are wanted, and places new vertices.
-/// All answers are pure functions of the mesh at the cavity and the model.
+/// Judges new boundary facets, of a planar mesh segments, with their vertices where they are
+/// wanted, and places new vertices. All answers are pure functions of the mesh at the cavity and
+/// the model.
 class SurfaceRule
 {
 public:
@@ -25,12 +26,20 @@ public:
   };
   /// Work: 4 projections a facet.
   Fit fitOf(const EditableMesh& mesh, const std::vector<Index>& facets) const;
+  /// Of the boundary at a vertex: facets, of a planar mesh segments, which have no normals.
+  Fit fitAt(const EditableMesh& mesh, Index vertex) const;
+  /// Whether a boundary that fits like this follows the CAD as well as it did before: no point is
+  /// farther away, and normals make no more than 40 degrees, or no more than before.
+  static bool isAsGood(const Fit& fit, const Fit& before);
+
+  const BoundaryProjector& projector() const { return projector_; }
 
   /// Whether the new facets of a cavity follow the CAD as well as those before: each is classified
   /// as on the CAD; its normal makes no more than 40 degrees with one of theirs, and with those of
   /// the CAD at its centroid and the middles of its edges, unless theirs do; and none of these
   /// points is farther from the CAD than `distance`, or than those of the facets before. Facets off
-  /// the CAD stay in the planes of those before. Work: up to 4 projections a facet.
+  /// the CAD stay in the planes of those before. Of a planar mesh the same of the segments'
+  /// directions and middles. Work: up to 4 projections a facet, 2 a segment.
   bool accepts(const EditableMesh& mesh, const Cavity& cavity, double distance = 0) const;
 
   /// By how much the geometric error (see geometricErrors; extrapolated from depth 2) of the new
@@ -45,6 +54,9 @@ public:
 private:
   static bool isOnWall(
     const EditableMesh& mesh, const Cavity& cavity, const LabelledSimplex<3>& facet);
+  bool acceptsSegments(const EditableMesh& mesh, const Cavity& cavity, double distance) const;
+  double farthestMiddle(const EditableMesh& mesh, const std::vector<Index>& segments) const;
+  double distanceOfMiddle(const EditableMesh& mesh, const std::array<Index, 2>& segment) const;
   bool isOnCAD(const EditableMesh& mesh, const std::array<Index, 3>& facet) const;
   EdgeClass classOf(const EditableMesh& mesh, const Cavity& cavity, Index a, Index b) const;
   double errorOf(const EditableMesh& mesh, const Cavity& cavity,

@@ -1,0 +1,185 @@
+#include <cadrefine/operations/TriangleOperations.h>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace cadrefine
+{
+namespace
+{
+
+/// The third corner of a facet at this edge.
+Index apexOf(const std::array<Index, 3>& facet, Index a, Index b)
+{
+  return *std::find_if(
+    facet.begin(), facet.end(), [&](Index vertex) { return vertex != a && vertex != b; });
+}
+
+bool contains(const std::vector<Index>& list, Index facet)
+{
+  return std::find(list.begin(), list.end(), facet) != list.end();
+}
+
+/// The facets at a vertex that hang together with one of them without a segment in between.
+std::vector<Index> fanOf(const EditableMesh& mesh, Index vertex, Index facet)
+{
+  std::vector<Index> fan{ facet };
+  for (std::size_t f = 0; f < fan.size(); ++f)
+  {
+    for (const Index other : mesh.facets()[fan[f]].corners)
+    {
+      if (other == vertex || mesh.segmentOf(vertex, other) >= 0)
+      {
+        continue;
+      }
+      for (const Index next : mesh.facets().at(vertex, other))
+      {
+        if (!contains(fan, next))
+        {
+          fan.push_back(next);
+        }
+      }
+    }
+  }
+  return fan;
+}
+
+/// On a surface in space, what is new between vertices that have cells beyond this mesh may be
+/// there already, round a hole or on the other side of something thin.
+bool mayBeBeyond(const EditableMesh& mesh, const LabelledSimplex<3>& facet)
+{
+  int onRim = 0;
+  for (int k = 0; k < 3; ++k)
+  {
+    const Index a = facet.corners[k];
+    const Index b = facet.corners[(k + 1) % 3];
+    onRim += mesh.vertex(a).isOnRim;
+    if (mesh.vertex(a).isOnRim && mesh.vertex(b).isOnRim && mesh.facets().at(a, b).empty())
+    {
+      return true;
+    }
+  }
+  return onRim == 3;
+}
+
+bool mayBeBeyond(const EditableMesh& mesh, const Cavity& cavity)
+{
+  return mesh.kind() == EditableMesh::Kind::Surface &&
+         std::any_of(cavity.newFacets.begin(), cavity.newFacets.end(),
+           [&](const auto& facet) { return mayBeBeyond(mesh, facet); });
+}
+
+/// The facet beyond the edge opposite to a vertex that is not in the mesh yet, if the edge may be
+/// swapped; -1 otherwise.
+Index beyondEdge(const EditableMesh& mesh, const Cavity& cavity, Index a, Index b)
+{
+  if (mesh.segmentOf(a, b) >= 0 || (mesh.vertex(a).isOnRim && mesh.vertex(b).isOnRim))
+  {
+    return -1;
+  }
+  const std::vector<Index> facets = mesh.facets().at(a, b);
+  const auto beyond = std::find_if(
+    facets.begin(), facets.end(), [&](Index facet) { return !contains(cavity.facets, facet); });
+  return beyond == facets.end() ? -1 : *beyond;
+}
+
+/// Swaps the edge of new facet f opposite to the vertex, if that gains.
+bool swapRoundMiddle(const EditableMesh& mesh, Index middle, Cavity& cavity, std::size_t f)
+{
+  const LabelledSimplex<3> facet = cavity.newFacets[f];
+  const auto k = std::find(facet.corners.begin(), facet.corners.end(), middle);
+  const Index a = facet.corners[(k - facet.corners.begin() + 1) % 3];
+  const Index b = facet.corners[(k - facet.corners.begin() + 2) % 3];
+  const Index beyond = beyondEdge(mesh, cavity, a, b);
+  const Index apex = beyond < 0 ? -1 : apexOf(mesh.facets()[beyond].corners, a, b);
+  const bool isThere = std::any_of(cavity.newFacets.begin(), cavity.newFacets.end(),
+    [&](const auto& other) { return hasCorner(other.corners, apex); });
+  if (beyond < 0 || isThere)
+  {
+    return false;
+  }
+  const std::array<Index, 3> first{ middle, a, apex };
+  const std::array<Index, 3> second{ middle, apex, b };
+  const double before =
+    std::min(mesh.quality(facet.corners), mesh.quality(mesh.facets()[beyond].corners));
+  if (std::min(mesh.quality(first), mesh.quality(second)) <= before)
+  {
+    return false;
+  }
+  cavity.facets.push_back(beyond);
+  cavity.newFacets[f] = { first, facet.label };
+  cavity.newFacets.push_back({ second, facet.label });
+  cavity.sides[f] = cavity.sides[f] + mesh.sideOf({ beyond });
+  cavity.sides.push_back(cavity.sides[f]);
+  return true;
+}
+
+} // namespace
+
+void swapRoundMiddle(const EditableMesh& mesh, Index middle, Cavity& cavity)
+{
+  for (std::size_t f = 0; f < cavity.newFacets.size();)
+  {
+    f += swapRoundMiddle(mesh, middle, cavity, f) ? 0 : 1;
+  }
+}
+
+bool proposeSwap(const EditableMesh& mesh, Index a, Index b, Cavity& cavity)
+{
+  cavity.clear();
+  cavity.facets = mesh.facets().at(a, b);
+  const bool isWithin = !mesh.vertex(a).isOnRim || !mesh.vertex(b).isOnRim;
+  if (cavity.facets.size() != 2 || mesh.segmentOf(a, b) >= 0 || !isWithin)
+  {
+    return false;
+  }
+  const LabelledSimplex<3>& facet = mesh.facets()[cavity.facets[0]];
+  if (!goesAlong(facet.corners, a, b))
+  {
+    std::swap(a, b);
+  }
+  const Index first = apexOf(mesh.facets()[cavity.facets[1]].corners, a, b);
+  const Index second = apexOf(facet.corners, a, b);
+  if (first == second || !mesh.facets().at(first, second).empty())
+  {
+    return false;
+  }
+  cavity.newFacets = { { { a, first, second }, facet.label },
+    { { first, b, second }, facet.label } };
+  cavity.sides.assign(2, mesh.sideOf(cavity.facets));
+  return !mayBeBeyond(mesh, cavity);
+}
+
+bool findSidesOfCollapse(const EditableMesh& mesh, Index from, Index to, Cavity& cavity)
+{
+  std::vector<std::vector<Index>> fans;
+  for (const Index facet : mesh.facets().at(from, to))
+  {
+    fans.push_back(fanOf(mesh, from, facet));
+  }
+  for (const Index facet : cavity.facets)
+  {
+    const auto fan = std::find_if(
+      fans.begin(), fans.end(), [&](const auto& list) { return contains(list, facet); });
+    if (fan == fans.end())
+    {
+      return false;
+    }
+    if (!hasCorner(mesh.facets()[facet].corners, to))
+    {
+      cavity.sides.push_back(mesh.sideOf(*fan));
+    }
+  }
+  return !mayBeBeyond(mesh, cavity);
+}
+
+void findSidesOfSplit(const EditableMesh& mesh, Cavity& cavity)
+{
+  for (const Index facet : cavity.facets)
+  {
+    cavity.sides.insert(cavity.sides.end(), 2, mesh.sideOf({ facet }));
+  }
+}
+
+} // namespace cadrefine
