@@ -167,12 +167,11 @@ void BlockMesh::addSegments(const Members& members)
       const auto corners = sorted(localCorners(edges.edges()[e]));
       if (boundary_.boundary.kind == BoundaryKind::Segments)
       {
-        segments[corners] = { corners, onCAD ? lineOf(boundary_.boundary.facets[f]) : -1, -1 };
+        segments[corners] = { corners, onCAD ? lineOf(edges.edges()[e]) : -1, -1, edgeClass };
       }
       else if (edgeClass.kind != EdgeClass::Smooth && !isOnWall)
       {
-        const bool isOnEdge = edgeClass.kind == EdgeClass::OnEdge;
-        segments[corners] = { corners, isOnEdge ? edgeClass.edge : -1, -1 };
+        segments[corners] = { corners, lineOf(edgeClass, edges.edges()[e]), -1, edgeClass };
       }
     }
   }
@@ -188,9 +187,18 @@ void BlockMesh::addSegments(const Members& members)
   }
 }
 
-/// The line of CAD edges that both ends of a planar mesh's segment are on; -1 where there is none,
-/// or more than one.
-Index BlockMesh::lineOf(const Facet& segment) const
+/// The line of CAD edges that a mesh edge of this class lies on; -1: none.
+Index BlockMesh::lineOf(const EdgeClass& edgeClass, const std::array<Index, 2>& ends) const
+{
+  if (edgeClass.kind != EdgeClass::OnEdge)
+  {
+    return -1;
+  }
+  return edgeClass.edge < 0 ? lineOf(ends) : boundary_.projector.lines()[edgeClass.edge];
+}
+
+/// The line of CAD edges that both ends are on; -1 where there is none, or more than one.
+Index BlockMesh::lineOf(const std::array<Index, 2>& ends) const
 {
   const BoundaryProjector& projector = boundary_.projector;
   const auto linesAt = [&](Index vertex)
@@ -203,8 +211,8 @@ Index BlockMesh::lineOf(const Facet& segment) const
     lines.erase(std::unique(lines.begin(), lines.end()), lines.end());
     return lines;
   };
-  const auto first = linesAt(segment.vertices[0]);
-  const auto second = linesAt(segment.vertices[1]);
+  const auto first = linesAt(ends[0]);
+  const auto second = linesAt(ends[1]);
   std::vector<std::int32_t> common;
   std::set_intersection(
     first.begin(), first.end(), second.begin(), second.end(), std::back_inserter(common));

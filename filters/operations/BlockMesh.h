@@ -58,7 +58,8 @@ private:
   void addFacets(const Members& members);
   void addTriangles(const Members& members, const std::vector<Index>& cells);
   void addSegments(const Members& members);
-  Index lineOf(const Facet& segment) const;
+  Index lineOf(const EdgeClass& edgeClass, const std::array<Index, 2>& ends) const;
+  Index lineOf(const std::array<Index, 2>& ends) const;
   void keepEndsOfTags();
 
   const SimplexMesh& mesh_;

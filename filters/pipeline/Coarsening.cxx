@@ -148,7 +148,7 @@ private:
     {
       ClassifiedBoundary& boundary = boundaryOf(context_, state_);
       const double error = measureError(
-        exchange_, state_.mesh, boundary, *state_.classification, {}, state_.cache, false)
+        exchange_, state_.mesh, boundary, *state_.classification, { 0, {} }, state_.cache, false)
                              .global;
       const auto& facets = boundary.classes.facets;
       const std::int64_t count = exchange_.sum(std::count_if(

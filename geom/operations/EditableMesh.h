@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cadrefine/base/EntityId.h>
+#include <cadrefine/classification/BoundaryProjector.h>
 #include <cadrefine/mesh/SimplexMesh.h>
 
 #include <algorithm>
@@ -19,6 +20,16 @@ struct LabelledSimplex
   std::array<Index, Corners> corners;
   Index label = 0;   ///< What lies on either side of a change of labels stays apart.
   Index parent = -1; ///< Of the mesh that was there at first; -1: none.
+};
+
+/// A segment knows how its middle is placed on the CAD, too.
+template<>
+struct LabelledSimplex<2>
+{
+  std::array<Index, 2> corners;
+  Index label = 0;
+  Index parent = -1;
+  EdgeClass edgeClass = {};
 };
 
 template<std::size_t Corners>

@@ -250,6 +250,21 @@ void collapse(const SimplexStore<Corners>& store, Index from, Index to, std::vec
   }
 }
 
+/// A segment in the place of two on different CAD edges is on a crease of them.
+void joinClasses(const EditableMesh& mesh, Cavity& cavity)
+{
+  const auto isOnAnother = [&](Index old, const EdgeClass& edgeClass)
+  { return mesh.segments()[old].edgeClass.edge != edgeClass.edge; };
+  for (auto& segment : cavity.newSegments)
+  {
+    if (std::any_of(cavity.segments.begin(), cavity.segments.end(),
+          [&](Index old) { return isOnAnother(old, segment.edgeClass); }))
+    {
+      segment.edgeClass.edge = -1;
+    }
+  }
+}
+
 template<std::size_t Corners>
 void split(const SimplexStore<Corners>& store, Index a, Index b, Index middle,
   std::vector<Index>& removed, std::vector<LabelledSimplex<Corners>>& added)
@@ -361,6 +376,7 @@ bool proposeCollapse(const EditableMesh& mesh, Index from, Index to, Cavity& cav
   collapse(mesh.cells(), from, to, cavity.cells, cavity.newCells);
   collapse(mesh.facets(), from, to, cavity.facets, cavity.newFacets);
   collapse(mesh.segments(), from, to, cavity.segments, cavity.newSegments);
+  joinClasses(mesh, cavity);
   return (isSolid || findSidesOfCollapse(mesh, from, to, cavity)) &&
          std::none_of(cavity.newFacets.begin(), cavity.newFacets.end(),
            [&](const auto& facet) { return mesh.hasFacet(facet.corners); }) &&

@@ -132,52 +132,77 @@ EdgeClass SurfaceRule::classOf(
   {
     return { EdgeClass::Smooth, -1 };
   }
-  const Index edge = there < 0 ? added->label : mesh.segments()[there].label;
-  return edge < 0 ? EdgeClass{} : EdgeClass{ EdgeClass::OnEdge, edge };
+  return there < 0 ? added->edgeClass : mesh.segments()[there].edgeClass;
 }
 
-double SurfaceRule::errorOf(const EditableMesh& mesh, const Cavity& cavity,
-  const std::vector<LabelledSimplex<3>>& facets) const
+/// The facets on the CAD before (`isNew` false) or after an operation.
+ClassifiedSurface SurfaceRule::surfaceOf(
+  const EditableMesh& mesh, const Cavity& cavity, bool isNew) const
 {
   ClassifiedSurface surface;
+  surface.kind = projector_.kind();
   std::vector<Index> vertices;
   const auto pointOf = [&](Index vertex)
   {
     const auto found = std::find(vertices.begin(), vertices.end(), vertex);
+    const auto point = static_cast<Index>(found - vertices.begin());
     if (found == vertices.end())
     {
       vertices.push_back(vertex);
       surface.points.push_back({ mesh.vertex(vertex).wanted, mesh.vertex(vertex).entity });
-      return static_cast<Index>(vertices.size()) - 1;
     }
-    return static_cast<Index>(found - vertices.begin());
+    return point;
   };
   const auto edgeOf = [&](Index a, Index b)
   {
     const std::array<Index, 2> ends{ pointOf(std::min(a, b)), pointOf(std::max(a, b)) };
     const auto found = std::find_if(surface.edges.begin(), surface.edges.end(),
       [&](const SurfaceEdge& edge) { return edge.ends == ends; });
+    const auto edge = static_cast<Index>(found - surface.edges.begin());
     if (found == surface.edges.end())
     {
       surface.edges.push_back({ ends, classOf(mesh, cavity, a, b) });
-      return static_cast<Index>(surface.edges.size()) - 1;
     }
-    return static_cast<Index>(found - surface.edges.begin());
+    return edge;
   };
-  for (const auto& [corners, label, parent] : facets)
+  const auto add = [&](const auto& simplex)
   {
-    if (label < 0)
-    {
-      continue;
-    }
     SurfaceFacet facet;
-    for (int k = 0; k < 3; ++k)
+    const std::size_t count = simplex.corners.size();
+    for (std::size_t k = 0; k < count; ++k)
     {
-      facet.corners[k] = pointOf(corners[k]);
-      facet.edges[k] = edgeOf(corners[k], corners[(k + 1) % 3]);
+      facet.corners[k] = pointOf(simplex.corners[k]);
+      if (count == 3 || k == 0)
+      {
+        facet.edges[k] = edgeOf(simplex.corners[k], simplex.corners[(k + 1) % count]);
+      }
     }
     surface.facets.push_back(facet);
+  };
+  const auto addAll = [&](const auto& store, const auto& old, const auto& added)
+  {
+    for (std::size_t i = 0; i < (isNew ? added.size() : old.size()); ++i)
+    {
+      const auto& simplex = isNew ? added[i] : store[old[i]];
+      if (simplex.label >= 0)
+      {
+        add(simplex);
+      }
+    }
+  };
+  if (surface.kind == BoundaryKind::Segments)
+  {
+    addAll(mesh.segments(), cavity.segments, cavity.newSegments);
   }
+  else
+  {
+    addAll(mesh.facets(), cavity.facets, cavity.newFacets);
+  }
+  return surface;
+}
+
+double SurfaceRule::errorGain(const EditableMesh& mesh, const Cavity& cavity) const
+{
   const auto project = [&](const std::vector<BoundaryEdge>& edges)
   {
     std::vector<ClosestPoint> places;
@@ -185,27 +210,26 @@ double SurfaceRule::errorOf(const EditableMesh& mesh, const Cavity& cavity,
       [&](const BoundaryEdge& edge) { return projector_.projectMidpoint(edge); });
     return places;
   };
-  double error = 0;
-  for (const FacetError& ofFacet :
-    geometricErrors(surface, project(surface.allEdges()), errorDepth, 1, project))
+  const auto errorOf = [&](const ClassifiedSurface& surface)
   {
-    error += extrapolatedMeasure(ofFacet);
-  }
-  return error;
-}
-
-double SurfaceRule::errorGain(const EditableMesh& mesh, const Cavity& cavity) const
-{
-  std::vector<LabelledSimplex<3>> before;
-  double area = 0;
-  for (const Index facet : cavity.facets)
+    double error = 0;
+    for (const FacetError& facet :
+      geometricErrors(surface, project(surface.allEdges()), errorDepth, 1, project))
+    {
+      error += extrapolatedMeasure(facet);
+    }
+    return error;
+  };
+  const ClassifiedSurface before = surfaceOf(mesh, cavity, false);
+  const double gain = errorOf(surfaceOf(mesh, cavity, true)) - errorOf(before);
+  double length = 0; // of what is exchanged
+  for (const SurfaceEdge& edge : before.edges)
   {
-    const auto& [a, b, c] = before.emplace_back(mesh.facets()[facet]).corners;
-    area +=
-      norm(twofoldAreaVector(mesh.vertex(a).wanted, mesh.vertex(b).wanted, mesh.vertex(c).wanted));
+    length = std::max(
+      length, distance(before.points[edge.ends[0]].point, before.points[edge.ends[1]].point));
   }
-  const double gain = errorOf(mesh, cavity, cavity.newFacets) - errorOf(mesh, cavity, before);
-  const double rounding = ClassificationTolerances::leastExact * projector_.model().size() * area;
+  const double rounding = ClassificationTolerances::leastExact * projector_.model().size() *
+                          (before.kind == BoundaryKind::Segments ? length : length * length);
   return std::abs(gain) <= rounding ? 0 : gain;
 }
 
@@ -290,12 +314,12 @@ void SurfaceRule::widen(const EditableMesh& mesh, const std::array<Index, 3>& fa
 ClosestPoint SurfaceRule::placeOfMiddle(const EditableMesh& mesh, Index a, Index b) const
 {
   const Index segment = mesh.segmentOf(a, b);
-  const Index edge = segment < 0 ? -1 : mesh.segments()[segment].label;
-  if (segment >= 0 && edge < 0)
+  const EdgeClass edgeClass =
+    segment < 0 ? EdgeClass{ EdgeClass::Smooth, -1 } : mesh.segments()[segment].edgeClass;
+  if (edgeClass.kind == EdgeClass::Straight)
   {
     return {};
   }
-  const EdgeClass edgeClass{ segment < 0 ? EdgeClass::Smooth : EdgeClass::OnEdge, edge };
   const BoundaryEdge onCAD{ edgeClass, { mesh.vertex(a).wanted, mesh.vertex(b).wanted },
     { mesh.vertex(a).entity, mesh.vertex(b).entity } };
   return projector_.offCrease(onCAD, projector_.projectMidpoint(onCAD));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cadrefine/classification/BoundaryProjector.h>
+#include <cadrefine/error/GeometricError.h>
 #include <cadrefine/operations/EditableMesh.h>
 
 #include <array>
@@ -59,8 +60,7 @@ private:
   double distanceOfMiddle(const EditableMesh& mesh, const std::array<Index, 2>& segment) const;
   bool isOnCAD(const EditableMesh& mesh, const std::array<Index, 3>& facet) const;
   EdgeClass classOf(const EditableMesh& mesh, const Cavity& cavity, Index a, Index b) const;
-  double errorOf(const EditableMesh& mesh, const Cavity& cavity,
-    const std::vector<LabelledSimplex<3>>& facets) const;
+  ClassifiedSurface surfaceOf(const EditableMesh& mesh, const Cavity& cavity, bool isNew) const;
   void widen(const EditableMesh& mesh, const std::array<Index, 3>& facet, Fit& fit) const;
 
   const BoundaryProjector& projector_;

@@ -1,0 +1,256 @@
+// Coarsen With CAD: refinement is undone, and the boundary stays on the CAD.
+
+#include "DataSets.h"
+#include "FilterRun.h"
+#include "MeshChecks.h"
+
+#include <cadrefine/mesh/Quality.h>
+
+#include <vtkAdaptToCAD.h>
+#include <vtkCellData.h>
+#include <vtkCoarsenWithCAD.h>
+#include <vtkDataArray.h>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iostream>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace
+{
+
+using namespace cadrefine;
+using cadtest::fieldValue;
+using cadtest::FilterRun;
+
+struct Case
+{
+  std::string name;
+  std::string mesh;
+  std::string cad;
+};
+
+FilterRun::Data coarsen(const FilterRun& filters, vtkPointSet* mesh, int levels, double targetError,
+  double maximumDistance = 0)
+{
+  return filters.run<vtkCoarsenWithCAD>(mesh,
+    [&](vtkCoarsenWithCAD* filter)
+    {
+      filter->SetLevels(levels);
+      filter->SetTargetError(targetError);
+      filter->SetMaximumDistance(maximumDistance);
+    });
+}
+
+class Coarsening : public testing::TestWithParam<Case>
+{
+protected:
+  FilterRun filters{ CADREFINE_DATA "/" + GetParam().cad };
+  FilterRun::Data coarse = filters.project(cadtest::readGrid(CADREFINE_DATA "/" + GetParam().mesh));
+  double errorOf(vtkPointSet* mesh) const
+  {
+    return fieldValue(filters.measure(mesh, 0), "GlobalGeometricError");
+  }
+};
+
+TEST_P(Coarsening, undoesUniformRefinement)
+{
+  const double target = errorOf(coarse);
+  const auto fine = filters.refineUniformly(coarse);
+  const auto back = coarsen(filters, fine, 1, target);
+  EXPECT_NEAR(fieldValue(back, "GlobalCells"), fieldValue(coarse, "GlobalCells"),
+    0.05 * fieldValue(coarse, "GlobalCells"));
+  EXPECT_LE(errorOf(back), target);
+  EXPECT_EQ(fieldValue(back, "UnprojectedVertices"), 0);
+  EXPECT_EQ(fieldValue(back, "InvalidCells"), 0);
+  EXPECT_GE(fieldValue(back, "MinimumQuality"), 0.1);
+  EXPECT_TRUE(cadtest::hasNoHangingVertex(cadtest::toMesh(back)));
+}
+
+/// Without a target the boundary on curved CAD stays as near as it is.
+TEST_P(Coarsening, keepsTheDistanceWithoutATarget)
+{
+  const auto fine = filters.refineUniformly(coarse);
+  const auto back = coarsen(filters, fine, 1, 0);
+  EXPECT_LT(fieldValue(back, "GlobalCells"), 0.9 * fieldValue(fine, "GlobalCells"));
+  EXPECT_LE(fieldValue(filters.measure(back, 1), "MaximumGeometricDistance"),
+    1.0001 * fieldValue(filters.measure(fine, 1), "MaximumGeometricDistance"));
+}
+
+/// The aeroplane and half of the box round it.
+class CoarseningAeroplane : public testing::Test
+{
+protected:
+  /// An indicator that is the largest x of each cell.
+  void SetUp() override
+  {
+    vtkNew<vtkDoubleArray> indicator;
+    indicator->SetName("Indicator");
+    for (vtkIdType c = 0; c < mesh->GetNumberOfCells(); ++c)
+    {
+      std::array<double, 6> bounds{};
+      mesh->GetCellBounds(c, bounds.data());
+      indicator->InsertNextValue(bounds[1]);
+    }
+    mesh->GetCellData()->AddArray(indicator);
+  }
+
+  FilterRun filters{ CADREFINE_DATA "/aeroplane.igs" };
+  FilterRun::Data mesh = filters.project(cadtest::readGrid(CADREFINE_DATA "/aeroplane_coarse.vtu"));
+};
+
+TEST_F(CoarseningAeroplane, keepsVerticesOfMarkedCells)
+{
+  constexpr double threshold = 0.3;
+  const auto coarse = filters.run<vtkCoarsenWithCAD>(mesh,
+    [&](vtkCoarsenWithCAD* filter)
+    {
+      filter->SetMarkingArray("Indicator");
+      filter->SetThreshold(threshold);
+      filter->SetMaximumDistance(0.01);
+      filter->SetOperations(vtkCoarsenWithCAD::ALL_OPERATIONS);
+    });
+  std::map<double, std::array<double, 3>> points; // by id
+  vtkDataArray* ids = coarse->GetPointData()->GetGlobalIds();
+  for (vtkIdType p = 0; p < coarse->GetNumberOfPoints(); ++p)
+  {
+    coarse->GetPoint(p, points[ids->GetTuple1(p)].data());
+  }
+  int marked = 0;
+  vtkDataArray* oldIds = mesh->GetPointData()->GetGlobalIds();
+  const SimplexMesh cells = cadtest::toMesh(mesh);
+  std::set<Index> kept;
+  for (std::size_t c = 0; c < cells.tetrahedra.size(); ++c)
+  {
+    const auto& corners = cells.tetrahedra[c];
+    if (std::any_of(
+          corners.begin(), corners.end(), [&](Index v) { return cells.points[v][0] >= threshold; }))
+    {
+      kept.insert(corners.begin(), corners.end());
+      ++marked;
+    }
+  }
+  for (const Index vertex : kept)
+  {
+    EXPECT_EQ(points.count(oldIds->GetTuple1(vertex)), 1U) << vertex;
+  }
+  EXPECT_GT(marked, 1000);
+  EXPECT_LT(coarse->GetNumberOfPoints(), mesh->GetNumberOfPoints() - 100);
+}
+
+/// The box round the aeroplane is flat, and not on the CAD.
+TEST_F(CoarseningAeroplane, keepsTheShapeOfTheWalls)
+{
+  const auto fine = filters.refineUniformly(mesh);
+  const auto coarse = coarsen(filters, fine, 1, 0, 0.01);
+  const auto areaOnBox = [](vtkPointSet* data, std::size_t& count)
+  {
+    std::array<double, 6> box{};
+    data->GetBounds(box.data());
+    const SimplexMesh all = cadtest::toMesh(data);
+    double area = 0;
+    std::map<std::set<Index>, std::array<Index, 3>> sides;
+    for (const auto& cell : all.tetrahedra)
+    {
+      for (const auto& face : tetrahedronFaces)
+      {
+        const std::array<Index, 3> corners{ cell[face[0]], cell[face[1]], cell[face[2]] };
+        const std::set<Index> key(corners.begin(), corners.end());
+        if (!sides.emplace(key, corners).second)
+        {
+          sides.erase(key);
+        }
+      }
+    }
+    for (const auto& [key, corners] : sides)
+    {
+      for (int k = 0; k < 6; ++k)
+      {
+        if (std::all_of(corners.begin(), corners.end(),
+              [&, at = k](Index v) { return all.points[v][at / 2] == box[at]; }))
+        {
+          area += 0.5 * norm(twofoldAreaVector(
+                          all.points[corners[0]], all.points[corners[1]], all.points[corners[2]]));
+          ++count;
+        }
+      }
+    }
+    return area;
+  };
+  std::size_t fineCount = 0;
+  std::size_t coarseCount = 0;
+  const double area = areaOnBox(fine, fineCount);
+  EXPECT_NEAR(areaOnBox(coarse, coarseCount), area, 1e-12 * area);
+  EXPECT_LT(coarseCount, fineCount / 3);
+}
+
+TEST_F(CoarseningAeroplane, leavesTheMeshWhereItMayOnlyCut)
+{
+  const auto outcome = filters.attempt<vtkCoarsenWithCAD>(
+    mesh, [](vtkCoarsenWithCAD* filter) { filter->SetOperations(vtkCoarsenWithCAD::CUT_ONLY); });
+  ASSERT_TRUE(outcome.succeeded);
+  EXPECT_EQ(outcome.pointSet()->GetNumberOfPoints(), mesh->GetNumberOfPoints());
+  ASSERT_EQ(outcome.warnings.size(), 1U);
+  EXPECT_NE(outcome.warnings[0].find("Cut only"), std::string::npos);
+}
+
+/// A solver's indicator that moves through the mesh: fine there, coarse behind it.
+TEST(CoarseningFront, keepsTheNumberOfCells)
+{
+  const FilterRun filters(CADREFINE_DATA "/naca0012_sharp.igs");
+  FilterRun::Data mesh = filters.refineUniformly(
+    filters.project(cadtest::readGrid(CADREFINE_DATA "/naca0012_coarse.vtu")));
+  const double target = fieldValue(filters.measure(mesh, 0), "GlobalGeometricError");
+  std::vector<double> cells;
+  for (int step = 0; step < 20; ++step)
+  {
+    const double front = 0.2 + 1.6 * step / 19;
+    vtkNew<vtkDoubleArray> indicator;
+    indicator->SetName("Indicator");
+    for (vtkIdType c = 0; c < mesh->GetNumberOfCells(); ++c)
+    {
+      std::array<double, 6> bounds{};
+      mesh->GetCellBounds(c, bounds.data());
+      const double size = std::max(bounds[1] - bounds[0], bounds[3] - bounds[2]);
+      const double distance = 0.5 * (bounds[0] + bounds[1]) - front;
+      indicator->InsertNextValue(size * std::exp(-8 * distance * distance));
+    }
+    mesh->GetCellData()->AddArray(indicator);
+    mesh = filters.run<vtkAdaptToCAD>(mesh,
+      [&](vtkAdaptToCAD* filter)
+      {
+        filter->SetStartProjected(true);
+        filter->SetMaximumSteps(1);
+        filter->SetErrorMarking(vtkAdaptToCAD::OFF);
+        filter->SetIndicatorArray("Indicator");
+        filter->SetIndicatorThreshold(0.15);
+        filter->SetCutFacets(false);
+        filter->SetCoarseningFraction(0.4);
+        filter->SetTargetError(target);
+      });
+    EXPECT_LE(fieldValue(mesh, "GlobalGeometricError"), target) << step;
+    EXPECT_EQ(fieldValue(mesh, "InvalidCells"), 0) << step;
+    cells.push_back(fieldValue(mesh, "GlobalCells"));
+    std::cerr << step << " " << cells.back() << " " << fieldValue(mesh, "GlobalGeometricError")
+              << " " << target << "\n";
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, Coarsening,
+  testing::Values(Case{ "Cylinder", "cylinder_coarse.vtu", "cylinder.brep" },
+    Case{ "Wing", "naca0012_coarse.vtu", "naca0012_sharp.igs" },
+    Case{ "Aeroplane", "aeroplane_coarse.vtu", "aeroplane.igs" }),
+  [](const auto& tested) { return tested.param.name; });
+
+} // namespace
