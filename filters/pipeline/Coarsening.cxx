@@ -55,6 +55,7 @@ private:
     const std::int64_t before = countMesh(exchange_, state_.mesh).vertices;
     flag(verticesToRemove(exchange_, state_.mesh, *state_.classification,
       boundaryOf(context_, state_), verticesThatMayGo()));
+    left_ = std::numeric_limits<std::int64_t>::max();
     for (int round = 0; round < maximumRounds && takeOut(round); ++round)
     {
     }
@@ -107,36 +108,45 @@ private:
     state_.arrays.ofVertices->AddArray(array);
   }
 
-  std::vector<unsigned char> flags() const
+  /// Of each vertex; null where there is none.
+  const unsigned char* flags() const
   {
     auto* array =
       vtkUnsignedCharArray::SafeDownCast(state_.arrays.ofVertices->GetAbstractArray(goesArray));
-    const unsigned char* first = array->GetPointer(0);
-    return { first, first + array->GetNumberOfValues() };
+    return array ? array->GetPointer(0) : nullptr;
   }
 
-  /// A round of collapses. Returns whether there may be more.
+  /// A round of collapses. Returns whether there may be more: that before took out a hundredth of
+  /// what was left, at least.
   bool takeOut(int round)
   {
-    const std::vector<unsigned char> flagged = flags();
-    if (!exchange_.any(std::find(flagged.begin(), flagged.end(), 1) != flagged.end()))
+    const std::vector<unsigned char> flagged(flags(), flags() + state_.mesh.mesh().points.size());
+    const std::vector<char> owned = state_.mesh.ownedPoints();
+    std::int64_t left = 0;
+    for (std::size_t v = 0; v < flagged.size(); ++v)
+    {
+      left += flagged[v] && owned[v];
+    }
+    left = exchange_.sum(left);
+    if (left == 0 || left >= left_ - left_ / 100)
     {
       return false;
     }
+    left_ = left;
     exchange_.progress().say(static_cast<double>(round) / maximumRounds,
       "taking out vertices, round " + std::to_string(round + 1) + " of at most " +
         std::to_string(maximumRounds));
     const CoarseningLimits limits = findLimits();
     const auto work = [&](BlockMesh& block, const SurfaceRule& rule)
     {
-      const std::vector<unsigned char> ofPiece = flags();
-      std::vector<unsigned char> goes;
-      std::transform(block.vertices().begin(), block.vertices().end(), std::back_inserter(goes),
-        [&](Index vertex) { return ofPiece[vertex]; });
+      std::vector<unsigned char> goes(block.vertices().size());
+      std::transform(block.vertices().begin(), block.vertices().end(), goes.begin(),
+        [ofPiece = flags()](Index vertex) { return ofPiece[vertex]; });
       return coarsenCells(block.mesh(), rule, goes, limits);
     };
-    return operate(context_, state_, flagged,
-             { 2, round, options_.largestBlock, [](Index) { return true; } }, work) > 0;
+    operate(context_, state_, flagged,
+      { 2, round, options_.largestBlock, [](Index) { return true; } }, work);
+    return true;
   }
 
   /// Collective.
@@ -164,6 +174,7 @@ private:
   RankExchange& exchange_;
   MeshState& state_;
   const CoarseningOptions& options_;
+  std::int64_t left_ = 0; ///< Flagged vertices before the last round of the level.
   std::int64_t gone_ = 0;
 };
 

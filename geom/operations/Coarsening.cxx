@@ -19,16 +19,22 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Cells below this are improved so that more vertices can go.
 constexpr double aim = 0.3;
 
-double facetsOnCAD(const EditableMesh& mesh)
+/// Of the boundary on the CAD.
+double countFacetsOnCAD(const EditableMesh& mesh)
 {
-  double count = 0;
-  for (std::size_t f = 0; f < mesh.facets().size(); ++f)
+  const auto count = [](const auto& store)
   {
-    count += mesh.facets()[static_cast<Index>(f)].label >= 0 ? 1 : 0;
-  }
-  return count;
+    double result = 0;
+    for (std::size_t s = 0; s < store.size(); ++s)
+    {
+      result += store[static_cast<Index>(s)].label >= 0 ? 1 : 0;
+    }
+    return result;
+  };
+  return mesh.kind() == EditableMesh::Kind::Plane ? count(mesh.segments()) : count(mesh.facets());
 }
 
+template<int Dimension>
 class Coarsener
 {
 public:
@@ -80,12 +86,16 @@ private:
     return vertices;
   }
 
+  using Corners = std::array<Index, Dimension + 1>;
+
+  const SimplexStore<Dimension + 1>& cells() const { return mesh_.template cellsOf<Dimension>(); }
+
   std::vector<Index> remainingNeighbours(Index vertex) const
   {
     std::vector<Index> neighbours;
-    for (const Index cell : mesh_.cells().at(vertex))
+    for (const Index cell : cells().at(vertex))
     {
-      for (const Index corner : mesh_.cells()[cell].corners)
+      for (const Index corner : cells()[cell].corners)
       {
         if (!goes_[corner])
         {
@@ -98,54 +108,77 @@ private:
     return neighbours;
   }
 
-  /// The worst cell of the collapse in the cavity; negative where it must not be.
-  double worstAfter() const
+  /// The worst of the cells at a vertex, so far as it is below the minimum.
+  double worstAt(Index vertex) const
   {
-    double before = limits_.minimumQuality;
-    double presentBefore = limits_.minimumQuality;
-    for (const Index cell : cavity_.cells)
+    double worst = limits_.minimumQuality;
+    for (const Index cell : cells().at(vertex))
     {
-      before = std::min(before, mesh_.quality(mesh_.cells()[cell].corners));
-      presentBefore = std::min(presentBefore, mesh_.presentQuality(mesh_.cells()[cell].corners));
+      worst = std::min(worst, mesh_.quality(cells()[cell].corners));
     }
+    return worst;
+  }
+
+  /// The worst cell once the vertex has gone to another; -1 where that is below `least`.
+  double worstAfter(Index vertex, Index to, double least) const
+  {
     double worst = infinity;
-    for (const auto& cell : cavity_.newCells)
+    for (const Index cell : cells().at(vertex))
     {
-      worst = std::min(worst, mesh_.quality(cell.corners));
-      if (worst < before || mesh_.presentQuality(cell.corners) < presentBefore ||
-          !mesh_.isValid(cell.corners))
+      Corners corners = cells()[cell].corners;
+      if (!hasCorner(corners, to))
       {
-        return -1;
+        std::replace(corners.begin(), corners.end(), vertex, to);
+        worst = std::min(worst, mesh_.quality(corners));
+        if (worst < least)
+        {
+          return -1;
+        }
       }
     }
     return worst;
   }
 
+  /// Where vertices are, which may not be where they are wanted.
+  bool keepsPresentQuality() const
+  {
+    double before = limits_.minimumQuality;
+    for (const Index cell : cavity_.cellsOf<Dimension>())
+    {
+      before = std::min(before, mesh_.presentQuality(cells()[cell].corners));
+    }
+    const auto& newCells = cavity_.newCellsOf<Dimension>();
+    return std::all_of(newCells.begin(), newCells.end(),
+      [&](const auto& cell) { return mesh_.presentQuality(cell.corners) >= before; });
+  }
+
   bool collapse(Index vertex)
   {
+    const double least = worstAt(vertex);
     std::vector<std::pair<double, Index>> targets;
     for (const Index to : remainingNeighbours(vertex))
     {
-      if (proposeCollapse(mesh_, vertex, to, cavity_))
+      const double worst = worstAfter(vertex, to, least);
+      if (worst >= 0)
       {
-        targets.emplace_back(worstAfter(), to);
+        targets.emplace_back(worst, to);
       }
     }
-    // The projections of the rule cost most, so that it is asked last.
+    // What costs most comes last.
     std::stable_sort(targets.begin(), targets.end(),
       [](const auto& a, const auto& b) { return a.first > b.first; });
     return std::any_of(targets.begin(), targets.end(),
       [&](const auto& target)
       {
-        return target.first >= 0 && proposeCollapse(mesh_, vertex, target.second, cavity_) &&
-               keepsSurface() && carryOut();
+        return proposeCollapse(mesh_, vertex, target.second, cavity_) && mesh_.isValid(cavity_) &&
+               keepsPresentQuality() && keepsSurface() && carryOut();
       });
   }
 
   /// Takes what the collapse adds to the error off what is left.
   bool keepsSurface()
   {
-    if (cavity_.facets.empty())
+    if (!mesh_.touchesBoundary(cavity_))
     {
       return true;
     }
@@ -166,7 +199,7 @@ private:
   {
     mesh_.replace(cavity_);
     ++collapses_;
-    for (const auto& cell : cavity_.newCells)
+    for (const auto& cell : cavity_.newCellsOf<Dimension>())
     {
       for (const Index corner : cell.corners)
       {
@@ -186,20 +219,28 @@ private:
   std::int64_t collapses_ = 0;
 };
 
-} // namespace
-
-OperationResult coarsenCells(EditableMesh& mesh, const SurfaceRule& rule,
+template<int Dimension>
+OperationResult coarsen(EditableMesh& mesh, const SurfaceRule& rule,
   std::vector<unsigned char> goes, const CoarseningLimits& limits)
 {
   double errorLeft =
-    limits.errorPerFacet < infinity ? limits.errorPerFacet * facetsOnCAD(mesh) : infinity;
-  std::int64_t collapses = Coarsener(mesh, rule, goes, limits, errorLeft).run();
+    limits.errorPerFacet < infinity ? limits.errorPerFacet * countFacetsOnCAD(mesh) : infinity;
+  std::int64_t collapses = Coarsener<Dimension>(mesh, rule, goes, limits, errorLeft).run();
   OperationResult result =
     improveCells(mesh, &rule, { std::max(limits.minimumQuality, aim), limits.minimumQuality });
   goes.resize(mesh.vertexCount(), 0);
-  collapses += Coarsener(mesh, rule, goes, limits, errorLeft).run();
+  collapses += Coarsener<Dimension>(mesh, rule, goes, limits, errorLeft).run();
   result.counts.collapses += collapses;
   return result;
+}
+
+} // namespace
+
+OperationResult coarsenCells(EditableMesh& mesh, const SurfaceRule& rule,
+  const std::vector<unsigned char>& goes, const CoarseningLimits& limits)
+{
+  return mesh.dimension() == 3 ? coarsen<3>(mesh, rule, goes, limits)
+                               : coarsen<2>(mesh, rule, goes, limits);
 }
 
 } // namespace cadrefine

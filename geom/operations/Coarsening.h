@@ -33,6 +33,6 @@ struct CoarseningLimits
 /// Work: for each vertex, and each neighbour that it may go to, its cells; for vertices on the CAD
 /// the projections of SurfaceRule; and that of improveCells.
 OperationResult coarsenCells(EditableMesh& mesh, const SurfaceRule& rule,
-  std::vector<unsigned char> goes, const CoarseningLimits& limits);
+  const std::vector<unsigned char>& goes, const CoarseningLimits& limits);
 
 } // namespace cadrefine

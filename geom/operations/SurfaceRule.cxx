@@ -8,6 +8,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace cadrefine
@@ -102,7 +103,7 @@ bool SurfaceRule::accepts(const EditableMesh& mesh, const Cavity& cavity, double
   {
     return false;
   }
-  const Fit before = fitOf(mesh, cavity.facets);
+  std::optional<Fit> before; // looked at where the new facets alone do not tell
   return std::all_of(cavity.newFacets.begin(), cavity.newFacets.end(),
     [&](const auto& facet)
     {
@@ -116,7 +117,12 @@ bool SurfaceRule::accepts(const EditableMesh& mesh, const Cavity& cavity, double
       }
       Fit fit;
       widen(mesh, facet.corners, fit);
-      return isAsGood(fit, { std::max(before.distance, distance), before.cosine });
+      if (isAsGood(fit, { distance, 1 }))
+      {
+        return true;
+      }
+      before = before ? before : fitOf(mesh, cavity.facets);
+      return isAsGood(fit, { std::max(before->distance, distance), before->cosine });
     });
 }
 
