@@ -245,6 +245,7 @@ private:
     if (!uniform && options_.coarseningFraction > 0)
     {
       toKeep = criteriaToKeep();
+      options.keepsError = options_.targetError > 0;
     }
     const RefinementOutcome outcome = refine(options);
     if (outcome.limited)

@@ -164,7 +164,10 @@ private:
         [&](Index cell)
         { return visitCells(mesh(), [&](const auto& cells) { return mayChange(cells[cell]); }); } },
       [&](BlockMesh& block, const SurfaceRule& rule)
-      { return improveCells(block.mesh(), &rule, limits); });
+      {
+        const SurfaceRule strict = options_.keepsError ? rule.keepingError() : rule;
+        return improveCells(block.mesh(), &strict, limits);
+      });
     operations_ += operations;
     context_.statistics.set("local operations", static_cast<double>(operations_));
     return operations > 0;

@@ -15,6 +15,7 @@ struct CellImprovementOptions
   /// Cells with a vertex elsewhere stay; empty: none.
   std::function<bool(const Point3&)> inRegion = {};
   std::int64_t largestBlock = 8192; ///< Cells of a block.
+  bool keepsError = false;          ///< Facets whose geometric error is larger are not accepted.
 };
 
 /// Rounds of operations (see operateOnBlocks) on the cells round vertices that are off the CAD and

@@ -60,7 +60,7 @@ private:
     {
     }
     state_.arrays.ofVertices->RemoveArray(goesArray);
-    improveCells(context_, state_, { options_.minimumQuality, {}, options_.largestBlock });
+    improveCells(context_, state_, { options_.minimumQuality, {}, options_.largestBlock, true });
     const std::int64_t gone = before - countMesh(exchange_, state_.mesh).vertices;
     gone_ += gone;
     return gone > 0;

@@ -289,7 +289,9 @@ private:
     if (withOperations)
     {
       const auto stopwatch = watch("seconds local operations");
-      improveCells(context_, state_, { *options_.minimumQuality });
+      CellImprovementOptions improvement{ *options_.minimumQuality };
+      improvement.keepsError = options_.keepsError;
+      improveCells(context_, state_, improvement);
     }
   }
 

@@ -226,8 +226,9 @@ OperationResult coarsen(EditableMesh& mesh, const SurfaceRule& rule,
   double errorLeft =
     limits.errorPerFacet < infinity ? limits.errorPerFacet * countFacetsOnCAD(mesh) : infinity;
   std::int64_t collapses = Coarsener<Dimension>(mesh, rule, goes, limits, errorLeft).run();
+  const SurfaceRule strict = rule.keepingError();
   OperationResult result =
-    improveCells(mesh, &rule, { std::max(limits.minimumQuality, aim), limits.minimumQuality });
+    improveCells(mesh, &strict, { std::max(limits.minimumQuality, aim), limits.minimumQuality });
   goes.resize(mesh.vertexCount(), 0);
   collapses += Coarsener<Dimension>(mesh, rule, goes, limits, errorLeft).run();
   result.counts.collapses += collapses;

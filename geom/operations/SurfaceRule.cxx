@@ -85,10 +85,15 @@ bool SurfaceRule::isOnWall(
 
 bool SurfaceRule::accepts(const EditableMesh& mesh, const Cavity& cavity, double distance) const
 {
-  if (mesh.kind() == EditableMesh::Kind::Plane)
-  {
-    return acceptsSegments(mesh, cavity, distance);
-  }
+  const bool fits = mesh.kind() == EditableMesh::Kind::Plane
+                      ? acceptsSegments(mesh, cavity, distance)
+                      : acceptsFacets(mesh, cavity, distance);
+  return fits && (!keepsError_ || errorGain(mesh, cavity) <= 0);
+}
+
+bool SurfaceRule::acceptsFacets(
+  const EditableMesh& mesh, const Cavity& cavity, double distance) const
+{
   const auto turnsLittle = [&](const LabelledSimplex<3>& facet)
   {
     const Vector3 normal = normalOf(mesh, facet.corners);

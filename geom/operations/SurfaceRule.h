@@ -17,7 +17,12 @@ namespace cadrefine
 class SurfaceRule
 {
 public:
-  explicit SurfaceRule(const BoundaryProjector& projector) : projector_(projector) {}
+  /// `keepsError`: what makes the geometric error larger is not accepted either.
+  explicit SurfaceRule(const BoundaryProjector& projector, bool keepsError = false)
+    : projector_(projector), keepsError_(keepsError)
+  {
+  }
+  SurfaceRule keepingError() const { return SurfaceRule(projector_, true); }
 
   /// How well facets follow the CAD.
   struct Fit
@@ -59,11 +64,13 @@ private:
   double farthestMiddle(const EditableMesh& mesh, const std::vector<Index>& segments) const;
   double distanceOfMiddle(const EditableMesh& mesh, const std::array<Index, 2>& segment) const;
   bool isOnCAD(const EditableMesh& mesh, const std::array<Index, 3>& facet) const;
+  bool acceptsFacets(const EditableMesh& mesh, const Cavity& cavity, double distance) const;
   EdgeClass classOf(const EditableMesh& mesh, const Cavity& cavity, Index a, Index b) const;
   ClassifiedSurface surfaceOf(const EditableMesh& mesh, const Cavity& cavity, bool isNew) const;
   void widen(const EditableMesh& mesh, const std::array<Index, 3>& facet, Fit& fit) const;
 
   const BoundaryProjector& projector_;
+  bool keepsError_;
 };
 
 } // namespace cadrefine

