@@ -199,6 +199,21 @@ def refine_with_cad():
     save("refine_with_cad", *images)
 
 
+def coarsen_with_cad():
+    """Behind a front at half the chord."""
+    cad, mesh = CADReader(FileName=os.path.join(ROOT, "data", "naca0012_sharp.igs")), data("naca0012_coarse.vtu")
+    fine = RefineWithCAD(Input=ProjectOntoCAD(Input=mesh, CAD=cad), CAD=cad, Method="Uniform Bisection", Levels=3)
+    marked = PointDatatoCellData(Input=Calculator(Input=fine, ResultArrayName="before", Function="-coordsX"),
+                                 PassPointData=1)
+    coarse = CoarsenWithCAD(Input=marked, CAD=cad, MarkingArray="before", Threshold=-1.5, TargetError=0.004, Levels=3)
+    images = []
+    for shown in (fine, coarse):
+        scene = Scene((620, 360), (-0.2, -1.0, 0.4))
+        scene.show(ExtractSurface(Input=shown), "Surface With Edges", LineWidth=0.6)
+        images.append(scene.image(8.0, [1.5, 0.0, 0.0]))
+    save("coarsen_with_cad", *images)
+
+
 def adapt_to_cad():
     cad = CADReader(FileName=os.path.join(ROOT, "data", "cylinder.brep"))
     images, top = [], None
@@ -279,8 +294,8 @@ def tutorial_meshes():
         save("tutorial_meshes", *images)
 
 
-PICTURES = (cad_reader, project_onto_cad, cad_geometric_error, refine_with_cad, adapt_to_cad, cad_boundary,
-            mesh_validity, quadratic_ball, tutorial_meshes)
+PICTURES = (cad_reader, project_onto_cad, cad_geometric_error, refine_with_cad, coarsen_with_cad, adapt_to_cad,
+            cad_boundary, mesh_validity, quadratic_ball, tutorial_meshes)
 
 
 def main():
