@@ -6,6 +6,7 @@
 
 #include <cadrefine/mesh/Facets.h>
 
+#include <vtkCoarsenWithCAD.h>
 #include <vtkPolyData.h>
 #include <vtkUnstructuredGrid.h>
 
@@ -122,6 +123,8 @@ Plan::Plan(Random& random, const FilterProblem& problem)
   uniformAfterwards = random.chance(0.3);
   isQuadratic = !problem.isSurface && random.chance(0.2);
   minimumQuality = random.chance(0.5) ? 0.1 : random.between(0.2, 0.5);
+  coarseningLevels = straight || random.chance(0.5) ? 0 : random.among(1, 2);
+  coarseningError = random.chance(0.3) ? 0 : random.between(0.3, 1.2);
 }
 
 void Plan::markByErrorAndSize(vtkRefineWithCAD* filter, double size) const
@@ -147,6 +150,17 @@ Plan::Steps Plan::run(const cadtest::FilterRun& filters, vtkPointSet* mesh, doub
   steps.push_back(filters.measure(steps.back(), depth));
   steps.push_back(filters.run<vtkRefineWithCAD>(
     steps.back(), [&](vtkRefineWithCAD* filter) { markByErrorAndSize(filter, size); }));
+  if (coarseningLevels > 0 && operations == vtkRefineWithCAD::ALL_OPERATIONS)
+  {
+    const double error = cadtest::fieldValue(steps[1], "GlobalGeometricError");
+    steps.push_back(filters.run<vtkCoarsenWithCAD>(steps.back(),
+      [&](vtkCoarsenWithCAD* filter)
+      {
+        filter->SetLevels(coarseningLevels);
+        filter->SetTargetError(coarseningError * error);
+        filter->SetMinimumQuality(minimumQuality);
+      }));
+  }
   if (uniformAfterwards || isQuadratic)
   {
     steps.push_back(filters.run<vtkRefineWithCAD>(steps.back(),

@@ -46,12 +46,15 @@ struct Plan
   bool straight = false;
   bool uniformAfterwards = false;
   bool isQuadratic = false;
+  int coarseningLevels = 0;   ///< After refinement.
+  double coarseningError = 0; ///< Of the error before that, the part that coarsening may leave.
   int dimension = 3;
 
   using Steps = std::vector<cadtest::FilterRun::Data>;
 
-  /// The mesh after each filter: projected, measured, refined, perhaps uniformly refined or of
-  /// second order, measured. `size` is the problem's, once scaled. Throws where a filter fails.
+  /// The mesh after each filter: projected, measured, refined, perhaps coarsened, perhaps
+  /// uniformly refined or of second order, measured. `size` is the problem's, once scaled. Throws
+  /// where a filter fails.
   Steps run(const cadtest::FilterRun& filters, vtkPointSet* mesh, double size) const;
 
 private:
