@@ -90,8 +90,8 @@ public:
 
   ///@{
   /**
-   * What filters that change cells do with tetrahedra where vertices do not reach the CAD or cells
-   * are badly shaped: ALL_OPERATIONS (default) swaps, collapses and splits edges there.
+   * What filters that change cells do where vertices do not reach the CAD or cells are badly
+   * shaped: ALL_OPERATIONS (default) swaps, collapses and splits edges there.
    */
   vtkSetMacro(Operations, int);
   vtkGetMacro(Operations, int);

@@ -99,10 +99,10 @@ def add_steps(group):
                        "that each criterion marks; the boundary keeps to --target-error, or gets no farther from the "
                        "CAD (default 0: no coarsening)")
     group.add_argument("--operations", choices=list(OPERATIONS), default="all",
-                       help="what may be done with tetrahedra where vertices do not reach the CAD or cells are badly "
+                       help="what may be done with cells where vertices do not reach the CAD or cells are badly "
                        "shaped: all swaps, collapses and splits edges there (default); cut-only does not")
     group.add_argument("--minimum-quality", type=part, default=0.1, metavar="Q",
-                       help="improve tetrahedra of a smaller mean ratio by these operations, those of MESH too; 1 is "
+                       help="improve cells of a smaller mean ratio by these operations, those of MESH too; 1 is "
                        "equilateral (default 0.1; 0: only vertices off the CAD call for them)")
     group.add_argument("--quadratic", action="store_true",
                        help="at the end, make the cells quadratic, with mid-edge nodes on the CAD")

@@ -7,6 +7,8 @@
 #include "ParallelTest.h"
 #include "Partition.h"
 #include "SamePieces.h"
+#include "TestMeshes.h"
+#include "TestShapes.h"
 
 #include <cadrefine/cad/import/CADFile.h>
 #include <cadrefine/mesh/Orientation.h>
@@ -175,6 +177,174 @@ TEST_P(CellImprovement, isThatOfOneRank)
     EXPECT_TRUE(cadtest::hasNoHangingVertex(cadtest::toMesh(serial)));
   }
 }
+
+/// Gives the triangles materials by the side of x = 0 on which their centroids are, and moves
+/// vertices inside these to placeOf(vertex, a random point near it), unless triangles turn over.
+template<class PlaceOf>
+vtkSmartPointer<vtkUnstructuredGrid> spoiltTriangles(
+  SimplexMesh mesh, double part, const PlaceOf& placeOf)
+{
+  std::vector<std::vector<std::size_t>> cellsAt(mesh.points.size());
+  for (std::size_t c = 0; c < mesh.triangles.size(); ++c)
+  {
+    for (const Index vertex : mesh.triangles[c])
+    {
+      cellsAt[vertex].push_back(c);
+    }
+  }
+  const auto sideOf = [&](std::size_t c)
+  {
+    const auto& [i, j, k] = mesh.triangles[c];
+    return twofoldAreaVector(mesh.points[i], mesh.points[j], mesh.points[k]);
+  };
+  const auto materialOf = [&](std::size_t c)
+  {
+    const auto& [i, j, k] = mesh.triangles[c];
+    return mesh.points[i][0] + mesh.points[j][0] + mesh.points[k][0] > 0 ? 1 : 0;
+  };
+  vtkNew<vtkIntArray> materials;
+  materials->SetName("Material");
+  std::vector<int> ofCells;
+  for (std::size_t c = 0; c < mesh.triangles.size(); ++c)
+  {
+    ofCells.push_back(materialOf(c));
+    materials->InsertNextValue(ofCells.back());
+  }
+  std::mt19937 random(5);
+  const auto at = [&] { return part * (static_cast<double>(random() % 4096) / 4096 - 0.5); };
+  for (std::size_t v = 0; v < mesh.points.size(); ++v)
+  {
+    const Point3 start = mesh.points[v];
+    const bool isOfOneMaterial = std::all_of(cellsAt[v].begin(), cellsAt[v].end(),
+      [&](std::size_t c) { return ofCells[c] == ofCells[cellsAt[v][0]]; });
+    std::vector<Vector3> sides;
+    std::transform(cellsAt[v].begin(), cellsAt[v].end(), std::back_inserter(sides), sideOf);
+    const Point3 place = placeOf(static_cast<Index>(v), start + Vector3{ at(), at(), at() });
+    if (!isOfOneMaterial)
+    {
+      continue;
+    }
+    mesh.points[v] = place;
+    for (std::size_t k = 0; k < sides.size(); ++k)
+    {
+      const Vector3 now = sideOf(cellsAt[v][k]);
+      if (dot(now, sides[k]) < 0.05 * squaredNorm(sides[k]))
+      {
+        mesh.points[v] = start;
+      }
+    }
+  }
+  mesh.segments.clear();
+  mesh.vertices.clear();
+  const auto grid = cadtest::toGrid(mesh);
+  grid->GetCellData()->AddArray(materials);
+  return grid;
+}
+
+/// The areas of triangles by their material, and the worst.
+Shape shapeOfTriangles(vtkPointSet* data)
+{
+  const SimplexMesh mesh = cadtest::toMesh(data);
+  vtkDataArray* materials = data->GetCellData()->GetArray("Material");
+  Shape shape;
+  for (std::size_t c = 0; c < mesh.triangles.size(); ++c)
+  {
+    const auto& [i, j, k] = mesh.triangles[c];
+    const double quality = meanRatio(mesh.points[i], mesh.points[j], mesh.points[k]);
+    shape.worst = std::min(shape.worst, quality);
+    shape.below += quality < 0.2;
+    shape.volumes[static_cast<std::size_t>(materials->GetTuple1(static_cast<vtkIdType>(c)))] +=
+      0.5 * norm(twofoldAreaVector(mesh.points[i], mesh.points[j], mesh.points[k]));
+  }
+  return shape;
+}
+
+class TriangleImprovement : public CellImprovement
+{
+protected:
+  /// The shapes before and after, on rank 0, where the pieces' result is that of one rank.
+  struct Shapes
+  {
+    Shape before;
+    Shape after;
+    SimplexMesh mesh;
+  };
+
+  Shapes compare(vtkPointSet* whole, const CADModel& model)
+  {
+    const auto rankOfCell = cadtest::deal(GetParam(), whole, exchange.size());
+    const auto piece = cadtest::pieceOf(whole, rankOfCell, exchange.rank(), false);
+    const auto pieces = improved(exchange, piece, model);
+    RankExchange alone(nullptr);
+    const auto serial = exchange.rank() == 0 ? improved(alone, whole, model) : nullptr;
+    cadtest::expectSame(exchange, pieces, serial);
+    return serial
+             ? Shapes{ shapeOfTriangles(whole), shapeOfTriangles(serial), cadtest::toMesh(serial) }
+             : Shapes{};
+  }
+};
+
+TEST_P(TriangleImprovement, inThePlaneIsThatOfOneRank)
+{
+  const cadtest::TemporaryFolder folder;
+  const std::string file = cadtest::writeInto(folder, cadtest::circle(1), ".step");
+  const cadtest::FilterRun filters(file);
+  const SimplexMesh disc = cadtest::toMesh(
+    filters.refineUniformly(filters.project(cadtest::toGrid(cadtest::discMesh(1, 0.02, 12))), 3));
+  const std::set<Index> outer = cadtest::outerVertices(disc);
+  const auto whole = filters.moveOntoCAD(spoiltTriangles(disc, 0.2,
+    [&](Index v, const Point3& point) {
+      return outer.count(v) > 0 ? disc.points[v] : Point3{ point[0], point[1], 0 };
+    }));
+  whole->GetFieldData()->Initialize();
+  const Shapes shapes = compare(whole, *readCADFile(file));
+  if (exchange.rank() == 0)
+  {
+    EXPECT_LT(shapes.before.worst, 0.1);
+    EXPECT_GT(shapes.after.worst, 0.29);
+    EXPECT_GT(shapes.before.below, 20);
+    EXPECT_EQ(shapes.after.below, 0);
+    for (const int material : { 0, 1 })
+    {
+      EXPECT_NEAR(shapes.after.volumes[material], shapes.before.volumes[material], 1e-13);
+    }
+    EXPECT_TRUE(cadtest::isValid(shapes.mesh));
+    EXPECT_TRUE(cadtest::hasNoHangingVertex(shapes.mesh));
+    EXPECT_EQ(cadtest::countOuterSides(shapes.mesh), 96u) << "the circle's chords stay";
+    EXPECT_TRUE(std::all_of(shapes.mesh.points.begin(), shapes.mesh.points.end(),
+      [](const Point3& point) { return point[2] == 0; }));
+  }
+}
+
+TEST_P(TriangleImprovement, onASurfaceIsThatOfOneRank)
+{
+  const cadtest::TemporaryFolder folder;
+  const std::string file = cadtest::writeInto(folder, cadtest::sphere(1), ".step");
+  const cadtest::FilterRun filters(file);
+  const SimplexMesh sphere = cadtest::toMesh(
+    filters.refineUniformly(filters.project(cadtest::toGrid(cadtest::sphereMesh(1, 0.02))), 3));
+  const auto whole = filters.moveOntoCAD(
+    spoiltTriangles(sphere, 0.25, [](Index, const Point3& point) { return normalized(point); }));
+  whole->GetFieldData()->Initialize();
+  const Shapes shapes = compare(whole, *readCADFile(file));
+  if (exchange.rank() == 0)
+  {
+    EXPECT_LT(shapes.before.worst, 0.15);
+    EXPECT_GT(shapes.after.worst, 0.25);
+    EXPECT_LT(shapes.after.below, shapes.before.below / 5);
+    EXPECT_TRUE(cadtest::isValid(shapes.mesh));
+    EXPECT_TRUE(cadtest::hasNoHangingVertex(shapes.mesh));
+    EXPECT_EQ(cadtest::countOuterSides(shapes.mesh), 0u);
+    for (const Point3& point : shapes.mesh.points)
+    {
+      EXPECT_NEAR(norm(point), 1, 1e-9);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Dealings, TriangleImprovement,
+  testing::Values(cadtest::Dealing::Blocks, cadtest::Dealing::Random, cadtest::Dealing::KdTree,
+    cadtest::Dealing::EmptyRank));
 
 INSTANTIATE_TEST_SUITE_P(Dealings, CellImprovement,
   testing::Values(cadtest::Dealing::Blocks, cadtest::Dealing::Random, cadtest::Dealing::KdTree,

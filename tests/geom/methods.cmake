@@ -15,6 +15,8 @@ cadrefine_geom_test(method_tests
     operations/ImprovementTest.cxx
     operations/OperationsTest.cxx
     operations/SurfaceRuleTest.cxx
+    operations/TriangleImprovementTest.cxx
+    operations/TriangleOperationsTest.cxx
     quadratic/CurvedCellsTest.cxx
     quadratic/MidNodeGuardTest.cxx
     refinement/BisectionTest.cxx
