@@ -45,7 +45,7 @@ SurfaceRule::Fit SurfaceRule::fitOf(
   {
     if (mesh.facets()[facet].label >= 0)
     {
-      widen(mesh, mesh.facets()[facet].corners, fit);
+      widen(mesh, {}, mesh.facets()[facet].corners, fit);
     }
   }
   return fit;
@@ -121,7 +121,7 @@ bool SurfaceRule::acceptsFacets(
         return false;
       }
       Fit fit;
-      widen(mesh, facet.corners, fit);
+      widen(mesh, cavity, facet.corners, fit);
       if (isAsGood(fit, { distance, 1 }))
       {
         return true;
@@ -300,24 +300,32 @@ double SurfaceRule::distanceOfMiddle(
 }
 
 /// Makes the fit that of another facet, too.
-void SurfaceRule::widen(const EditableMesh& mesh, const std::array<Index, 3>& facet, Fit& fit) const
+void SurfaceRule::widen(
+  const EditableMesh& mesh, const Cavity& cavity, const std::array<Index, 3>& facet, Fit& fit) const
 {
   const std::array<Point3, 3> p{ mesh.vertex(facet[0]).wanted, mesh.vertex(facet[1]).wanted,
     mesh.vertex(facet[2]).wanted };
   const Vector3 normal = normalOf(mesh, facet);
-  for (int k = 0; k < 3 && mesh.dimension() == 2; ++k)
-  {
-    fit.distance = std::max(fit.distance, distance(mesh.vertex(facet[k]).point, p[k]));
-  }
-  for (const Point3& point : { (1.0 / 3) * (p[0] + p[1] + p[2]), 0.5 * (p[0] + p[1]),
-         0.5 * (p[1] + p[2]), 0.5 * (p[2] + p[0]) })
+  const auto lookAt = [&](const Point3& point, bool isOnFace)
   {
     const ClosestPoint where = projector_.nearest(point, std::numeric_limits<double>::infinity());
     fit.distance = std::max(fit.distance, distance(point, where.point));
-    if (where.entity.dimension == 2)
+    if (where.entity.dimension == 2 && isOnFace)
     {
       const Vector3 ofCAD = projector_.model().normal(where.entity.index, where.parameters);
       fit.cosine = std::min(fit.cosine, std::abs(dot(normal, ofCAD)));
+    }
+  };
+  lookAt((1.0 / 3) * (p[0] + p[1] + p[2]), true);
+  for (int k = 0; k < 3; ++k)
+  {
+    const int next = (k + 1) % 3;
+    const bool isOnFace = mesh.dimension() == 3 ||
+                          classOf(mesh, cavity, facet[k], facet[next]).kind == EdgeClass::Smooth;
+    lookAt(0.5 * (p[k] + p[next]), isOnFace);
+    if (mesh.dimension() == 2)
+    {
+      fit.distance = std::max(fit.distance, distance(mesh.vertex(facet[k]).point, p[k]));
     }
   }
 }

@@ -27,8 +27,12 @@ public:
   /// How well facets follow the CAD.
   struct Fit
   {
-    double distance = 0; ///< Largest, of the middle of an edge or a centroid from the CAD.
-    double cosine = 1;   ///< Smallest, between a facet's normal and the CAD's at these points.
+    /// Largest, of the middle of an edge or a centroid from the CAD; of a mesh of triangles also of
+    /// a vertex from where it is wanted.
+    double distance = 0;
+    /// Smallest, between a facet's normal and the CAD's at these points; of a mesh of triangles not
+    /// at middles of segments, where faces meet.
+    double cosine = 1;
   };
   /// Work: 4 projections a facet.
   Fit fitOf(const EditableMesh& mesh, const std::vector<Index>& facets) const;
@@ -67,7 +71,8 @@ private:
   bool acceptsFacets(const EditableMesh& mesh, const Cavity& cavity, double distance) const;
   EdgeClass classOf(const EditableMesh& mesh, const Cavity& cavity, Index a, Index b) const;
   ClassifiedSurface surfaceOf(const EditableMesh& mesh, const Cavity& cavity, bool isNew) const;
-  void widen(const EditableMesh& mesh, const std::array<Index, 3>& facet, Fit& fit) const;
+  void widen(const EditableMesh& mesh, const Cavity& cavity, const std::array<Index, 3>& facet,
+    Fit& fit) const;
 
   const BoundaryProjector& projector_;
   bool keepsError_;
