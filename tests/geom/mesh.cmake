@@ -7,6 +7,7 @@ cadrefine_geom_test(mesh_tests
     mesh/EdgeTableTest.cxx
     mesh/FacetsTest.cxx
     mesh/OrientationTest.cxx
+    mesh/OverlapTest.cxx
     mesh/PieceLimitTest.cxx
     mesh/QualitySummaryTest.cxx
     mesh/QualityTest.cxx
