@@ -1,4 +1,4 @@
-// Axis-aligned boxes. Private to geom/nurbs.
+// Axis-aligned boxes. For sources of geom/ alone.
 #pragma once
 
 #include <cadrefine/base/Vector3.h>

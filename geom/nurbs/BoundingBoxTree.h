@@ -1,4 +1,4 @@
-// Hierarchies of axis-aligned boxes. Private to geom/nurbs.
+// Hierarchies of axis-aligned boxes. For sources of geom/ alone.
 #pragma once
 
 #include <cadrefine/nurbs/BoundingBox.h>

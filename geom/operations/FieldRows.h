@@ -1,0 +1,55 @@
+// How fields follow the operations on a block of cells.
+#pragma once
+
+#include <cadrefine/base/WeightedRows.h>
+#include <cadrefine/mesh/SimplexMesh.h>
+#include <cadrefine/operations/EditableMesh.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace cadrefine
+{
+
+/// A mesh before operations: its vertices and cells are the first ones of the mesh after them.
+struct MeshBefore
+{
+  std::vector<Point3> points;
+  std::size_t cells = 0; ///< Of the mesh's own dimension.
+};
+
+/// Rows for what has changed. Whatever has none keeps its value, or has that of its parent.
+struct FieldRows
+{
+  /// Of vertices that moved or are new: linear interpolation in the old cell that they lie in. By
+  /// vertices of the mesh. A new vertex on the CAD that lies in no old cell has no row.
+  WeightedRows ofVertices;
+  /// Of cells: the mean of the old values by overlap. By numbers in the store of cells.
+  WeightedRows ofCells;
+  /// Of cells, for densities: what old cells hold, shared out by overlap, over the new volume.
+  WeightedRows ofDensities;
+};
+
+/// The rows of a mesh of these cells. An old cell that is there again, with its vertices where they
+/// were, keeps its value to the last bit; the others overlap only with those of their own label.
+/// With `withDensities`: the parts of an old cell are in proportion to the overlaps of new cells
+/// with it, and sum to 1, so that the sum over all cells of density times volume stays, also where
+/// the boundary changed. A new cell that overlaps no old one takes part in the nearest one (by
+/// centroids) with its whole volume, and what overlaps no new one gives to the nearest of these.
+/// Rows are in the order of the cells and vertices, sources ascending, so that the result depends
+/// on these alone.
+///
+/// (P. Farrell, J. Maddison, "Conservative interpolation between volume meshes by local Galerkin
+/// projection", Comput. Methods Appl. Mech. Engng 200, 2011, for constants in each cell.)
+///
+/// Work: O(n log n) in the cells that have changed; about 10 overlaps for each.
+template<std::size_t Corners>
+FieldRows findFieldRows(const EditableMesh& mesh, const SimplexStore<Corners>& cells,
+  const MeshBefore& before, bool withDensities);
+
+extern template FieldRows findFieldRows(
+  const EditableMesh&, const SimplexStore<3>&, const MeshBefore&, bool);
+extern template FieldRows findFieldRows(
+  const EditableMesh&, const SimplexStore<4>&, const MeshBefore&, bool);
+
+} // namespace cadrefine
