@@ -122,6 +122,24 @@ void vtkSimplexMeshAlgorithm::ClearFaces()
   }
 }
 
+void vtkSimplexMeshAlgorithm::AddConservedArray(const char* name)
+{
+  if (name && *name)
+  {
+    this->ConservedArrays.emplace_back(name);
+    this->Modified();
+  }
+}
+
+void vtkSimplexMeshAlgorithm::ClearConservedArrays()
+{
+  if (!this->ConservedArrays.empty())
+  {
+    this->ConservedArrays.clear();
+    this->Modified();
+  }
+}
+
 cadrefine::PipelineResult vtkSimplexMeshAlgorithm::MakeResult(
   const cadrefine::PipelineContext& context, cadrefine::MeshState state) const
 {
@@ -182,6 +200,7 @@ void vtkSimplexMeshAlgorithm::Run(
     {
       cadrefine::checkInput(input);
       cadrefine::checkCellArrays(input, cellArrays);
+      cadrefine::checkConservedArrays(input, this->ConservedArrays);
     });
   const cadrefine::InputSplit parts =
     cadrefine::splitInput(input, cellArrays, this->ChangesCells() && this->FindMinimumQuality());
@@ -255,6 +274,11 @@ void vtkSimplexMeshAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   for (const std::string& face : this->Faces)
   {
     os << " " << face;
+  }
+  os << "\n" << indent << "ConservedArrays:";
+  for (const std::string& name : this->ConservedArrays)
+  {
+    os << " " << name;
   }
   os << "\n" << indent << "BoundaryCells: " << this->BoundaryCells << "\n";
   os << indent << "Operations: " << this->Operations << "\n";

@@ -108,6 +108,18 @@ public:
 
   ///@{
   /**
+   * Of filters that change cells: cell arrays of floating point that are densities, per volume (of
+   * triangles per area): whatever becomes of cells of the mesh's own dimension, the integral of
+   * each over the mesh stays, to the precision of its values. Others are means by overlap where
+   * cells are exchanged, and stay where vertices move. Default: none.
+   */
+  void AddConservedArray(const char* name);
+  void ClearConservedArrays();
+  const std::vector<std::string>& GetConservedArrays() const { return this->ConservedArrays; }
+  ///@}
+
+  ///@{
+  /**
    * Ranks that hold the pieces of the mesh. Default: the global controller.
    */
   virtual void SetController(vtkMultiProcessController*);
@@ -197,6 +209,7 @@ private:
   Outputs* Filled = nullptr; ///< While a run is at work.
   vtkMultiProcessController* Controller = nullptr;
   std::vector<std::string> Faces;
+  std::vector<std::string> ConservedArrays;
   bool BoundaryCells = false;
   int Operations = ALL_OPERATIONS;
   double MinimumQuality = 0.1;

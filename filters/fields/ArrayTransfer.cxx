@@ -1,5 +1,6 @@
 #include "fields/ArrayTransfer.h"
 
+#include "fields/ArrayRows.h"
 #include "fields/CADArrays.h"
 
 #include <cadrefine/base/LargeMemory.h>
@@ -154,30 +155,38 @@ Value middle(Value a, Value b)
   }
 }
 
-/// The tuples of the vertices that were there, then those of the middles of edges.
-vtkSmartPointer<vtkAbstractArray> interpolate(
-  vtkAbstractArray* array, const std::vector<std::array<Index, 2>>& parentEdges)
+/// The tuples of the vertices that were there, then those of the middles of edges; others by rows.
+vtkSmartPointer<vtkAbstractArray> interpolate(vtkAbstractArray* array,
+  const std::vector<std::array<Index, 2>>& parentEdges, const WeightedRows& rows = {})
 {
   const vtkIdType oldCount = array->GetNumberOfTuples();
   const auto newCount = static_cast<vtkIdType>(parentEdges.size());
   auto result = emptyLike(array, oldCount + newCount);
   result->InsertTuples(0, oldCount, 0, array);
+  std::vector<Index> betweenEnds; // new ones without a row
+  auto row = applyRows(array, rows, Sums::WithinValues, result)
+               ? std::lower_bound(rows.targets.begin(), rows.targets.end(), oldCount)
+               : rows.targets.end();
+  reserveLong(betweenEnds, parentEdges.size());
+  for (Index n = 0; n < newCount; ++n)
+  {
+    row != rows.targets.end() && *row == oldCount + n ? void(++row) : betweenEnds.push_back(n);
+  }
   const auto fill = [&](auto* from, auto* to)
   {
     auto target = vtk::DataArrayValueRange(to);
     const vtkIdType components = from->GetNumberOfComponents();
-    auto next = target.begin() + oldCount * components;
-    for (const auto& ends : parentEdges)
+    const auto at = [&](vtkIdType tuple) { return target.begin() + tuple * components; };
+    using Value = vtk::GetAPIType<std::remove_pointer_t<decltype(from)>>;
+    for (const Index n : betweenEnds)
     {
-      const auto a = target.begin() + ends[0] * components;
-      const auto b = target.begin() + ends[1] * components;
-      using Value = vtk::GetAPIType<std::remove_pointer_t<decltype(from)>>;
-      next = std::transform(a, a + components, b, next, middle<Value>);
+      const auto& [a, b] = parentEdges[n];
+      std::transform(at(a), at(a) + components, at(b), at(oldCount + n), middle<Value>);
     }
   };
   if (!inOwnType(array, result, fill))
   {
-    for (vtkIdType n = 0; n < newCount; ++n)
+    for (const Index n : betweenEnds)
     {
       result->SetTuple(oldCount + n, parentEdges[n][0], result);
     }
@@ -206,6 +215,11 @@ std::vector<Index> parentCells(const ChildRanges& firstChildren)
     }
   }
   return parents;
+}
+
+bool isIn(const std::vector<std::string>& names, vtkAbstractArray* array)
+{
+  return array->GetName() && std::find(names.begin(), names.end(), array->GetName()) != names.end();
 }
 
 MeshArrays emptyArrays(const std::string& vertexIdName, const std::string& cellIdName)
@@ -284,16 +298,46 @@ MeshArrays select(const MeshArrays& arrays, const ArraySelection& selection)
   return result;
 }
 
-MeshArrays refineArrays(const MeshArrays& coarse,
-  const std::vector<std::array<Index, 2>>& parentEdges, const ChildRanges& firstChildren)
+MeshArrays refineArrays(
+  const MeshArrays& coarse, const RefinementTrace& trace, const std::vector<std::string>& densities)
 {
-  MeshArrays fine = withMidNodes(coarse, parentEdges);
-  fine.ofCells = vtkSmartPointer<vtkCellData>::New();
-  const auto parents =
-    coarse.ofCells->GetNumberOfArrays() > 0 ? parentCells(firstChildren) : std::vector<Index>{};
-  carryOver(
-    coarse.ofCells, fine.ofCells, [&](vtkAbstractArray* array) { return gather(array, parents); });
+  MeshArrays fine = emptyArrays(coarse.vertexIdName, coarse.cellIdName);
+  carryOver(coarse.ofVertices, fine.ofVertices,
+    [&](vtkAbstractArray* array)
+    { return interpolate(array, trace.parentEdges, trace.ofVertices); });
+  const auto parents = coarse.ofCells->GetNumberOfArrays() > 0 ? parentCells(trace.firstChildren)
+                                                               : std::vector<Index>{};
+  carryOver(coarse.ofCells, fine.ofCells,
+    [&](vtkAbstractArray* array)
+    {
+      const auto result = gather(array, parents);
+      isIn(densities, array) ? applyRows(array, trace.ofDensities, Sums::AsTheyAre, result)
+                             : applyRows(array, trace.ofCells, Sums::WithinValues, result);
+      return result;
+    });
+  fine.ofMesh = coarse.ofMesh;
   return fine;
+}
+
+MeshArrays withDensities(
+  const MeshArrays& arrays, const WeightedRows& rows, const std::vector<std::string>& densities)
+{
+  MeshArrays result = emptyArrays(arrays.vertexIdName, arrays.cellIdName);
+  carryOver(arrays.ofCells, result.ofCells,
+    [&](vtkAbstractArray* array) -> vtkSmartPointer<vtkAbstractArray>
+    {
+      if (!isIn(densities, array))
+      {
+        return array;
+      }
+      auto changed = vtkSmartPointer<vtkAbstractArray>::Take(array->NewInstance());
+      changed->DeepCopy(array);
+      applyRows(array, rows, Sums::AsTheyAre, changed);
+      return changed;
+    });
+  result.ofVertices = arrays.ofVertices;
+  result.ofMesh = arrays.ofMesh;
+  return result;
 }
 
 MeshArrays withMidNodes(

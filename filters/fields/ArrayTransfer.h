@@ -4,7 +4,7 @@
 #include "mesh/PointSetConversion.h"
 
 #include <cadrefine/base/ParallelFor.h>
-#include <cadrefine/refinement/Split.h>
+#include <cadrefine/refinement/RefinementTrace.h>
 
 #include <vtkCellData.h>
 #include <vtkFieldData.h>
@@ -64,13 +64,20 @@ ArraySelection selectionOf(vtkPointSet* input, const ConvertedMesh& mesh);
 /// Arrays of which all is taken are shared.
 MeshArrays select(const MeshArrays& arrays, const ArraySelection& selection);
 
-/// The arrays of the mesh that `coarse` was split into: cell arrays are inherited, point arrays
+/// The arrays of the mesh that became of `coarse`: cell arrays are inherited, point arrays
 /// interpolated to the middle of the edge, whose ends may be vertices that came before it. Arrays
-/// of whole numbers or other types keep a value that both ends have, and otherwise take that of the
-/// end with the smaller global id (tags must not be averaged). Work: linear in the values made, in
-/// their own type.
-MeshArrays refineArrays(const MeshArrays& coarse,
-  const std::vector<std::array<Index, 2>>& parentEdges, const ChildRanges& firstChildren);
+/// of floating point follow the rows of the trace where there is one, the cell arrays of the names
+/// in `densities` those for densities. Sums are in double precision, and but for densities between
+/// the smallest and the largest value. Arrays of whole numbers or other types keep a value that
+/// both ends have, and otherwise take that of the end with the smaller global id (tags must not be
+/// averaged). Work: linear in the values made, in their own type.
+MeshArrays refineArrays(const MeshArrays& coarse, const RefinementTrace& trace,
+  const std::vector<std::string>& densities = {});
+
+/// The same arrays but for the cell arrays of these names, if they are of floating point, which get
+/// the sums of the rows.
+MeshArrays withDensities(
+  const MeshArrays& arrays, const WeightedRows& rows, const std::vector<std::string>& densities);
 
 /// The same with point arrays for mid nodes after the vertices, interpolated likewise.
 MeshArrays withMidNodes(

@@ -18,6 +18,7 @@ struct Walk
 {
   RankExchange& exchange;
   const MeshArrays& arrays;
+  const std::vector<std::string>& densities;
 
   MeshArrays operator()(const ArraySelection& selection) const { return select(arrays, selection); }
   MeshArrays operator()(const Delivery& delivery) const
@@ -26,11 +27,15 @@ struct Walk
   }
   MeshArrays operator()(const RefinementTrace& trace) const
   {
-    return refineArrays(arrays, trace.parentEdges, trace.firstChildren);
+    return refineArrays(arrays, trace, densities);
   }
   MeshArrays operator()(const std::vector<std::array<Index, 2>>& edges) const
   {
     return withMidNodes(arrays, edges);
+  }
+  MeshArrays operator()(const WeightedRows& rows) const
+  {
+    return withDensities(arrays, rows, densities);
   }
 };
 
@@ -54,6 +59,14 @@ void FieldMapping::refine(RefinementTrace trace)
   stages_.emplace_back(std::move(trace));
 }
 
+void FieldMapping::scale(WeightedRows densities)
+{
+  if (!densities.empty())
+  {
+    stages_.emplace_back(std::move(densities));
+  }
+}
+
 void FieldMapping::addMidNodes(std::vector<std::array<Index, 2>> edges)
 {
   stages_.emplace_back(std::move(edges));
@@ -68,7 +81,7 @@ MeshArrays FieldMapping::follow(RankExchange& exchange, MeshArrays arrays, std::
 {
   for (; done < stages_.size(); ++done)
   {
-    arrays = std::visit(Walk{ exchange, arrays }, stages_[done]);
+    arrays = std::visit(Walk{ exchange, arrays, densities_ }, stages_[done]);
   }
   return arrays;
 }

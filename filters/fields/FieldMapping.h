@@ -6,6 +6,8 @@
 #include <cadrefine/refinement/RefinementTrace.h>
 
 #include <array>
+#include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -15,16 +17,27 @@ namespace cadrefine
 /// What has become of points and cells, step by step: enough to take any array along, but no
 /// coordinates, cells or CAD. Memory: four bytes a cell and eight a new vertex for each refinement;
 /// eight a vertex and cell where a mesh is not its data set in the same order, or was
-/// redistributed.
+/// redistributed; after local operations 8 bytes for each cell and vertex that they changed, and 12
+/// for each old one that its value comes from (some ten of a cell, four of a vertex). With
+/// densities 20 bytes for each cell whose volume changed, and after operations the rows of cells
+/// once more.
 class FieldMapping
 {
 public:
+  /// The cell arrays that are densities: where a cell's volume changes, what it holds is kept.
+  /// First of all.
+  void conserve(std::vector<std::string> densities) { densities_ = std::move(densities); }
+  /// Whether there are any: volumes need be known only then.
+  bool conserves() const { return !densities_.empty(); }
+
   /// A data set was converted to a mesh that has this part of it.
   void convert(ArraySelection selection);
   /// Cells went to other ranks.
   void redistribute(Delivery delivery);
-  /// The mesh was refined.
+  /// The mesh was refined, or operated on.
   void refine(RefinementTrace trace);
+  /// Cells changed their volumes: rows of their densities. (None: nothing happened.)
+  void scale(WeightedRows densities);
   /// The mesh became one of second order, with a mid node on each edge.
   void addMidNodes(std::vector<std::array<Index, 2>> edges);
   /// All that happened on another mapping, which starts where this one ends.
@@ -38,8 +51,9 @@ public:
 
 private:
   using Edges = std::vector<std::array<Index, 2>>;
-  using Stage = std::variant<ArraySelection, Delivery, RefinementTrace, Edges>;
+  using Stage = std::variant<ArraySelection, Delivery, RefinementTrace, Edges, WeightedRows>;
   std::vector<Stage> stages_;
+  std::vector<std::string> densities_;
 };
 
 } // namespace cadrefine

@@ -86,6 +86,18 @@ void BlockMesh::addVertices(const Simplices<Corners>& all, const std::vector<Ind
   }
 }
 
+MeshBefore BlockMesh::before() const
+{
+  MeshBefore result;
+  result.points.reserve(vertices_.size());
+  for (const Index vertex : vertices_)
+  {
+    result.points.push_back(mesh_.points[vertex]);
+  }
+  result.cells = block_.cells().size();
+  return result;
+}
+
 EditableMesh::Vertex BlockMesh::vertexOf(Index v) const
 {
   EditableMesh::Vertex vertex{ mesh_.points[v], mesh_.points[v], classification_.entities[v],

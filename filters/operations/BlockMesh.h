@@ -6,6 +6,7 @@
 
 #include <cadrefine/classification/Classification.h>
 #include <cadrefine/operations/EditableMesh.h>
+#include <cadrefine/operations/FieldRows.h>
 
 #include <array>
 #include <cstdint>
@@ -43,6 +44,9 @@ public:
     const ClassifiedBoundary& boundary, const CellLabels& labels);
 
   void fill(const Members& members, const std::vector<GlobalId>& cellIds);
+
+  /// As it is now; once it is filled.
+  MeshBefore before() const;
 
   EditableMesh& mesh() { return block_; }
   const EditableMesh& mesh() const { return block_; }

@@ -312,6 +312,7 @@ OperationTrace operateOnBlocks(RankExchange& exchange, DistributedMesh& mesh,
   std::vector<BlockMesh> meshes(
     list.size(), BlockMesh(mesh, plane, ofVertices, classification, boundary, task.labels));
   std::vector<OperationResult> results(list.size());
+  std::vector<FieldRows> rows(list.size());
   agreeOnFailure(exchange,
     [&]
     {
@@ -319,7 +320,9 @@ OperationTrace operateOnBlocks(RankExchange& exchange, DistributedMesh& mesh,
         [&](std::size_t i)
         {
           meshes[i].fill(*list[i].second, mesh.converted.cellIds[mesh.mesh().dimension]);
+          const MeshBefore before = meshes[i].before();
           results[i] = task.work(meshes[i], rule);
+          rows[i] = findFieldRows(meshes[i].mesh(), before, task.withDensities);
         });
     });
 
@@ -328,14 +331,13 @@ OperationTrace operateOnBlocks(RankExchange& exchange, DistributedMesh& mesh,
   maker.keep(others);
   for (std::size_t i = 0; i < list.size(); ++i)
   {
-    maker.add(meshes[i], results[i].added, list[i].first);
+    maker.add(meshes[i], results[i].added, rows[i], list[i].first);
     trace.operations += results[i].counts.operations();
   }
   trace.operations = exchange.sum(trace.operations);
-  SimplexMesh made = maker.make(trace.cells.firstChildren);
+  SimplexMesh made = maker.make(trace.cells);
   numberNewVertices(exchange, maker.blocks(), task.blocks.sizes.size(), mesh, made.ids);
   mesh.converted.cellIds = numberChildren(exchange, mesh, trace.cells.firstChildren);
-  trace.cells.parentEdges = maker.parents();
   const std::size_t oldCount = mesh.mesh().points.size();
   agreeOnFailure(exchange,
     [&] { moveParameters(mesh.mesh().points, made.points, boundary.projector, classification); });

@@ -56,6 +56,7 @@ struct OperationTask
   const OperationBlocks& blocks; ///< Each on one rank: see ranksOfBlocks.
   const CellLabels& labels;
   const BlockWork& work;
+  bool withDensities = false; ///< Find rows for densities too (see FieldRows).
 };
 
 /// What operations made of a mesh: it was refined (though some cells have no children), and of the
@@ -72,7 +73,7 @@ struct OperationTrace
 /// the CAD is wanted at its place there; new ones are given theirs. New cells have ids in the order
 /// of their parents', new vertices by the order of the blocks: all is the same on any number of
 /// ranks. Collective; messages: 16 bytes a shared vertex, one reduction of 8 bytes a block, and the
-/// numbering of cells (see denseOffsets).
+/// numbering of cells (see denseOffsets). Work beside that of the task: that of findFieldRows.
 OperationTrace operateOnBlocks(RankExchange& exchange, DistributedMesh& mesh,
   Classification& classification, const ClassifiedBoundary& boundary, const OperationTask& task,
   const ParallelFor& parallelFor);

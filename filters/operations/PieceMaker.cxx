@@ -25,6 +25,44 @@ void order(std::vector<Descendant<Corners>>& descendants, std::size_t parentCoun
   std::partial_sum(firsts.begin(), firsts.end(), firsts.begin());
 }
 
+/// Adds rows with other targets and sources.
+template<class Target, class Source>
+void append(
+  const WeightedRows& rows, const Target& targetOf, const Source& sourceOf, WeightedRows& into)
+{
+  for (std::size_t r = 0; r < rows.size(); ++r)
+  {
+    for (Index k = rows.firsts[r]; k < rows.firsts[r + 1]; ++k)
+    {
+      into.add(sourceOf(rows.sources[k]), rows.weights[k]);
+    }
+    into.endRow(targetOf(rows.targets[r]));
+  }
+}
+
+/// A row, and the target that it gets.
+struct PlacedRow
+{
+  Index target;
+  Index row;
+};
+
+/// These rows, in this order, from sources after `firstSource`; none of none.
+WeightedRows inOrder(
+  const WeightedRows& rows, const std::vector<PlacedRow>& order, Index firstSource)
+{
+  WeightedRows result;
+  for (const auto& [target, row] : rows.empty() ? std::vector<PlacedRow>() : order)
+  {
+    for (Index k = rows.firsts[row]; k < rows.firsts[row + 1]; ++k)
+    {
+      result.add(firstSource + rows.sources[k], rows.weights[k]);
+    }
+    result.endRow(target);
+  }
+  return result;
+}
+
 } // namespace
 
 void PieceMaker::keep(const Members& others)
@@ -44,8 +82,8 @@ void PieceMaker::keep(const Members& others)
   keepAll(mesh_.segments, others.segments, segments_);
 }
 
-void PieceMaker::add(
-  const BlockMesh& block, const std::vector<AddedVertex>& added, std::int64_t number)
+void PieceMaker::add(const BlockMesh& block, const std::vector<AddedVertex>& added,
+  const FieldRows& rows, std::int64_t number)
 {
   const EditableMesh& result = block.mesh();
   std::vector<Index> vertices = block.vertices();
@@ -66,8 +104,10 @@ void PieceMaker::add(
     places_.push_back(vertex.where);
     blocks_.push_back(number);
   }
-  const auto take = [&](const auto& store, auto& into)
+  const auto firstRow = static_cast<Index>(rows_.ofCells.size());
+  const auto take = [&](const auto& store, auto& into, bool hasRows)
   {
+    const std::vector<Index>& withRow = rows.ofCells.targets;
     for (std::size_t s = 0; s < store.size(); ++s)
     {
       const auto simplex = static_cast<Index>(s);
@@ -76,28 +116,80 @@ void PieceMaker::add(
         auto corners = store[simplex].corners;
         std::transform(
           corners.begin(), corners.end(), corners.begin(), [&](Index v) { return vertices[v]; });
-        into.push_back({ store[simplex].parent, corners });
+        const auto row = std::lower_bound(withRow.begin(), withRow.end(), simplex);
+        const bool hasOne = hasRows && row != withRow.end() && *row == simplex;
+        into.push_back({ store[simplex].parent, corners,
+          hasOne ? firstRow + static_cast<Index>(row - withRow.begin()) : -1 });
       }
     }
   };
-  take(result.cells(), tetrahedra_);
-  take(result.facets(), triangles_);
-  take(result.segments(), segments_);
+  take(result.cells(), tetrahedra_, mesh_.dimension == 3);
+  take(result.facets(), triangles_, mesh_.dimension == 2);
+  take(result.segments(), segments_, false);
+  addRows(block, vertices, rows);
 }
 
-SimplexMesh PieceMaker::make(ChildRanges& firstChildren)
+/// Those of cells get their targets when the cells have their numbers.
+void PieceMaker::addRows(
+  const BlockMesh& block, const std::vector<Index>& vertices, const FieldRows& rows)
+{
+  const auto vertexOf = [&](Index vertex) { return vertices[vertex]; };
+  append(rows.ofVertices, vertexOf, vertexOf, rows_.ofVertices);
+  const EditableMesh& mesh = block.mesh();
+  const auto parentOf = [&](Index cell)
+  { return mesh_.dimension == 3 ? mesh.cells()[cell].parent : mesh.facets()[cell].parent; };
+  const auto later = [](Index) { return Index{ -1 }; };
+  append(rows.ofCells, later, parentOf, rows_.ofCells);
+  append(rows.ofDensities, later, parentOf, rows_.ofDensities);
+}
+
+SimplexMesh PieceMaker::make(RefinementTrace& trace)
 {
   SimplexMesh result;
   result.dimension = mesh_.dimension;
   result.points = points_;
   result.ids = mesh_.ids;
   result.vertices = mesh_.vertices;
+  ChildRanges& firstChildren = trace.firstChildren;
   firstChildren[0].resize(mesh_.vertices.size() + 1);
   std::iota(firstChildren[0].begin(), firstChildren[0].end(), 0);
   order(segments_, mesh_.segments.size(), result.segments, firstChildren[1]);
   order(triangles_, mesh_.triangles.size(), result.triangles, firstChildren[2]);
   order(tetrahedra_, mesh_.tetrahedra.size(), result.tetrahedra, firstChildren[3]);
+  trace.parentEdges = parents_;
+  placeRows(result, trace);
   return result;
+}
+
+/// In the order of their targets.
+void PieceMaker::placeRows(const SimplexMesh& made, RefinementTrace& trace) const
+{
+  std::vector<PlacedRow> ofVertices;
+  for (std::size_t r = 0; r < rows_.ofVertices.size(); ++r)
+  {
+    ofVertices.push_back({ rows_.ofVertices.targets[r], static_cast<Index>(r) });
+  }
+  std::sort(ofVertices.begin(), ofVertices.end(),
+    [](const PlacedRow& a, const PlacedRow& b) { return a.target < b.target; });
+  trace.ofVertices = inOrder(rows_.ofVertices, ofVertices, 0);
+
+  std::vector<PlacedRow> ofCells;
+  const auto find = [&](const auto& descendants)
+  {
+    auto target = static_cast<Index>(firstCellOfDimension(made, made.dimension));
+    for (const auto& descendant : descendants)
+    {
+      if (descendant.row >= 0)
+      {
+        ofCells.push_back({ target, descendant.row });
+      }
+      ++target;
+    }
+  };
+  made.dimension == 3 ? find(tetrahedra_) : find(triangles_);
+  const auto firstSource = static_cast<Index>(firstCellOfDimension(mesh_, mesh_.dimension));
+  trace.ofCells = inOrder(rows_.ofCells, ofCells, firstSource);
+  trace.ofDensities = inOrder(rows_.ofDensities, ofCells, firstSource);
 }
 
 /// By ids, which grow with the numbers of new vertices.

@@ -3,8 +3,9 @@
 
 #include "operations/BlockMesh.h"
 
+#include <cadrefine/operations/FieldRows.h>
 #include <cadrefine/operations/Operations.h>
-#include <cadrefine/refinement/Split.h>
+#include <cadrefine/refinement/RefinementTrace.h>
 
 #include <array>
 #include <cstdint>
@@ -19,6 +20,7 @@ struct Descendant
 {
   Index parent;
   std::array<Index, Corners> corners;
+  Index row = -1; ///< Of the rows of cells; -1: it has none.
 };
 
 /// Takes what is in no block, and what the blocks have become.
@@ -29,19 +31,23 @@ public:
 
   /// What is in no block.
   void keep(const Members& others);
-  /// A block of this number, to which these vertices were added.
-  void add(const BlockMesh& block, const std::vector<AddedVertex>& added, std::int64_t number);
+  /// A block of this number, to which these vertices were added, and whose fields follow these
+  /// rows.
+  void add(const BlockMesh& block, const std::vector<AddedVertex>& added, const FieldRows& rows,
+    std::int64_t number);
 
   /// Of the new vertices, in the order of their numbers.
-  const std::vector<std::array<Index, 2>>& parents() const { return parents_; }
   const std::vector<ClosestPoint>& places() const { return places_; }
   const std::vector<std::int64_t>& blocks() const { return blocks_; }
 
-  /// With all vertices, also those that no cell has any more; no ids of new ones.
-  SimplexMesh make(ChildRanges& firstChildren);
+  /// With all vertices, also those that no cell has any more; no ids of new ones. Writes where
+  /// cells and fields come from into the trace.
+  SimplexMesh make(RefinementTrace& trace);
 
 private:
   bool comesBefore(Index a, Index b) const;
+  void placeRows(const SimplexMesh& made, RefinementTrace& trace) const;
+  void addRows(const BlockMesh& block, const std::vector<Index>& vertices, const FieldRows& rows);
 
   const SimplexMesh& mesh_;
   std::vector<Point3> points_;
@@ -51,6 +57,7 @@ private:
   std::vector<Descendant<4>> tetrahedra_;
   std::vector<Descendant<3>> triangles_;
   std::vector<Descendant<2>> segments_;
+  FieldRows rows_; ///< Of cells: in any order, without targets, from parents.
 };
 
 } // namespace cadrefine

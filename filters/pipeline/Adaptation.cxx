@@ -129,13 +129,19 @@ private:
     tell(options_.startProjected ? "input" : "projection");
   }
 
+  void read(vtkPointSet* input, CellOrder order)
+  {
+    state_ = readMesh(exchange_, input, order);
+    state_.mapping.conserve(options_.conservedArrays);
+    state_.remembers = true;
+  }
+
   void project(vtkPointSet* input)
   {
     inPhase(phases::project,
       [&](const PipelineContext& context)
       {
-        state_ = readMesh(exchange_, input);
-        state_.remembers = true;
+        read(input, CellOrder::First);
         fitReport_ = projectMesh(context, state_, options_.projection);
       });
   }
@@ -144,9 +150,7 @@ private:
   void takeProjected(vtkPointSet* input)
   {
     const bool isMeasuredAlone = mostSteps() == 0 && !options_.quadraticCells;
-    state_ =
-      readMesh(exchange_, input, isMeasuredAlone ? CellOrder::FirstOrSecond : CellOrder::First);
-    state_.remembers = true;
+    read(input, isMeasuredAlone ? CellOrder::FirstOrSecond : CellOrder::First);
     readClassification(context_, input, state_);
     vtkFieldData* ofMesh = state_.arrays.ofMesh;
     summariseMesh(exchange_, state_.mesh, qualityOf(exchange_, state_), ofMesh);

@@ -178,10 +178,12 @@ private:
   {
     ClassifiedBoundary& boundary = boundaryOf(context_, state_);
     Classification& classification = *state_.classification;
+    const std::vector<Point3> before = pointsToKeep(state_);
     Moves moves = movesOntoCAD(mesh(), boundary.projector, classification);
     moveOntoCAD(exchange_, state_.mesh, std::move(moves), classification,
       { boundary.projector, boundary.boundary.onBoundary, false, true });
     meshHasChanged(state_);
+    scaleDensities(exchange_, state_, before);
   }
 
   const PipelineContext& context_;

@@ -86,15 +86,14 @@ std::int64_t operate(const PipelineContext& context, MeshState& state,
   const CellLabels ofCells{ labels(3, mesh.tetrahedra.size()), labels(2, mesh.triangles.size()),
     labels(1, mesh.segments.size()) };
   OperationTrace trace = operateOnBlocks(exchange, state.mesh, *state.classification, boundary,
-    { blocks, ofCells, work }, state.parallelFor);
+    { blocks, ofCells, work, state.mapping.conserves() }, state.parallelFor);
   meshHasChanged(state);
   state.onBoundary.clear();
-  state.arrays = refineArrays(state.arrays, trace.cells.parentEdges, trace.cells.firstChildren);
-  ArraySelection kept{ std::vector<vtkIdType>(trace.keptVertices.begin(), trace.keptVertices.end()),
-    {} };
-  state.arrays = select(state.arrays, kept);
+  const std::size_t done = state.mapping.stageCount();
   state.mapping.refine(std::move(trace.cells));
-  state.mapping.convert(std::move(kept));
+  state.mapping.convert(
+    { std::vector<vtkIdType>(trace.keptVertices.begin(), trace.keptVertices.end()), {} });
+  followMapping(exchange, state, done);
   return trace.operations;
 }
 

@@ -5,6 +5,7 @@
 #include "comm/CollectiveErrors.h"
 #include "comm/Threads.h"
 #include "fields/CADArrays.h"
+#include "fields/Densities.h"
 #include "pipeline/MeshSummary.h"
 
 #include <vtkCellData.h>
@@ -129,6 +130,27 @@ bool warnOfInvalidCells(const PipelineContext& context, MeshState& state)
     context.warn(warning);
   }
   return !warning.empty();
+}
+
+void followMapping(RankExchange& exchange, MeshState& state, std::size_t done)
+{
+  state.arrays = state.mapping.follow(exchange, std::move(state.arrays), done);
+}
+
+std::vector<Point3> pointsToKeep(const MeshState& state)
+{
+  return state.mapping.conserves() ? state.mesh.mesh().points : std::vector<Point3>{};
+}
+
+void scaleDensities(
+  RankExchange& exchange, MeshState& state, const std::vector<Point3>& pointsBefore)
+{
+  if (state.mapping.conserves())
+  {
+    const std::size_t done = state.mapping.stageCount();
+    state.mapping.scale(densitiesOfMoved(state.mesh.mesh(), pointsBefore));
+    followMapping(exchange, state, done);
+  }
 }
 
 void meshHasChanged(MeshState& state)

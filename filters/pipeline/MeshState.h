@@ -75,6 +75,17 @@ const QualitySummary& qualityOf(RankExchange& exchange, MeshState& state);
 /// Collective.
 bool warnOfInvalidCells(const PipelineContext& context, MeshState& state);
 
+/// Takes the arrays along what was added to the mapping after its first `done` stages.
+void followMapping(RankExchange& exchange, MeshState& state, std::size_t done);
+
+/// The points, where there are densities to be kept when these move; else none.
+std::vector<Point3> pointsToKeep(const MeshState& state);
+
+/// What densities have become by a motion of vertices, which were at these points (see
+/// pointsToKeep): cells take along what they hold.
+void scaleDensities(
+  RankExchange& exchange, MeshState& state, const std::vector<Point3>& pointsBefore);
+
 /// Forgets what was found of the mesh as it was.
 void meshHasChanged(MeshState& state);
 

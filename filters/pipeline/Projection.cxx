@@ -116,10 +116,12 @@ std::string projectMesh(
 {
   RankExchange& exchange = context.exchange;
   const auto [low, high] = findBounds(exchange, state.mesh.mesh());
+  const std::vector<Point3> before = pointsToKeep(state);
   Projection projection = state.mesh.mesh().dimension == 0
                             ? projectAlone(context, state.mesh, options)
                             : projectCells(context, state, options);
   meshHasChanged(state);
+  scaleDensities(exchange, state, before);
   projection.fit.meshBox = { low, high };
   ProjectionResult& result = projection.result;
   recordBalance(context.statistics, "points", result.balance);

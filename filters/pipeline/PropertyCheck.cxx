@@ -74,6 +74,24 @@ void checkCellArrays(vtkPointSet* mesh, const std::vector<std::string>& names)
   }
 }
 
+void checkConservedArrays(vtkPointSet* mesh, const std::vector<std::string>& names)
+{
+  vtkCellData* cells = mesh->GetCellData();
+  for (const std::string& name : names)
+  {
+    vtkDataArray* array = cells->GetArray(name.c_str());
+    const int type = array ? array->GetDataType() : VTK_VOID;
+    if (mesh->GetNumberOfCells() > 0 && type != VTK_DOUBLE && type != VTK_FLOAT)
+    {
+      throw Error(
+        (array ? "the cell array " + name + " is of whole numbers, not of floating point"
+               : "the mesh has no cell array " + name + " of numbers") +
+        ", so that its integral cannot be conserved (ConservedArrays); cell arrays here: " +
+        numericArraysOf(cells));
+    }
+  }
+}
+
 void checkBox(const char* name, const double* bounds)
 {
   for (int axis = 0; axis < 3; ++axis)

@@ -27,6 +27,10 @@ inline void checkProperty(const char* name, double value)
 /// are. A rank without cells need not have any.
 void checkCellArrays(vtkPointSet* mesh, const std::vector<std::string>& names);
 
+/// Throws Error where the cells lack one of these arrays (ConservedArrays), or it is not of
+/// floating point. A rank without cells need not have any.
+void checkConservedArrays(vtkPointSet* mesh, const std::vector<std::string>& names);
+
 /// Six bounds, xmin xmax ymin ymax zmin zmax: finite, and no lower one above its upper one.
 void checkBox(const char* name, const double* bounds);
 

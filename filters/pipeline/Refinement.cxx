@@ -3,6 +3,7 @@
 #include "balancing/Balancing.h"
 #include "comm/LoadBalancedMap.h"
 #include "fields/CADArrays.h"
+#include "fields/Densities.h"
 #include "pipeline/CellImprovement.h"
 #include "pipeline/MeshSummary.h"
 #include "quadratic/MidNodePlacing.h"
@@ -274,6 +275,7 @@ private:
   {
     const bool withOperations = options_.projectNewVertices && options_.minimumQuality;
     plan.offCreases = withOperations;
+    std::vector<Point3> before = pointsToKeep(state_);
     RefinementTrace trace = state_.classification
                               ? refineOntoCAD(exchange_, state_.mesh, plan, boundary(),
                                   *state_.classification, newVertices_, context_.statistics)
@@ -283,8 +285,13 @@ private:
     state_.onBoundary = std::move(trace.onBoundary);
     {
       const auto stopwatch = watch("seconds copying fields");
-      state_.arrays = refineArrays(state_.arrays, trace.parentEdges, trace.firstChildren);
+      if (state_.mapping.conserves())
+      {
+        trace.ofDensities = densitiesOfRefined(state_.mesh.mesh(), trace, std::move(before));
+      }
+      const std::size_t done = state_.mapping.stageCount();
       state_.mapping.refine(std::move(trace));
+      followMapping(exchange_, state_, done);
     }
     if (withOperations)
     {
@@ -309,8 +316,9 @@ private:
     meshHasChanged(state_);
     const auto stopwatch = watch("seconds copying fields");
     const auto& edges = state_.mesh.converted.midNodes->table.edges;
-    state_.arrays = withMidNodes(state_.arrays, edges);
+    const std::size_t done = state_.mapping.stageCount();
     state_.mapping.addMidNodes(edges);
+    followMapping(exchange_, state_, done);
   }
 
   void finish()

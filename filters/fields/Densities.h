@@ -1,0 +1,24 @@
+// Densities of cells whose volumes change by a motion of vertices.
+#pragma once
+
+#include <cadrefine/base/WeightedRows.h>
+#include <cadrefine/mesh/SimplexMesh.h>
+#include <cadrefine/refinement/RefinementTrace.h>
+
+#include <vector>
+
+namespace cadrefine
+{
+
+/// Cells of the mesh's own dimension take along what they hold, so that their densities change by
+/// the old volume (in 2D, area) over the new one. `before`: the vertices' places. A row for each
+/// cell with another volume than before, by its place in the order of makePointSet. Cells that are
+/// flat now keep their densities; what inverted ones held counts as if they were not.
+WeightedRows densitiesOfMoved(const SimplexMesh& mesh, const std::vector<Point3>& before);
+
+/// The same for the cells of a refined mesh, from their parents: these were cut straight, then
+/// vertices moved. `before`: the places of the vertices that there were before the cut.
+WeightedRows densitiesOfRefined(
+  const SimplexMesh& mesh, const RefinementTrace& trace, std::vector<Point3> before);
+
+} // namespace cadrefine
