@@ -1,7 +1,6 @@
 #include "fields/ArrayTransfer.h"
 
 #include "fields/ArrayRows.h"
-#include "fields/CADArrays.h"
 
 #include <cadrefine/base/LargeMemory.h>
 
@@ -229,16 +228,6 @@ MeshArrays emptyArrays(const std::string& vertexIdName, const std::string& cellI
 }
 
 } // namespace
-
-bool isTag(vtkDataArray* array)
-{
-  const std::string name = array->GetName() ? array->GetName() : "";
-  const int type = array->GetDataType();
-  const bool isOwn =
-    name == arrays::validity || name == arrays::dimension || name == arrays::entity;
-  return type != VTK_FLOAT && type != VTK_DOUBLE && !name.empty() && name.rfind("vtk", 0) != 0 &&
-         !isOwn;
-}
 
 vtkSmartPointer<vtkAbstractArray> emptyLike(vtkAbstractArray* array, vtkIdType count)
 {

@@ -34,10 +34,6 @@ struct MeshArrays
   std::string cellIdName;
 };
 
-/// Whether a cell array tells kinds of cells apart, such as materials: one of whole numbers that
-/// has a name, unless that is one of VTK's own ("vtk...") or of CADRefine's.
-bool isTag(vtkDataArray* array);
-
 /// An array of the same type, name and components, with so many tuples of any value.
 vtkSmartPointer<vtkAbstractArray> emptyLike(vtkAbstractArray* array, vtkIdType count);
 

@@ -1,6 +1,7 @@
 #include "pipeline/InputSplit.h"
 
 #include "fields/CADArrays.h"
+#include "fields/CellTags.h"
 
 #include <vtkCellData.h>
 #include <vtkDataArray.h>

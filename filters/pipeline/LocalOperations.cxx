@@ -1,14 +1,13 @@
 #include "pipeline/LocalOperations.h"
 
-#include "fields/ArrayTransfer.h"
+#include "fields/CellTags.h"
 
 #include <vtkCellData.h>
-#include <vtkDataArray.h>
 #include <vtkNew.h>
 #include <vtkTypeInt64Array.h>
 
 #include <algorithm>
-#include <map>
+#include <array>
 #include <utility>
 
 namespace cadrefine
@@ -18,27 +17,11 @@ namespace
 
 constexpr const char* blockArray = "cadrefine:block";
 
-/// Numbers of the different tags of `count` cells from the first one on.
-std::vector<Index> labelsOf(vtkCellData* data, vtkIdType first, std::size_t count)
+CellRange cellsOf(const SimplexMesh& mesh, int dimension)
 {
-  std::vector<Index> labels(count, 0);
-  for (int a = 0; a < data->GetNumberOfArrays(); ++a)
-  {
-    vtkDataArray* array = data->GetArray(a);
-    if (!array || !isTag(array))
-    {
-      continue;
-    }
-    std::map<std::pair<Index, std::vector<double>>, Index> numbers;
-    std::vector<double> tag(array->GetNumberOfComponents());
-    for (std::size_t c = 0; c < count; ++c)
-    {
-      array->GetTuple(first + static_cast<vtkIdType>(c), tag.data());
-      const auto next = static_cast<Index>(numbers.size());
-      labels[c] = numbers.emplace(std::pair(labels[c], tag), next).first->second;
-    }
-  }
-  return labels;
+  const std::array<std::size_t, 4> counts{ mesh.vertices.size(), mesh.segments.size(),
+    mesh.triangles.size(), mesh.tetrahedra.size() };
+  return { firstCellOfDimension(mesh, dimension), counts[dimension] };
 }
 
 /// Brings each block to one rank. The blocks after that.
@@ -73,6 +56,16 @@ OperationBlocks gather(const PipelineContext& context, MeshState& state, Operati
 
 } // namespace
 
+void findNumberings(RankExchange& exchange, MeshState& state)
+{
+  const SimplexMesh& mesh = state.mesh.mesh();
+  if (!state.numberings && mesh.dimension > 0)
+  {
+    state.numberings =
+      findNumberings(exchange, state.arrays.ofCells, cellsOf(mesh, mesh.dimension));
+  }
+}
+
 std::int64_t operate(const PipelineContext& context, MeshState& state,
   const std::vector<unsigned char>& flags, const BlockSettings& settings, const BlockWork& work)
 {
@@ -81,10 +74,10 @@ std::int64_t operate(const PipelineContext& context, MeshState& state,
     context, state, findOperationBlocks(exchange, state.mesh, flags, settings, state.parallelFor));
   ClassifiedBoundary& boundary = boundaryOf(context, state);
   const SimplexMesh& mesh = state.mesh.mesh();
-  const auto labels = [&](int dimension, std::size_t count)
-  { return labelsOf(state.arrays.ofCells, firstCellOfDimension(mesh, dimension), count); };
-  const CellLabels ofCells{ labels(3, mesh.tetrahedra.size()), labels(2, mesh.triangles.size()),
-    labels(1, mesh.segments.size()) };
+  findNumberings(exchange, state);
+  const auto labels = [&](int dimension)
+  { return labelsOf(state.arrays.ofCells, cellsOf(mesh, dimension), *state.numberings); };
+  const CellLabels ofCells{ labels(3), labels(2), labels(1) };
   OperationTrace trace = operateOnBlocks(exchange, state.mesh, *state.classification, boundary,
     { blocks, ofCells, work, state.mapping.conserves() }, state.parallelFor);
   meshHasChanged(state);

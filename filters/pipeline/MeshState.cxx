@@ -193,6 +193,7 @@ void redistribute(const PipelineContext& context, MeshState& state, const std::v
   next.arrays.ofMesh = state.arrays.ofMesh;
   next.prototype = state.prototype;
   next.remembers = state.remembers;
+  next.numberings = std::move(state.numberings);
   next.cache = std::move(state.cache);
   state.mapping.redistribute(std::move(balanced.delivery));
   state.mapping.append(std::move(next.mapping));

@@ -5,6 +5,7 @@
 #include "fields/CADArrays.h"
 #include "fields/Densities.h"
 #include "pipeline/CellImprovement.h"
+#include "pipeline/LocalOperations.h"
 #include "pipeline/MeshSummary.h"
 #include "quadratic/MidNodePlacing.h"
 #include "refinement/DistributedRefinement.h"
@@ -47,6 +48,10 @@ public:
   {
     check();
     newVertices_ = whatBecomesOfNewVertices();
+    if (options_.minimumQuality)
+    {
+      findNumberings(exchange_, state_);
+    }
     RefinementOutcome outcome;
     for (int l = 0; l < options_.levels && outcome.refined; ++l)
     {

@@ -115,6 +115,31 @@ TEST_F(BadArrays, makeWayForResults)
   EXPECT_EQ(cadtest::fieldValue(filters.refineUniformly(measured), "InvalidCells"), 0);
 }
 
+TEST_F(BadArrays, cannotBeConservedWithoutRealNumbers)
+{
+  const auto conserve = [&](const std::string& name, const std::string& reason)
+  {
+    const auto mesh = projected();
+    if (mesh->GetNumberOfCells() > 0)
+    {
+      mesh->GetCellData()->AddArray(make<vtkIntArray>("Counts", 1, mesh->GetNumberOfCells()));
+      mesh->GetCellData()->AddArray(make<vtkStringArray>("Names", 1, mesh->GetNumberOfCells()));
+      mesh->GetPointData()->AddArray(
+        make<vtkDoubleArray>("OfPoints", 1, mesh->GetNumberOfPoints()));
+    }
+    const auto add = [&](vtkSimplexMeshAlgorithm* filter)
+    { filter->AddConservedArray(name.c_str()); };
+    expectError(filters.attempt<vtkProjectOntoCAD>(mesh, add), reason);
+    expectError(filters.attempt<vtkRefineWithCAD>(mesh, add), reason);
+    expectError(filters.attempt<vtkAdaptToCAD>(mesh, add), reason);
+  };
+  conserve("Counts", "the cell array Counts is of whole numbers, not of floating point");
+  for (const char* name : { "Missing", "Names", "OfPoints" })
+  {
+    conserve(name, std::string("the mesh has no cell array ") + name + " of numbers");
+  }
+}
+
 /// The values count, not the type.
 TEST_F(BadArrays, ofOtherTypesOfNumbersAreRead)
 {

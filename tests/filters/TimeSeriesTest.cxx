@@ -5,6 +5,7 @@
 #include "ParallelTest.h"
 #include "Partition.h"
 #include "Pipeline.h"
+#include "SpoiltCube.h"
 #include "TestMeshes.h"
 #include "TestShapes.h"
 
@@ -200,6 +201,34 @@ TEST_F(TimeSeries, keepsTheTableOfAnAdaptation)
   EXPECT_TRUE(isReused(pipeline.adapt));
   EXPECT_EQ(tableOf(pipeline.adapt)->GetNumberOfRows(), rows);
   EXPECT_TRUE(tableOf(pipeline.adapt)->GetFieldData()->HasArray("StopReason"));
+}
+
+/// Cells are exchanged: fields follow the rows that were found with another step.
+TEST_F(TimeSeries, takesTheFieldsAlongThroughOperations)
+{
+  cadFile = cadtest::writeInto(folder, cadtest::box(1, 1, 1), ".brep");
+  whole = cadtest::toGrid(cadtest::spoiltCubeMesh(3));
+  cadtest::addArrays(whole);
+  const Setup setup = [](Pipeline& pipeline)
+  {
+    for (vtkSimplexMeshAlgorithm* filter : pipeline.filters())
+    {
+      filter->SetMinimumQuality(0.6);
+    }
+    for (vtkSimplexMeshAlgorithm* filter :
+      std::vector<vtkSimplexMeshAlgorithm*>{ pipeline.project, pipeline.refine, pipeline.adapt })
+    {
+      filter->AddConservedArray("Heat");
+      filter->AddConservedArray("Colour");
+    }
+  };
+  const Pipeline pipeline = makePipeline(setup);
+  EXPECT_EQ(run(pipeline, 0), none);
+  const std::string statistics = pipeline.project->GetRunStatistics();
+  EXPECT_NE(statistics.find("\"local operations\": "), std::string::npos) << statistics;
+  EXPECT_EQ(statistics.find("\"local operations\": 0"), std::string::npos) << statistics;
+  EXPECT_EQ(run(pipeline, 2), all);
+  expectAsFresh(pipeline, 2, setup);
 }
 
 TEST_F(TimeSeries, takesTextAlong)

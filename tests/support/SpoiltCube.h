@@ -51,4 +51,21 @@ inline cadrefine::EditableMesh spoiltCube(unsigned seed)
   return mesh;
 }
 
+/// The same as a mesh without materials.
+inline cadrefine::SimplexMesh spoiltCubeMesh(unsigned seed)
+{
+  using namespace cadrefine;
+  const EditableMesh spoilt = spoiltCube(seed);
+  SimplexMesh mesh;
+  for (std::size_t v = 0; v < spoilt.vertexCount(); ++v)
+  {
+    mesh.points.push_back(spoilt.vertex(static_cast<Index>(v)).point);
+  }
+  for (std::size_t c = 0; c < spoilt.cells().size(); ++c)
+  {
+    mesh.tetrahedra.push_back(spoilt.cells()[static_cast<Index>(c)].corners);
+  }
+  return mesh;
+}
+
 } // namespace cadtest

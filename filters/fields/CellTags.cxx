@@ -1,0 +1,202 @@
+#include "fields/CellTags.h"
+
+#include "fields/CADArrays.h"
+
+#include <cadrefine/base/MixedBits.h>
+
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <map>
+#include <utility>
+
+namespace cadrefine
+{
+namespace
+{
+
+/// A value that a tag has somewhere.
+struct TagValue
+{
+  std::uint64_t name;
+  std::uint64_t value;
+
+  friend bool operator<(const TagValue& a, const TagValue& b)
+  {
+    return std::pair(a.name, a.value) < std::pair(b.name, b.value);
+  }
+  friend bool operator==(const TagValue& a, const TagValue& b)
+  {
+    return a.name == b.name && a.value == b.value;
+  }
+};
+
+struct ValueCount
+{
+  std::uint64_t name;
+  std::int64_t count;
+};
+
+std::uint64_t hashOf(const std::string& name)
+{
+  std::uint64_t hash = name.size();
+  for (const char letter : name)
+  {
+    hash = mixedBits(hash ^ static_cast<unsigned char>(letter));
+  }
+  return hash;
+}
+
+std::uint64_t hashOf(const std::vector<double>& tuple)
+{
+  std::uint64_t hash = tuple.size();
+  for (const double value : tuple)
+  {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &value, sizeof(bits));
+    hash = mixedBits(hash ^ bits);
+  }
+  return hash;
+}
+
+template<class Visit>
+void forEachTag(vtkCellData* data, const Visit& visit)
+{
+  for (int a = 0; a < data->GetNumberOfArrays(); ++a)
+  {
+    vtkDataArray* array = data->GetArray(a);
+    if (array && isTag(array))
+    {
+      visit(array);
+    }
+  }
+}
+
+/// Calls visit(c, tuple) for the cells of the range, from c = 0 on.
+template<class Visit>
+void forEachTuple(vtkDataArray* array, const CellRange& cells, const Visit& visit)
+{
+  std::vector<double> tuple(array->GetNumberOfComponents());
+  for (std::size_t c = 0; c < cells.count; ++c)
+  {
+    array->GetTuple(cells.first + static_cast<vtkIdType>(c), tuple.data());
+    visit(c, tuple);
+  }
+}
+
+template<class Value>
+void sortUniquely(std::vector<Value>& values)
+{
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+/// How many values each tag has over all ranks, by the hashes of their names: each value is counted
+/// by the rank that its hash gives.
+std::map<std::uint64_t, std::int64_t> countValues(
+  RankExchange& exchange, const std::vector<TagValue>& values)
+{
+  std::vector<std::vector<TagValue>> toRank(exchange.size());
+  for (const TagValue& value : values)
+  {
+    toRank[mixedBits(value.name ^ value.value) % toRank.size()].push_back(value);
+  }
+  std::vector<TagValue> here;
+  for (const auto& list : exchange.allToAll(toRank))
+  {
+    here.insert(here.end(), list.begin(), list.end());
+  }
+  sortUniquely(here);
+  std::map<std::uint64_t, std::int64_t> counts;
+  for (const TagValue& value : here)
+  {
+    ++counts[value.name];
+  }
+  std::vector<ValueCount> mine;
+  for (const auto& [name, count] : counts)
+  {
+    mine.push_back({ name, count });
+  }
+  counts.clear();
+  for (const auto& list :
+    exchange.allToAll(std::vector<std::vector<ValueCount>>(exchange.size(), mine)))
+  {
+    for (const auto& [name, count] : list)
+    {
+      counts[name] += count;
+    }
+  }
+  return counts;
+}
+
+} // namespace
+
+bool isTag(vtkDataArray* array)
+{
+  const std::string name = array->GetName() ? array->GetName() : "";
+  const int type = array->GetDataType();
+  const bool isOwn =
+    name == arrays::validity || name == arrays::dimension || name == arrays::entity;
+  return type != VTK_FLOAT && type != VTK_DOUBLE && !name.empty() && name.rfind("vtk", 0) != 0 &&
+         !isOwn;
+}
+
+std::vector<std::string> findNumberings(
+  RankExchange& exchange, vtkCellData* data, const CellRange& cells)
+{
+  constexpr std::int64_t mostKinds = 32; // that are taken for tags, however few cells there are
+  std::vector<TagValue> values;
+  forEachTag(data,
+    [&](vtkDataArray* array)
+    {
+      std::vector<TagValue> own;
+      const std::uint64_t name = hashOf(array->GetName());
+      forEachTuple(array, cells,
+        [&](std::size_t, const std::vector<double>& tuple) {
+          own.push_back({ name, hashOf(tuple) });
+        });
+      sortUniquely(own);
+      values.insert(values.end(), own.begin(), own.end());
+    });
+  const std::int64_t cellCount = exchange.sum(cells.count);
+  auto counts = countValues(exchange, values);
+  std::vector<std::string> names;
+  forEachTag(data,
+    [&](vtkDataArray* array)
+    {
+      const std::int64_t count = counts[hashOf(array->GetName())];
+      if (count > mostKinds && 2 * count > cellCount)
+      {
+        names.emplace_back(array->GetName());
+      }
+    });
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::vector<Index> labelsOf(
+  vtkCellData* data, const CellRange& cells, const std::vector<std::string>& numberings)
+{
+  std::vector<Index> labels(cells.count, 0);
+  forEachTag(data,
+    [&](vtkDataArray* array)
+    {
+      if (std::find(numberings.begin(), numberings.end(), array->GetName()) != numberings.end())
+      {
+        return;
+      }
+      std::map<std::pair<Index, std::vector<double>>, Index> numbers;
+      forEachTuple(array, cells,
+        [&](std::size_t c, const std::vector<double>& tuple)
+        {
+          const auto next = static_cast<Index>(numbers.size());
+          labels[c] = numbers.emplace(std::pair(labels[c], tuple), next).first->second;
+        });
+    });
+  return labels;
+}
+
+} // namespace cadrefine

@@ -1,0 +1,42 @@
+// Cell arrays that tell kinds of cells apart, such as materials.
+#pragma once
+
+#include "comm/RankExchange.h"
+
+#include <cadrefine/base/MeshTypes.h>
+
+#include <vtkType.h>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+class vtkCellData;
+class vtkDataArray;
+
+namespace cadrefine
+{
+
+/// Whether a cell array tells kinds of cells apart, so far as its type and name tell: one of whole
+/// numbers that has a name, unless that is one of VTK's own ("vtk...") or of CADRefine's.
+bool isTag(vtkDataArray* array);
+
+/// Cells in a row of a mesh's arrays.
+struct CellRange
+{
+  vtkIdType first;
+  std::size_t count;
+};
+
+/// Names, in their order, of arrays that look like tags but number the cells: over all ranks they
+/// have more than 32 different values, and more than half as many as there are cells in the range.
+/// The same on all ranks. Collective: two times all-to-all, 16 bytes a value that a rank has.
+/// Values are told apart by hashes of 64 bits.
+std::vector<std::string> findNumberings(
+  RankExchange& exchange, vtkCellData* data, const CellRange& cells);
+
+/// Numbers of the different tags of the cells, but for those of these names.
+std::vector<Index> labelsOf(
+  vtkCellData* data, const CellRange& cells, const std::vector<std::string>& numberings);
+
+} // namespace cadrefine
