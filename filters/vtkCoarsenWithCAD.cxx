@@ -37,6 +37,7 @@ cadrefine::PipelineResult vtkCoarsenWithCAD::Execute(
   const std::optional<double> minimumQuality = this->FindMinimumQuality();
   const cadrefine::PipelineContext context = this->MakeContext(exchange, *model);
   cadrefine::MeshState state = cadrefine::readMesh(exchange, input);
+  state.mapping.conserve(this->GetConservedArrays());
   cadrefine::readClassification(context, input, state);
 
   cadrefine::CoarseningOptions options;

@@ -14,6 +14,7 @@
 
 #include <vtkAdaptToCAD.h>
 #include <vtkCellData.h>
+#include <vtkCoarsenWithCAD.h>
 #include <vtkDoubleArray.h>
 #include <vtkIdList.h>
 #include <vtkIntArray.h>
@@ -169,7 +170,15 @@ protected:
         filter->StartProjectedOn();
         filter->SetMaximumSteps(2);
       });
+    const vtkIdType cellsBefore = mesh->GetNumberOfCells();
+    run(static_cast<vtkCoarsenWithCAD*>(nullptr),
+      [](auto* filter)
+      {
+        filter->SetTargetError(0.1);
+        filter->SetMinimumQuality(0.1);
+      });
     EXPECT_GT(operations, 10);
+    EXPECT_LT(mesh->GetNumberOfCells(), cellsBefore) << "not coarsened";
     return mesh;
   }
 };
