@@ -94,7 +94,7 @@ MeshBefore BlockMesh::before() const
   {
     result.points.push_back(mesh_.points[vertex]);
   }
-  result.cells = block_.cells().size();
+  result.cells = block_.dimension() == 3 ? block_.cells().size() : block_.facets().size();
   return result;
 }
 

@@ -463,16 +463,10 @@ private:
 
 } // namespace
 
-template<std::size_t Corners>
-FieldRows findFieldRows(const EditableMesh& mesh, const SimplexStore<Corners>& cells,
-  const MeshBefore& before, bool withDensities)
+FieldRows findFieldRows(const EditableMesh& mesh, const MeshBefore& before, bool withDensities)
 {
-  return RowFinder<Corners>(mesh, cells, before).find(withDensities);
+  return mesh.dimension() == 3 ? RowFinder<4>(mesh, mesh.cells(), before).find(withDensities)
+                               : RowFinder<3>(mesh, mesh.facets(), before).find(withDensities);
 }
-
-template FieldRows findFieldRows(
-  const EditableMesh&, const SimplexStore<3>&, const MeshBefore&, bool);
-template FieldRows findFieldRows(
-  const EditableMesh&, const SimplexStore<4>&, const MeshBefore&, bool);
 
 } // namespace cadrefine

@@ -30,26 +30,19 @@ struct FieldRows
   WeightedRows ofDensities;
 };
 
-/// The rows of a mesh of these cells. An old cell that is there again, with its vertices where they
-/// were, keeps its value to the last bit; the others overlap only with those of their own label.
-/// With `withDensities`: the parts of an old cell are in proportion to the overlaps of new cells
-/// with it, and sum to 1, so that the sum over all cells of density times volume stays, also where
-/// the boundary changed. A new cell that overlaps no old one takes part in the nearest one (by
-/// centroids) with its whole volume, and what overlaps no new one gives to the nearest of these.
-/// Rows are in the order of the cells and vertices, sources ascending, so that the result depends
-/// on these alone.
+/// The rows of a mesh that was operated on. An old cell that is there again, with its vertices
+/// where they were, keeps its value to the last bit; the others overlap only with those of their
+/// own label. With `withDensities`: the parts of an old cell are in proportion to the overlaps of
+/// new cells with it, and sum to 1, so that the sum over all cells of density times volume stays,
+/// also where the boundary changed. A new cell that overlaps no old one takes part in the nearest
+/// one (by centroids) with its whole volume, and what overlaps no new one gives to the nearest of
+/// these. Rows are in the order of the cells and vertices, sources ascending, so that the result
+/// depends on these alone.
 ///
 /// (P. Farrell, J. Maddison, "Conservative interpolation between volume meshes by local Galerkin
 /// projection", Comput. Methods Appl. Mech. Engng 200, 2011, for constants in each cell.)
 ///
 /// Work: O(n log n) in the cells that have changed; about 10 overlaps for each.
-template<std::size_t Corners>
-FieldRows findFieldRows(const EditableMesh& mesh, const SimplexStore<Corners>& cells,
-  const MeshBefore& before, bool withDensities);
-
-extern template FieldRows findFieldRows(
-  const EditableMesh&, const SimplexStore<3>&, const MeshBefore&, bool);
-extern template FieldRows findFieldRows(
-  const EditableMesh&, const SimplexStore<4>&, const MeshBefore&, bool);
+FieldRows findFieldRows(const EditableMesh& mesh, const MeshBefore& before, bool withDensities);
 
 } // namespace cadrefine

@@ -23,6 +23,8 @@
 #include <vtkPointData.h>
 #include <vtkUnstructuredGrid.h>
 
+#include <TopoDS_Shape.hxx>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -318,27 +320,61 @@ TEST_F(FieldsUnderOperations, areNotStoppedByNumbersAfterRefinement)
   EXPECT_EQ(refined(), without);
 }
 
-/// In the plane, where cells are only cut and vertices moved.
-TEST_F(FieldsUnderOperations, inThePlaneKeepTheirIntegrals)
+TEST_F(FieldsUnderOperations, inThePlaneStayLinearAndConstant)
 {
-  if (exchange.rank() > 0)
+  cad = cadtest::writeInto(folder, cadtest::rectangle(1, 1), ".brep");
+  cube = cadtest::toGrid(cadtest::squareMesh(8, 0.2, 3));
+  addFields(cube);
+  const auto mesh = improved(0.97);
+  vtkDataArray* linear = mesh->GetPointData()->GetArray("Linear");
+  int unlike = 0;
+  for (vtkIdType p = 0; p < mesh->GetNumberOfPoints(); ++p)
   {
-    return;
+    const double value = cadtest::linearAt(mesh->GetPoint(p));
+    EXPECT_NEAR(linear->GetTuple1(p), value, 1e-12);
+    unlike += value != linear->GetTuple1(p);
   }
-  const auto mesh = cadtest::toGrid(cadtest::discMesh(2, 0.05, 8));
-  addFields(mesh);
-  cadtest::FilterRun filters(cadtest::writeInto(folder, cadtest::circle(2), ".brep"));
-  const auto projected = filters.run<vtkProjectOntoCAD>(mesh, conserve);
-  expectSameIntegral(projected, mesh, "Heat");
-  const auto refined = filters.run<vtkRefineWithCAD>(projected,
-    [](vtkRefineWithCAD* filter)
+  EXPECT_GT(exchange.sum(unlike), 0) << "no vertex has moved";
+  if (mesh->GetNumberOfCells() > 0)
+  {
+    expectConstant(mesh);
+  }
+}
+
+/// In the plane, and on a surface in space.
+TEST_F(FieldsUnderOperations, ofTrianglesKeepTheirIntegrals)
+{
+  const auto expectKept = [&](const SimplexMesh& coarse, const TopoDS_Shape& shape)
+  {
+    const auto whole = cadtest::toGrid(coarse);
+    addFields(whole);
+    const std::string file = cadtest::writeInto(folder, shape, ".brep");
+    const auto process = [&](const cadtest::FilterRun& filters, vtkPointSet* input)
     {
-      conserve(filter);
-      filter->SetLevels(3);
-    });
-  expectSameIntegral(refined, mesh, "Heat");
-  expectSameIntegral(refined, mesh, "Flux", 2);
-  EXPECT_NE(integrate(refined, "Constant").value, integrate(mesh, "Constant").value);
+      const auto projected = filters.run<vtkProjectOntoCAD>(input, conserve);
+      return filters.run<vtkRefineWithCAD>(projected,
+        [](vtkRefineWithCAD* filter)
+        {
+          conserve(filter);
+          filter->SetLevels(4);
+          filter->SetMinimumQuality(0.9);
+        });
+    };
+    const auto piece = cadtest::pieceOf(whole,
+      cadtest::deal(cadtest::Dealing::Random, whole, exchange.size()), exchange.rank(), false);
+    const auto pieces = process(cadtest::FilterRun(file, worldController()), piece);
+    const auto serial = exchange.rank() == 0 ? process(cadtest::FilterRun(file), whole) : nullptr;
+    cadtest::expectSame(exchange, pieces, serial);
+    if (exchange.rank() == 0)
+    {
+      expectSameIntegral(serial, whole, "Heat");
+      expectSameIntegral(serial, whole, "Flux", 2);
+      expectConstant(serial);
+      EXPECT_NE(integrate(serial, "Constant").value, integrate(whole, "Constant").value);
+    }
+  };
+  expectKept(cadtest::discMesh(2, 0.05, 8), cadtest::circle(2));
+  expectKept(cadtest::torusMesh(3, 1, 12, 6), cadtest::torus(3, 1));
 }
 
 /// Open CASCADE's crank arm: from a mesh of a tenth of its size.
