@@ -88,7 +88,7 @@ cadrefine::PipelineResult vtkAdaptToCAD::Execute(
   options.coarseningFraction = this->FindCoarseningFraction();
   options.quadraticCells = this->QuadraticCells;
   options.boundaryCells = this->GetBoundaryCells();
-  options.conservedArrays = this->GetConservedArrays();
+  options.fieldNeeds = this->FindFieldNeeds();
   const cadrefine::PipelineContext context = this->MakeContext(exchange, *model);
 
   this->StepStatistics = "{}";

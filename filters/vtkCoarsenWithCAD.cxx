@@ -37,7 +37,7 @@ cadrefine::PipelineResult vtkCoarsenWithCAD::Execute(
   const std::optional<double> minimumQuality = this->FindMinimumQuality();
   const cadrefine::PipelineContext context = this->MakeContext(exchange, *model);
   cadrefine::MeshState state = cadrefine::readMesh(exchange, input);
-  state.mapping.conserve(this->GetConservedArrays());
+  state.mapping.require(this->FindFieldNeeds());
   cadrefine::readClassification(context, input, state);
 
   cadrefine::CoarseningOptions options;

@@ -24,7 +24,7 @@ cadrefine::PipelineResult vtkProjectOntoCAD::Execute(
   options.minimumQuality = this->FindMinimumQuality();
   const cadrefine::PipelineContext context = this->MakeContext(exchange, *model);
   cadrefine::MeshState state = cadrefine::readMesh(exchange, input);
-  state.mapping.conserve(this->GetConservedArrays());
+  state.mapping.require(this->FindFieldNeeds());
   std::string report = cadrefine::projectMesh(context, state, options);
   cadrefine::PipelineResult result = this->MakeResult(context, std::move(state));
   result.mesh->GetPointData()->SetActiveScalars(cadrefine::arrays::entity);

@@ -31,7 +31,7 @@ cadrefine::PipelineResult vtkRefineWithCAD::Execute(
   {
     const cadrefine::RunStatistics::Stopwatch stopwatch(*this->Statistics, "seconds reading cells");
     state = cadrefine::readMesh(exchange, input);
-    state.mapping.conserve(this->GetConservedArrays());
+    state.mapping.require(this->FindFieldNeeds());
   }
   if (options.projectNewVertices || this->GetBoundaryCells() ||
       exchange.any(cadrefine::hasClassification(input)))

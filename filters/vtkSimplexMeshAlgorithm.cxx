@@ -208,11 +208,12 @@ void vtkSimplexMeshAlgorithm::Run(
   {
     cadrefine::removeMeasured(parts.fields.ofCells, parts.fields.ofMesh);
   }
+  this->HasMeans = exchange.any(cadrefine::hasMeans(parts));
   Outputs filled{ parts, cadrefine::OutputJoin(parts), outputs };
   this->Filled = &filled;
   bool isReused = true;
   const cadrefine::PipelineResult& result =
-    this->Cache->get(exchange, parts.geometry, model, this->GetMTime(),
+    this->Cache->get(exchange, parts.geometry, model, 2 * this->GetMTime() + this->HasMeans,
       [&](vtkPointSet* geometry)
       {
         isReused = false;
@@ -228,6 +229,11 @@ std::optional<double> vtkSimplexMeshAlgorithm::FindMinimumQuality() const
   cadrefine::checkProperty("Operations", this->Operations, ALL_OPERATIONS, CUT_ONLY);
   cadrefine::checkProperty("MinimumQuality", this->MinimumQuality, 0, 1);
   return this->Operations == ALL_OPERATIONS ? std::optional(this->MinimumQuality) : std::nullopt;
+}
+
+cadrefine::FieldNeeds vtkSimplexMeshAlgorithm::FindFieldNeeds() const
+{
+  return { this->HasMeans, this->ConservedArrays };
 }
 
 int vtkSimplexMeshAlgorithm::RequestData(

@@ -36,6 +36,7 @@
 namespace cadrefine
 {
 class FieldMapping;
+struct FieldNeeds;
 class CADModel;
 class GeometryCache;
 class RankExchange;
@@ -178,6 +179,9 @@ protected:
   /// range.
   std::optional<double> FindMinimumQuality() const;
 
+  /// What the fields of this run need of their mapping, with ConservedArrays.
+  cadrefine::FieldNeeds FindFieldNeeds() const;
+
   /// What the steps of cadrefine need: warnings become those of this filter.
   cadrefine::PipelineContext MakeContext(
     cadrefine::RankExchange& exchange, const cadrefine::CADModel& model);
@@ -210,6 +214,7 @@ private:
   vtkMultiProcessController* Controller = nullptr;
   std::vector<std::string> Faces;
   std::vector<std::string> ConservedArrays;
+  bool HasMeans = true; ///< See FieldNeeds.
   bool BoundaryCells = false;
   int Operations = ALL_OPERATIONS;
   double MinimumQuality = 0.1;

@@ -1,6 +1,7 @@
 #include "fields/ArrayTransfer.h"
 
 #include "fields/ArrayRows.h"
+#include "fields/CADArrays.h"
 
 #include <cadrefine/base/LargeMemory.h>
 
@@ -300,6 +301,10 @@ MeshArrays refineArrays(
     [&](vtkAbstractArray* array)
     {
       const auto result = gather(array, parents);
+      if (isMeasured(array->GetName()))
+      {
+        return result;
+      }
       isIn(densities, array) ? applyRows(array, trace.ofDensities, Sums::AsTheyAre, result)
                              : applyRows(array, trace.ofCells, Sums::WithinValues, result);
       return result;

@@ -64,9 +64,10 @@ MeshArrays select(const MeshArrays& arrays, const ArraySelection& selection);
 /// interpolated to the middle of the edge, whose ends may be vertices that came before it. Arrays
 /// of floating point follow the rows of the trace where there is one, the cell arrays of the names
 /// in `densities` those for densities. Sums are in double precision, and but for densities between
-/// the smallest and the largest value. Arrays of whole numbers or other types keep a value that
-/// both ends have, and otherwise take that of the end with the smaller global id (tags must not be
-/// averaged). Work: linear in the values made, in their own type.
+/// the smallest and the largest value. What is measured (see isMeasured) is inherited. Arrays of
+/// whole numbers or other types keep a value that both ends have, and otherwise take that of the
+/// end with the smaller global id (tags must not be averaged). Work: linear in the values made, in
+/// their own type.
 MeshArrays refineArrays(const MeshArrays& coarse, const RefinementTrace& trace,
   const std::vector<std::string>& densities = {});
 

@@ -11,8 +11,10 @@
 #include <vtkStringArray.h>
 #include <vtkUnsignedCharArray.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <sstream>
 #include <string>
@@ -96,6 +98,14 @@ vtkNew<Array> makeArray(const char* name, int components, std::size_t count)
 }
 
 } // namespace
+
+bool isMeasured(const char* name)
+{
+  const std::array<const char*, 6> names{ arrays::error, arrays::errorDistance, arrays::chordError,
+    arrays::normalAngle, arrays::validity, arrays::quality };
+  return name && std::any_of(names.begin(), names.end(),
+                   [&](const char* other) { return std::strcmp(name, other) == 0; });
+}
 
 bool hasClassification(vtkPointSet* input)
 {

@@ -32,6 +32,10 @@ constexpr const char* validity = "CellValidity";
 constexpr const char* quality = "CellQuality";
 } // namespace arrays
 
+/// Whether a cell array of this name is what CAD Geometric Error or Mesh Validity found, and so
+/// holds for the mesh as it was alone. Null: no.
+bool isMeasured(const char* name);
+
 /// Reads the arrays of a projected mesh for the vertices that come from its points `pointOf`.
 /// The distance of a vertex without an entity is 0. Throws Error where an array is missing, is not
 /// one of numbers, has the wrong number of components, or names an entity that `model` does not

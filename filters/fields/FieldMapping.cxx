@@ -81,7 +81,7 @@ MeshArrays FieldMapping::follow(RankExchange& exchange, MeshArrays arrays, std::
 {
   for (; done < stages_.size(); ++done)
   {
-    arrays = std::visit(Walk{ exchange, arrays, densities_ }, stages_[done]);
+    arrays = std::visit(Walk{ exchange, arrays, needs_.densities }, stages_[done]);
   }
   return arrays;
 }

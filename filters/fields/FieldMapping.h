@@ -14,21 +14,29 @@
 namespace cadrefine
 {
 
+/// What the fields are that a mapping is for.
+struct FieldNeeds
+{
+  /// Whether there may be cell arrays of floating point, which are means where cells are exchanged;
+  /// if not, all that the mapping is given are inherited.
+  bool means = true;
+  /// The cell arrays that are densities: where a cell's volume changes, what it holds is kept.
+  std::vector<std::string> densities = {};
+};
+
 /// What has become of points and cells, step by step: enough to take any array along, but no
 /// coordinates, cells or CAD. Memory: four bytes a cell and eight a new vertex for each refinement;
 /// eight a vertex and cell where a mesh is not its data set in the same order, or was
 /// redistributed; after local operations 8 bytes for each cell and vertex that they changed, and 12
-/// for each old one that its value comes from (some ten of a cell, four of a vertex). With
+/// for each old one that its value comes from (some seven of a cell, four of a vertex). With
 /// densities 20 bytes for each cell whose volume changed, and after operations the rows of cells
 /// once more.
 class FieldMapping
 {
 public:
-  /// The cell arrays that are densities: where a cell's volume changes, what it holds is kept.
   /// First of all.
-  void conserve(std::vector<std::string> densities) { densities_ = std::move(densities); }
-  /// Whether there are any: volumes need be known only then.
-  bool conserves() const { return !densities_.empty(); }
+  void require(FieldNeeds needs) { needs_ = std::move(needs); }
+  const FieldNeeds& needs() const { return needs_; }
 
   /// A data set was converted to a mesh that has this part of it.
   void convert(ArraySelection selection);
@@ -53,7 +61,7 @@ private:
   using Edges = std::vector<std::array<Index, 2>>;
   using Stage = std::variant<ArraySelection, Delivery, RefinementTrace, Edges, WeightedRows>;
   std::vector<Stage> stages_;
-  std::vector<std::string> densities_;
+  FieldNeeds needs_;
 };
 
 } // namespace cadrefine

@@ -322,7 +322,7 @@ OperationTrace operateOnBlocks(RankExchange& exchange, DistributedMesh& mesh,
           meshes[i].fill(*list[i].second, mesh.converted.cellIds[mesh.mesh().dimension]);
           const MeshBefore before = meshes[i].before();
           results[i] = task.work(meshes[i], rule);
-          rows[i] = findFieldRows(meshes[i].mesh(), before, task.withDensities);
+          rows[i] = findFieldRows(meshes[i].mesh(), before, task.rows);
         });
     });
 

@@ -56,7 +56,7 @@ struct OperationTask
   const OperationBlocks& blocks; ///< Each on one rank: see ranksOfBlocks.
   const CellLabels& labels;
   const BlockWork& work;
-  bool withDensities = false; ///< Find rows for densities too (see FieldRows).
+  CellRowKinds rows = {};
 };
 
 /// What operations made of a mesh: it was refined (though some cells have no children), and of the

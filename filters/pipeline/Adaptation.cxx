@@ -132,7 +132,7 @@ private:
   void read(vtkPointSet* input, CellOrder order)
   {
     state_ = readMesh(exchange_, input, order);
-    state_.mapping.conserve(options_.conservedArrays);
+    state_.mapping.require(options_.fieldNeeds);
     state_.remembers = true;
   }
 

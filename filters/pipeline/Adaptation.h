@@ -32,7 +32,7 @@ struct AdaptationOptions
   double targetError = 0;      ///< Global; 0: none.
   bool quadraticCells = false; ///< In the end make the cells quadratic, in a step of its own.
   bool boundaryCells = false;  ///< See makeDataSetWithBoundary.
-  std::vector<std::string> conservedArrays; ///< See FieldMapping.
+  FieldNeeds fieldNeeds;
 };
 
 /// A step that has been made.

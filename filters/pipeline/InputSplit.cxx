@@ -93,6 +93,24 @@ InputSplit splitInput(
   return parts;
 }
 
+bool hasMeans(const InputSplit& parts)
+{
+  const auto hasSome = [](vtkCellData* cells)
+  {
+    for (int a = 0; a < cells->GetNumberOfArrays(); ++a)
+    {
+      vtkDataArray* array = cells->GetArray(a);
+      const int type = array ? array->GetDataType() : VTK_VOID;
+      if ((type == VTK_DOUBLE || type == VTK_FLOAT) && !isMeasured(array->GetName()))
+      {
+        return true;
+      }
+    }
+    return false;
+  };
+  return hasSome(parts.fields.ofCells) || hasSome(parts.geometry->GetCellData());
+}
+
 void removeMeasured(vtkFieldData* ofCells, vtkFieldData* ofMesh)
 {
   remove(

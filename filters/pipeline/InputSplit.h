@@ -27,6 +27,9 @@ struct InputSplit
 InputSplit splitInput(
   vtkPointSet* input, const std::vector<std::string>& cellArrays, bool readsTags = false);
 
+/// Whether there are cell arrays of floating point other than those that are measured anew.
+bool hasMeans(const InputSplit& parts);
+
 /// Takes away what CAD Geometric Error and Mesh Validity found of a mesh that has changed since.
 /// (InvalidCells and MinimumQuality are kept up by all filters.)
 void removeMeasured(vtkFieldData* ofCells, vtkFieldData* ofMesh);

@@ -78,8 +78,9 @@ std::int64_t operate(const PipelineContext& context, MeshState& state,
   const auto labels = [&](int dimension)
   { return labelsOf(state.arrays.ofCells, cellsOf(mesh, dimension), *state.numberings); };
   const CellLabels ofCells{ labels(3), labels(2), labels(1) };
+  const FieldNeeds& needs = state.mapping.needs();
   OperationTrace trace = operateOnBlocks(exchange, state.mesh, *state.classification, boundary,
-    { blocks, ofCells, work, state.mapping.conserves() }, state.parallelFor);
+    { blocks, ofCells, work, { needs.means, !needs.densities.empty() } }, state.parallelFor);
   meshHasChanged(state);
   state.onBoundary.clear();
   const std::size_t done = state.mapping.stageCount();

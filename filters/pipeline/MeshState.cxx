@@ -139,13 +139,13 @@ void followMapping(RankExchange& exchange, MeshState& state, std::size_t done)
 
 std::vector<Point3> pointsToKeep(const MeshState& state)
 {
-  return state.mapping.conserves() ? state.mesh.mesh().points : std::vector<Point3>{};
+  return state.mapping.needs().densities.empty() ? std::vector<Point3>{} : state.mesh.mesh().points;
 }
 
 void scaleDensities(
   RankExchange& exchange, MeshState& state, const std::vector<Point3>& pointsBefore)
 {
-  if (state.mapping.conserves())
+  if (!state.mapping.needs().densities.empty())
   {
     const std::size_t done = state.mapping.stageCount();
     state.mapping.scale(densitiesOfMoved(state.mesh.mesh(), pointsBefore));

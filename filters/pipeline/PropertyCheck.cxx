@@ -64,12 +64,12 @@ void checkCellArrays(vtkPointSet* mesh, const std::vector<std::string>& names)
   {
     if (mesh->GetNumberOfCells() > 0 && !cells->GetArray(name.c_str()))
     {
-      const bool isMeasured = name == arrays::error || name == arrays::errorDistance ||
-                              name == arrays::chordError || name == arrays::normalAngle;
-      throw Error("the mesh has no cell array " + name +
-                  (isMeasured ? ": measure it first with CAD Geometric Error"
-                              : " of numbers to mark cells by") +
-                  "; cell arrays here: " + numericArraysOf(cells));
+      const bool isError =
+        isMeasured(name.c_str()) && name != arrays::validity && name != arrays::quality;
+      throw Error(
+        "the mesh has no cell array " + name +
+        (isError ? ": measure it first with CAD Geometric Error" : " of numbers to mark cells by") +
+        "; cell arrays here: " + numericArraysOf(cells));
     }
   }
 }

@@ -290,7 +290,7 @@ private:
     state_.onBoundary = std::move(trace.onBoundary);
     {
       const auto stopwatch = watch("seconds copying fields");
-      if (state_.mapping.conserves())
+      if (!state_.mapping.needs().densities.empty())
       {
         trace.ofDensities = densitiesOfRefined(state_.mesh.mesh(), trace, std::move(before));
       }

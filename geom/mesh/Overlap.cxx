@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <numeric>
 
 namespace cadrefine
 {
@@ -18,23 +18,19 @@ using Coordinates = std::array<double, Corners>;
 template<std::size_t Corners>
 using Piece = std::array<Coordinates<Corners>, Corners>;
 
-/// Parts of a simplex, at most three of each tetrahedron or two of each triangle a cut.
+/// How far along the way from `in` to `out` coordinate `k` is 0.
 template<std::size_t Corners>
-struct Pieces
+double crossingAt(const Coordinates<Corners>& in, const Coordinates<Corners>& out, std::size_t k)
 {
-  static constexpr std::size_t most = Corners == 4 ? 81 : 8;
-  std::array<Piece<Corners>, most> list; // not initialised: it is large, and little of it is used
-  std::size_t size = 0;
+  return in[k] / (in[k] - out[k]);
+}
 
-  void add(const Piece<Corners>& piece) { list[size++] = piece; }
-};
-
-/// Where the way from `in` to `out` has coordinate `k` 0.
+/// The point there.
 template<std::size_t Corners>
 Coordinates<Corners> crossing(
   const Coordinates<Corners>& in, const Coordinates<Corners>& out, std::size_t k)
 {
-  const double t = in[k] / (in[k] - out[k]);
+  const double t = crossingAt<Corners>(in, out, k);
   Coordinates<Corners> point;
   for (std::size_t i = 0; i < Corners; ++i)
   {
@@ -44,113 +40,158 @@ Coordinates<Corners> crossing(
   return point;
 }
 
-/// The prism between two facets as simplices, each with some corners of the one and the others of
-/// the other.
+/// A piece where coordinate `k` is positive at the first `inside` corners, neither none nor all.
+/// What it has there is a smaller simplex or a prism, of Corners - 1 simplices.
 template<std::size_t Corners>
-void addPrism(const std::array<Coordinates<Corners>, Corners - 1>& one,
-  const std::array<Coordinates<Corners>, Corners - 1>& other, Pieces<Corners>& parts)
+struct Cut
 {
-  for (std::size_t k = 0; k + 1 < Corners; ++k)
-  {
-    Piece<Corners> part;
-    std::copy(one.begin(), one.begin() + k + 1, part.begin());
-    std::copy(other.begin() + k, other.end(), part.begin() + k + 1);
-    parts.add(part);
-  }
-}
+  Piece<Corners> piece;
+  std::size_t inside;
+  std::size_t k;
 
-/// The part of a piece where coordinate `k` is positive, given that it is not so at all corners.
+  std::size_t count() const { return inside == 1 ? 1 : Corners - 1; }
+};
+
+/// How large the simplices of simplicesOf are, in parts of the piece.
 template<std::size_t Corners>
-void addCut(const Piece<Corners>& piece, std::size_t k, Pieces<Corners>& parts)
+std::array<double, Corners - 1> partsOf(const Cut<Corners>& cut)
 {
-  Piece<Corners> sorted = piece; // those inside first
-  const auto firstOut = std::stable_partition(sorted.begin(), sorted.end(),
-    [&](const Coordinates<Corners>& corner) { return corner[k] > 0; });
-  const auto inside = static_cast<std::size_t>(firstOut - sorted.begin());
-  const auto cut = [&](std::size_t in, std::size_t out)
-  { return crossing<Corners>(sorted[in], sorted[out], k); };
-  if (inside == 1)
+  const auto at = [&](std::size_t in, std::size_t out)
+  { return crossingAt<Corners>(cut.piece[in], cut.piece[out], cut.k); };
+  std::array<double, Corners - 1> parts{};
+  if (cut.inside == 1)
   {
-    Piece<Corners> part{ sorted[0] };
+    parts[0] = 1;
     for (std::size_t i = 1; i < Corners; ++i)
     {
-      part[i] = cut(0, i);
+      parts[0] *= at(0, i);
     }
-    parts.add(part);
   }
-  else if (inside + 1 == Corners)
+  else if (cut.inside + 1 == Corners)
   {
-    std::array<Coordinates<Corners>, Corners - 1> one;
-    std::array<Coordinates<Corners>, Corners - 1> other;
-    for (std::size_t i = 0; i < inside; ++i)
+    double beyond = 1; // the part that those after this one leave
+    for (std::size_t i = cut.inside; i-- > 0;)
     {
-      one[i] = sorted[i];
-      other[i] = cut(i, inside);
+      parts[i] = beyond * at(i, cut.inside);
+      beyond *= 1 - at(i, cut.inside);
     }
-    addPrism<Corners>(one, other, parts);
   }
   else if constexpr (Corners == 4)
   {
-    addPrism<4>({ sorted[0], cut(0, 2), cut(0, 3) }, { sorted[1], cut(1, 2), cut(1, 3) }, parts);
+    parts = { at(1, 2) * at(1, 3), at(0, 2) * (1 - at(1, 2)) * at(1, 3),
+      at(0, 2) * at(0, 3) * (1 - at(1, 3)) };
   }
+  return parts;
 }
 
-/// How large a piece is, as part of the simplex of the coordinates.
-double partOf(const Piece<4>& piece)
-{
-  const auto row = [&](std::size_t i) -> Vector3 {
-    return { piece[i][0] - piece[0][0], piece[i][1] - piece[0][1], piece[i][2] - piece[0][2] };
-  };
-  return std::abs(dot(row(3), cross(row(1), row(2))));
-}
-
-double partOf(const Piece<3>& piece)
-{
-  const auto& [a, b, c] = piece;
-  return std::abs((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
-}
-
-/// The part of the unit simplex that lies in `piece`.
+/// Of a prism: each has some corners of one of two facets, and the others of the other.
 template<std::size_t Corners>
-double partInside(const Piece<Corners>& piece)
+std::array<Piece<Corners>, Corners - 1> simplicesOf(const Cut<Corners>& cut)
 {
-  std::array<Pieces<Corners>, 2> pieces;
-  pieces[0].add(piece);
-  for (std::size_t k = 0; k < Corners; ++k)
+  const auto cross = [&](std::size_t in, std::size_t out)
+  { return crossing<Corners>(cut.piece[in], cut.piece[out], cut.k); };
+  std::array<Piece<Corners>, Corners - 1> result;
+  if (cut.inside == 1)
   {
-    const Pieces<Corners>& from = pieces[k % 2];
-    Pieces<Corners>& to = pieces[(k + 1) % 2];
-    to.size = 0;
-    for (std::size_t i = 0; i < from.size; ++i)
+    result[0][0] = cut.piece[0];
+    for (std::size_t i = 1; i < Corners; ++i)
     {
-      const auto [low, high] = std::minmax_element(from.list[i].begin(), from.list[i].end(),
-        [&](const auto& a, const auto& b) { return a[k] < b[k]; });
-      if ((*low)[k] >= 0)
-      {
-        to.add(from.list[i]);
-      }
-      else if ((*high)[k] > 0)
-      {
-        addCut<Corners>(from.list[i], k, to);
-      }
+      result[0][i] = cross(0, i);
+    }
+    return result;
+  }
+  std::array<Coordinates<Corners>, Corners - 1> one;
+  std::array<Coordinates<Corners>, Corners - 1> other;
+  for (std::size_t i = 0; i + 1 < Corners; ++i)
+  {
+    const bool isTriangle = cut.inside + 1 == Corners; // else an edge with its two triangles
+    one[i] = isTriangle ? cut.piece[i] : i == 0 ? cut.piece[0] : cross(0, i + 1);
+    other[i] = isTriangle ? cross(i, cut.inside) : i == 0 ? cut.piece[1] : cross(1, i + 1);
+  }
+  for (std::size_t s = 0; s + 1 < Corners; ++s)
+  {
+    std::copy(one.begin(), one.begin() + s + 1, result[s].begin());
+    std::copy(other.begin() + s, other.end(), result[s].begin() + s + 1);
+  }
+  return result;
+}
+
+/// How many corners have coordinate `k` positive, and whether one has it negative.
+struct Sides
+{
+  std::size_t inside = 0;
+  bool isCut = false;
+};
+
+template<std::size_t Corners>
+Sides sidesOf(const Piece<Corners>& piece, std::size_t k)
+{
+  Sides sides;
+  for (const Coordinates<Corners>& corner : piece)
+  {
+    sides.inside += corner[k] > 0;
+    sides.isCut = sides.isCut || corner[k] < 0;
+  }
+  return sides;
+}
+
+/// The part of a piece where all coordinates are positive, given that those before `k` are. The
+/// last cut takes no new pieces.
+template<std::size_t Corners>
+double partInside(const Piece<Corners>& piece, std::size_t k)
+{
+  Cut<Corners> cut{ piece, 0, Corners };
+  bool isLast = true;
+  for (; k < Corners; ++k)
+  {
+    const Sides sides = sidesOf<Corners>(piece, k);
+    if (sides.inside == 0)
+    {
+      return 0;
+    }
+    if (sides.isCut && cut.k < Corners)
+    {
+      isLast = false;
+    }
+    else if (sides.isCut)
+    {
+      cut.k = k;
+      cut.inside = sides.inside;
     }
   }
-  const Pieces<Corners>& last = pieces[Corners % 2];
-  double part = 0;
-  for (std::size_t i = 0; i < last.size; ++i)
+  if (cut.k == Corners)
   {
-    part += partOf(last.list[i]);
+    return 1;
   }
-  return part;
+  std::size_t in = 0;
+  std::size_t out = cut.inside;
+  for (const Coordinates<Corners>& corner : piece)
+  {
+    cut.piece[corner[cut.k] > 0 ? in++ : out++] = corner;
+  }
+  const auto parts = partsOf<Corners>(cut);
+  if (isLast)
+  {
+    return std::accumulate(parts.begin(), parts.end(), 0.0);
+  }
+  const auto simplices = simplicesOf<Corners>(cut);
+  double sum = 0;
+  for (std::size_t s = 0; s < cut.count(); ++s)
+  {
+    sum += parts[s] * partInside<Corners>(simplices[s], cut.k + 1);
+  }
+  return sum;
 }
 
 /// The corners of `cell` in the coordinates of `frame`.
 template<std::size_t Corners>
-Piece<Corners> within(const SimplexPoints<Corners>& frame, const SimplexPoints<Corners>& cell)
+Piece<Corners> within(const SimplexFrame<Corners>& frame, const SimplexPoints<Corners>& cell)
 {
   Piece<Corners> piece;
-  std::transform(cell.begin(), cell.end(), piece.begin(),
-    [&](const Point3& corner) { return barycentric(frame, corner); });
+  for (std::size_t i = 0; i < Corners; ++i)
+  {
+    piece[i] = frame.coordinates(cell[i]);
+  }
   return piece;
 }
 
@@ -170,26 +211,23 @@ bool isApart(const Piece<Corners>& piece)
   return false;
 }
 
-/// Of simplices in one space, with these measures.
+/// Of simplices in one space.
 template<std::size_t Corners>
-double overlapOf(const SimplexPoints<Corners>& small, double smallMeasure,
-  const SimplexPoints<Corners>& large, double largeMeasure)
+double overlapOf(const SimplexFrame<Corners>& one, const SimplexFrame<Corners>& other)
 {
-  if (smallMeasure > largeMeasure)
-  {
-    return overlapOf<Corners>(large, largeMeasure, small, smallMeasure);
-  }
-  const double limit = largeMeasure + smallMeasure;
-  if (!(smallMeasure > 0) || !std::isfinite(limit))
+  const bool isOneSmaller = one.size() <= other.size();
+  const SimplexFrame<Corners>& small = isOneSmaller ? one : other;
+  const SimplexFrame<Corners>& large = isOneSmaller ? other : one;
+  if (!(small.size() > 0) || !std::isfinite(large.size()))
   {
     return 0;
   }
-  const Piece<Corners> piece = within<Corners>(large, small);
-  if (isApart<Corners>(piece) || isApart<Corners>(within<Corners>(small, large)))
+  const Piece<Corners> piece = within<Corners>(large, small.points());
+  if (isApart<Corners>(piece) || isApart<Corners>(within<Corners>(small, large.points())))
   {
     return 0;
   }
-  return std::min(partInside<Corners>(piece) * largeMeasure, smallMeasure);
+  return std::min(partInside<Corners>(piece, 0), 1.0) * small.size();
 }
 
 } // namespace
@@ -204,41 +242,53 @@ double measure(const SimplexPoints<3>& cell)
   return norm(twofoldAreaVector(cell[0], cell[1], cell[2])) / 2;
 }
 
-std::array<double, 4> barycentric(const SimplexPoints<4>& cell, const Point3& point)
+template<std::size_t Corners>
+SimplexFrame<Corners>::SimplexFrame(const SimplexPoints<Corners>& points)
+  : points_(points), size_(measure(points))
 {
-  const auto& [a, b, c, d] = cell;
-  const double volume = sixfoldVolume(a, b, c, d);
-  return { sixfoldVolume(point, b, c, d) / volume, sixfoldVolume(a, point, c, d) / volume,
-    sixfoldVolume(a, b, point, d) / volume, sixfoldVolume(a, b, c, point) / volume };
+  if (!(size_ > 0))
+  {
+    return;
+  }
+  const Vector3 b = points[1] - points[0];
+  const Vector3 c = points[2] - points[0];
+  if constexpr (Corners == 4)
+  {
+    const Vector3 d = points[3] - points[0];
+    const double part = 1 / dot(d, cross(b, c));
+    gradients_ = { part * cross(c, d), part * cross(d, b), part * cross(b, c) };
+  }
+  else
+  {
+    const Vector3 normal = cross(b, c);
+    const double part = 1 / squaredNorm(normal);
+    gradients_ = { part * cross(c, normal), part * cross(normal, b) };
+  }
 }
 
-std::array<double, 3> barycentric(const SimplexPoints<3>& cell, const Point3& point)
+template class SimplexFrame<3>;
+template class SimplexFrame<4>;
+
+double overlap(const SimplexFrame<4>& a, const SimplexFrame<4>& b)
 {
-  const auto& [a, b, c] = cell;
-  const Vector3 normal = twofoldAreaVector(a, b, c);
-  const auto part = [&](const Point3& p, const Point3& q, const Point3& r)
-  { return dot(twofoldAreaVector(p, q, r), normal) / squaredNorm(normal); };
-  return { part(point, b, c), part(a, point, c), part(a, b, point) };
+  return overlapOf<4>(a, b);
 }
 
-double overlap(const SimplexPoints<4>& a, const SimplexPoints<4>& b)
+double overlap(const SimplexFrame<3>& a, const SimplexFrame<3>& b)
 {
-  return overlapOf<4>(a, measure(a), b, measure(b));
-}
-
-double overlap(const SimplexPoints<3>& a, const SimplexPoints<3>& b)
-{
-  const Vector3 normal = normalized(twofoldAreaVector(b[0], b[1], b[2]));
-  if (dot(normal, twofoldAreaVector(a[0], a[1], a[2])) <= 0)
+  const auto areaVector = [](const SimplexPoints<3>& cell)
+  { return twofoldAreaVector(cell[0], cell[1], cell[2]); };
+  const Vector3 normal = normalized(areaVector(b.points()));
+  if (!(dot(normal, areaVector(a.points())) > 0))
   {
     return 0;
   }
-  SimplexPoints<3> projected = a;
+  SimplexPoints<3> projected = a.points();
   for (Point3& corner : projected)
   {
-    corner = corner - dot(corner - b[0], normal) * normal;
+    corner = corner - dot(corner - b.points()[0], normal) * normal;
   }
-  return overlapOf<3>(projected, measure(projected), b, measure(b));
+  return overlapOf<3>(SimplexFrame<3>(projected), b);
 }
 
 } // namespace cadrefine

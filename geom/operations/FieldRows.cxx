@@ -32,8 +32,10 @@ template<std::size_t Corners>
 struct Shape
 {
   Index number; ///< In the store.
-  SimplexPoints<Corners> points;
-  double size; ///< Volume or area.
+  SimplexFrame<Corners> frame;
+
+  double size() const { return frame.size(); }
+  const SimplexPoints<Corners>& points() const { return frame.points(); }
 };
 
 struct Overlap
@@ -46,7 +48,7 @@ template<class Shape>
 BoundingBox boxOf(const Shape& shape)
 {
   BoundingBox box;
-  for (const Point3& point : shape.points)
+  for (const Point3& point : shape.points())
   {
     box.include(point);
   }
@@ -127,16 +129,16 @@ double depthIn(
   for (std::size_t k = 0; k < Corners; ++k)
   {
     SimplexPoints<Corners - 1> facet;
-    std::copy(cell.points.begin(), cell.points.begin() + k, facet.begin());
-    std::copy(cell.points.begin() + k + 1, cell.points.end(), facet.begin() + k);
+    std::copy(cell.points().begin(), cell.points().begin() + k, facet.begin());
+    std::copy(cell.points().begin() + k + 1, cell.points().end(), facet.begin() + k);
     if constexpr (Corners == 4)
     {
-      depth = std::min(depth, 3 * coordinates[k] * cell.size / measure(facet));
+      depth = std::min(depth, 3 * coordinates[k] * cell.size() / measure(facet));
     }
     else
     {
-      depth = std::min(depth, 2 * coordinates[k] * cell.size / distance(facet[0], facet[1]));
-      inPlane = inPlane + coordinates[k] * cell.points[k];
+      depth = std::min(depth, 2 * coordinates[k] * cell.size() / distance(facet[0], facet[1]));
+      inPlane = inPlane + coordinates[k] * cell.points()[k];
     }
   }
   return Corners == 4 ? depth : depth - distance(inPlane, point);
@@ -153,15 +155,19 @@ public:
     findChanged();
   }
 
-  FieldRows find(bool withDensities)
+  FieldRows find(const CellRowKinds& kinds)
   {
     const ShapeSearch<Corners> search(old_);
-    for (const Shape<Corners>& cell : new_)
+    if (kinds.means || kinds.densities)
     {
-      overlaps_.push_back(overlapsOf(cell, search));
+      std::transform(new_.begin(), new_.end(), std::back_inserter(overlaps_),
+        [&](const Shape<Corners>& cell) { return overlapsOf(cell, search); });
     }
-    addMeans();
-    if (withDensities)
+    if (kinds.means)
+    {
+      addMeans();
+    }
+    if (kinds.densities)
     {
       addDensities();
     }
@@ -197,7 +203,7 @@ private:
     const Corner& corners = cells_[cell].corners;
     std::transform(corners.begin(), corners.end(), points.begin(),
       [&](Index v) { return isBefore ? before_.points[v] : mesh_.vertex(v).point; });
-    return { cell, points, measure(points) };
+    return { cell, SimplexFrame<Corners>(points) };
   }
 
   /// The old cells and the new ones, but for those that are in both.
@@ -262,8 +268,8 @@ private:
       const Shape<Corners>& old = old_[place];
       if (labelOf(old) == labelOf(cell))
       {
-        const double size = overlap(old.points, cell.points);
-        if (size > leastOverlap * std::min(old.size, cell.size))
+        const double size = overlap(old.frame, cell.frame);
+        if (size > leastOverlap * std::min(old.size(), cell.size()))
         {
           found.push_back({ place, size });
         }
@@ -274,7 +280,7 @@ private:
       const Index nearest = nearestTo(cell, old_);
       if (nearest >= 0)
       {
-        found.push_back({ nearest, cell.size });
+        found.push_back({ nearest, cell.size() });
       }
     }
     return found;
@@ -286,11 +292,11 @@ private:
   {
     Index nearest = -1;
     double least = std::numeric_limits<double>::infinity();
-    const Point3 centroid = centroidOf<Corners>(cell.points);
+    const Point3 centroid = centroidOf<Corners>(cell.points());
     for (std::size_t i = 0; i < list.size(); ++i)
     {
-      const double squared = squaredNorm(centroidOf<Corners>(list[i].points) - centroid);
-      if (labelOf(list[i]) == labelOf(cell) && squared < least && list[i].size > 0)
+      const double squared = squaredNorm(centroidOf<Corners>(list[i].points()) - centroid);
+      if (labelOf(list[i]) == labelOf(cell) && squared < least && list[i].size() > 0)
       {
         least = squared;
         nearest = static_cast<Index>(i);
@@ -364,11 +370,11 @@ private:
         {
           const Shape<Corners>& old = old_[part.old];
           rows_.ofDensities.add(old.number,
-            new_[n].size > 0 ? part.size / sums[part.old] * (old.size / new_[n].size) : 1);
+            new_[n].size() > 0 ? part.size / sums[part.old] * (old.size() / new_[n].size()) : 1);
         }
         for (const Index place : given[n])
         {
-          rows_.ofDensities.add(old_[place].number, old_[place].size / new_[n].size);
+          rows_.ofDensities.add(old_[place].number, old_[place].size() / new_[n].size());
         }
       });
   }
@@ -417,9 +423,9 @@ private:
     double depth = -std::numeric_limits<double>::infinity();
     for (const Index place : places)
     {
-      if (old_[place].size > 0)
+      if (old_[place].size() > 0)
       {
-        const auto coordinates = barycentric(old_[place].points, point);
+        const auto coordinates = old_[place].frame.coordinates(point);
         const double here = depthIn<Corners>(old_[place], coordinates, point);
         if (here > depth)
         {
@@ -463,10 +469,11 @@ private:
 
 } // namespace
 
-FieldRows findFieldRows(const EditableMesh& mesh, const MeshBefore& before, bool withDensities)
+FieldRows findFieldRows(
+  const EditableMesh& mesh, const MeshBefore& before, const CellRowKinds& kinds)
 {
-  return mesh.dimension() == 3 ? RowFinder<4>(mesh, mesh.cells(), before).find(withDensities)
-                               : RowFinder<3>(mesh, mesh.facets(), before).find(withDensities);
+  return mesh.dimension() == 3 ? RowFinder<4>(mesh, mesh.cells(), before).find(kinds)
+                               : RowFinder<3>(mesh, mesh.facets(), before).find(kinds);
 }
 
 } // namespace cadrefine

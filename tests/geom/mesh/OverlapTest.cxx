@@ -34,6 +34,12 @@ SimplexPoints<Corners> moved(SimplexPoints<Corners> cell, double factor, const V
   return cell;
 }
 
+template<std::size_t Corners>
+double overlap(const SimplexPoints<Corners>& a, const SimplexPoints<Corners>& b)
+{
+  return cadrefine::overlap(SimplexFrame<Corners>(a), SimplexFrame<Corners>(b));
+}
+
 class Random
 {
 public:
@@ -311,23 +317,23 @@ TEST(Overlap, ofTrianglesInSpaceIsThatOfTheProjection)
   EXPECT_EQ(overlap(below, unitTriangle), 0);
 }
 
-TEST(Barycentric, coordinatesMakeThePoint)
+TEST(SimplexFrame, coordinatesMakeThePoint)
 {
   Random random(23);
   for (int trial = 0; trial < 1000; ++trial)
   {
     const auto cell = random.cell<4>();
     const Point3 point = random.point();
-    const auto parts = barycentric(cell, point);
+    const auto parts = SimplexFrame<4>(cell).coordinates(point);
     Point3 made{};
     for (int k = 0; k < 4; ++k)
     {
       made = made + parts[k] * cell[k];
     }
     EXPECT_LT(distance(made, point), 1e-15 / measure(cell) + 1e-14);
-    EXPECT_EQ(barycentric(cell, cell[0])[3], 0);
+    EXPECT_EQ(SimplexFrame<4>(cell).coordinates(cell[0]), (std::array<double, 4>{ 1, 0, 0, 0 }));
   }
-  const auto parts = barycentric(unitTriangle, { 0.25, 0.5, 7 });
+  const auto parts = SimplexFrame<3>(unitTriangle).coordinates({ 0.25, 0.5, 7 });
   EXPECT_NEAR(parts[0], 0.25, 1e-15);
   EXPECT_NEAR(parts[1], 0.25, 1e-15);
   EXPECT_NEAR(parts[2], 0.5, 1e-15);

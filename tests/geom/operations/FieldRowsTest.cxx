@@ -65,7 +65,7 @@ struct Operated
       volumes.push_back(sizeOf(mesh, static_cast<Index>(c)));
     }
     improveCells(mesh, nullptr, { 0.5, 0.3 });
-    rows = findFieldRows(mesh, was, true);
+    rows = findFieldRows(mesh, was, { true, true });
   }
 
   /// Values of cells after operations, of those that are there.
@@ -212,7 +212,7 @@ TEST(FieldRows, ofACellThatIsThereAgainTakeItsValue)
   cavity.cells = { 0 };
   cavity.newCells = { { { 2, 0, 1, 3 }, 0, 1 } }; // from a parent that it is not
   mesh.replace(cavity);
-  const FieldRows rows = findFieldRows(mesh, was, true);
+  const FieldRows rows = findFieldRows(mesh, was, { true, true });
   for (const WeightedRows* list : { &rows.ofCells, &rows.ofDensities })
   {
     EXPECT_EQ(list->targets, std::vector<Index>{ 2 });
@@ -228,7 +228,7 @@ TEST(FieldRows, shareOutWhatLiesBeyondTheNewBoundary)
   EditableMesh mesh = twoCells();
   const MeshBefore was = before(mesh);
   mesh.moveVertex(4, { 0, 0, -0.5 });
-  const FieldRows rows = findFieldRows(mesh, was, true);
+  const FieldRows rows = findFieldRows(mesh, was, { true, true });
   EXPECT_EQ(rows.ofDensities.targets, std::vector<Index>{ 1 });
   EXPECT_NEAR(valueOf(rows.ofDensities, 0, { 0, 1 }), 2, 1e-15);
   EXPECT_NEAR(valueOf(rows.ofCells, 0, { 0, 1 }), 1, 1e-15);
@@ -247,7 +247,7 @@ TEST(FieldRows, giveToTheNearest)
   cavity.cells = { 1 };
   cavity.newCells = { { { 5, 6, 7, 8 }, 0, 1 } };
   mesh.replace(cavity);
-  const FieldRows rows = findFieldRows(mesh, was, true);
+  const FieldRows rows = findFieldRows(mesh, was, { true, true });
   EXPECT_EQ(rows.ofDensities.targets, std::vector<Index>{ 2 });
   EXPECT_NEAR(valueOf(rows.ofDensities, 0, { 3, 7 }), 7, 1e-14); // of the same volume
   EXPECT_NEAR(valueOf(rows.ofCells, 0, { 3, 7 }), 7, 1e-14);
@@ -269,7 +269,7 @@ TEST(FieldRows, ofTrianglesInSpace)
   cavity.facets = { 0, 1 };
   cavity.newFacets = { { { 0, 1, 3 }, 0, 0 }, { { 1, 2, 3 }, 0, 1 } };
   mesh.replace(cavity);
-  const FieldRows rows = findFieldRows(mesh, was, true);
+  const FieldRows rows = findFieldRows(mesh, was, { true, true });
   ASSERT_EQ(rows.ofCells.targets, (std::vector<Index>{ 2, 3 }));
   EXPECT_NEAR(valueOf(rows.ofCells, 0, { 1, 3 }), 2, 0.01);
   EXPECT_NEAR(valueOf(rows.ofCells, 1, { 1, 3 }), 2, 0.01);
