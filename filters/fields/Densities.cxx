@@ -4,6 +4,8 @@
 
 #include <cadrefine/mesh/Overlap.h>
 
+#include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace cadrefine
@@ -56,7 +58,58 @@ WeightedRows rowsOf(const SimplexMesh& mesh, const std::vector<Point3>& before,
   }
 }
 
+template<std::size_t Count>
+double meanOf(const BezierForm<Count>& form)
+{
+  const auto& coefficients = form.coefficients;
+  return std::accumulate(coefficients.begin(), coefficients.end(), 0.0) / Count;
+}
+
+double sizeOf(const CurvedTetrahedron& nodes, const Vector3&)
+{
+  return std::abs(meanOf(jacobianOf(nodes))) / 6;
+}
+
+double sizeOf(const CurvedTriangle& nodes, const Vector3& plane)
+{
+  return std::abs(meanOf(jacobianOf(nodes, plane))) / 2;
+}
+
+template<std::size_t Corners, std::size_t Edges>
+WeightedRows curvedRowsOf(const SimplexMesh& mesh, const Simplices<Corners>& cells,
+  const std::vector<std::array<Index, Edges>>& edges, const MidNodes& midNodes,
+  const Vector3& plane)
+{
+  WeightedRows rows;
+  auto place = static_cast<Index>(firstCellOfDimension(mesh, mesh.dimension));
+  for (std::size_t c = 0; c < cells.size(); ++c, ++place)
+  {
+    const auto nodes =
+      gatherNodes(mesh, cells[c], edges[c], [&](Index edge) { return midNodes.points[edge]; });
+    SimplexPoints<Corners> corners;
+    std::copy_n(nodes.begin(), Corners, corners.begin());
+    const double curved = nodes == straightCell(corners) ? 0 : sizeOf(nodes, plane);
+    if (curved > 0)
+    {
+      rows.add(place, measure(corners) / curved);
+      rows.endRow(place);
+    }
+  }
+  return rows;
+}
+
 } // namespace
+
+WeightedRows densitiesOfCurved(const SimplexMesh& mesh, const MidNodes& nodes, const Vector3& plane)
+{
+  if (mesh.dimension == 3)
+  {
+    return curvedRowsOf(mesh, mesh.tetrahedra, nodes.table.ofTetrahedra, nodes, plane);
+  }
+  return plane == Vector3{}
+           ? WeightedRows{}
+           : curvedRowsOf(mesh, mesh.triangles, nodes.table.ofTriangles, nodes, plane);
+}
 
 WeightedRows densitiesOfMoved(const SimplexMesh& mesh, const std::vector<Point3>& before)
 {

@@ -3,6 +3,7 @@
 
 #include <cadrefine/base/WeightedRows.h>
 #include <cadrefine/mesh/SimplexMesh.h>
+#include <cadrefine/quadratic/MidNodes.h>
 #include <cadrefine/refinement/RefinementTrace.h>
 
 #include <vector>
@@ -20,5 +21,11 @@ WeightedRows densitiesOfMoved(const SimplexMesh& mesh, const std::vector<Point3>
 /// vertices moved. `before`: the places of the vertices that there were before the cut.
 WeightedRows densitiesOfRefined(
   const SimplexMesh& mesh, const RefinementTrace& trace, std::vector<Point3> before);
+
+/// The same for cells that were straight and are of second order now: their volumes are integrals
+/// of polynomials (see jacobianOf), and exact. `plane` is the unit normal of a planar mesh; on
+/// surfaces in space, where areas are no such integrals, there are no rows.
+WeightedRows densitiesOfCurved(
+  const SimplexMesh& mesh, const MidNodes& nodes, const Vector3& plane);
 
 } // namespace cadrefine

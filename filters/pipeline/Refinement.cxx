@@ -4,6 +4,7 @@
 #include "comm/LoadBalancedMap.h"
 #include "fields/CADArrays.h"
 #include "fields/Densities.h"
+#include "mesh/MeshPlane.h"
 #include "pipeline/CellImprovement.h"
 #include "pipeline/LocalOperations.h"
 #include "pipeline/MeshSummary.h"
@@ -323,6 +324,12 @@ private:
     const auto& edges = state_.mesh.converted.midNodes->table.edges;
     const std::size_t done = state_.mapping.stageCount();
     state_.mapping.addMidNodes(edges);
+    if (!state_.mapping.needs().densities.empty())
+    {
+      const SimplexMesh& mesh = state_.mesh.mesh();
+      state_.mapping.scale(densitiesOfCurved(mesh, *state_.mesh.converted.midNodes,
+        mesh.dimension == 2 ? planeNormal(exchange_, mesh) : Vector3{}));
+    }
     followMapping(exchange_, state_, done);
   }
 

@@ -39,7 +39,7 @@ struct FieldRows
 
 /// The rows of a mesh that was operated on. An old cell that is there again, with its vertices
 /// where they were, keeps its value to the last bit; the others overlap only with those of their
-/// own label. With `withDensities`: the parts of an old cell are in proportion to the overlaps of
+/// own label. Of densities the parts of an old cell are in proportion to the overlaps of
 /// new cells with it, and sum to 1, so that the sum over all cells of density times volume stays,
 /// also where the boundary changed. A new cell that overlaps no old one takes part in the nearest
 /// one (by centroids) with its whole volume, and what overlaps no new one gives to the nearest of

@@ -17,7 +17,7 @@ WARNING = ("vtkAdaptToCAD",)
 # VTK writes ranges of arrays into its files, and cannot read them where they are infinite; the arrays it can.
 HARMLESS = "Error reading InformationKey element for vtkDataArray::"
 # What the filters say of their properties, and what it is called here.
-WORDINGS = ((r"\(Region\)", "(--region)"), (r"\(Faces\)", "(--faces)"),
+WORDINGS = ((r"\(Region\)", "(--region)"), (r"\(Faces\)", "(--faces)"), (r"\(ConservedArrays\)", "(--conserve)"),
             (r"\bMaximumDistance\b", "--maximum-distance"), (r"\bchoose Quadratic Cells\b", "give --quadratic"),
             (r"set Unit of the CAD Reader to \w+ \(driver: (--cad-unit \w+)\)", r"give \1"))
 errors = []  # Of this rank since they were last taken.

@@ -104,6 +104,9 @@ def add_steps(group):
     group.add_argument("--minimum-quality", type=part, default=0.1, metavar="Q",
                        help="improve cells of a smaller mean ratio by these operations, those of MESH too; 1 is "
                        "equilateral (default 0.1; 0: only vertices off the CAD call for them)")
+    group.add_argument("--conserve", type=names, default=[], metavar="NAME,...",
+                       help="cell arrays of MESH that are densities, per volume (of triangles per area): their "
+                       "integrals stay whatever becomes of the cells (default: none)")
     group.add_argument("--quadratic", action="store_true",
                        help="at the end, make the cells quadratic, with mid-edge nodes on the CAD")
 

@@ -40,10 +40,12 @@ class Pipeline:
 
     def check(self, options):
         """Finds what cannot be done with the mesh before any work is."""
-        if options.indicator is not None and self.mesh.CellData[options.indicator] is None:
-            names = ", ".join(self.mesh.CellData.keys()) or "none"
-            raise Failure(f"{self.mesh_path}: there is no cell array {options.indicator} (--indicator); cell arrays "
-                          f"there: {names}")
+        wanted = [] if options.indicator is None else [(options.indicator, "--indicator")]
+        for array, option in wanted + [(name, "--conserve") for name in options.conserve]:
+            if self.mesh.CellData[array] is None:
+                names = ", ".join(self.mesh.CellData.keys()) or "none"
+                raise Failure(f"{self.mesh_path}: there is no cell array {array} ({option}); cell arrays there: "
+                              f"{names}")
         if options.quadratic and local_output(self.mesh).IsA("vtkPolyData"):
             raise Failure(f"{self.mesh_path}: poly data cannot hold quadratic cells (--quadratic); use a .vtu file")
 
@@ -101,7 +103,8 @@ def adaptation_properties(options):
                   "ProjectNewVertices": int(not options.no_cad), "Operations": OPERATIONS[options.operations],
                   "MinimumQuality": options.minimum_quality,
                   "QuadraticCells": int(options.quadratic), "MaximumCells": 0, "TargetError": 0,
-                  "Faces": options.faces, "BoundaryCells": int(bool(options.output and options.boundary_cells))}
+                  "Faces": options.faces, "ConservedArrays": options.conserve,
+                  "BoundaryCells": int(bool(options.output and options.boundary_cells))}
     if options.region:
         properties.update(UseRegion=1, Region=options.region)
     if options.maximum_cells is not None:

@@ -21,6 +21,7 @@
 #include <vtkMultiProcessController.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
+#include <vtkQuadraticTetra.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <TopoDS_Shape.hxx>
@@ -72,6 +73,39 @@ Integral integrate(vtkPointSet* mesh, const char* name, int component = 0)
     }
   }
   return integral;
+}
+
+/// Of a quadratic tetrahedron of VTK.
+double curvedVolume(vtkPointSet* mesh, vtkIdType cell)
+{
+  vtkCell* tetra = mesh->GetCell(cell);
+  const auto determinantAt = [&](const Point3& at)
+  {
+    double derivatives[30];
+    vtkQuadraticTetra::InterpolationDerivs(at.data(), derivatives);
+    std::array<Vector3, 3> columns{};
+    for (vtkIdType n = 0; n < 10; ++n)
+    {
+      Point3 node;
+      tetra->GetPoints()->GetPoint(n, node.data());
+      for (int k = 0; k < 3; ++k)
+      {
+        columns[k] = columns[k] + derivatives[10 * k + n] * node;
+      }
+    }
+    return dot(columns[2], cross(columns[0], columns[1]));
+  };
+  double sum = -0.8 * determinantAt({ 0.25, 0.25, 0.25 });
+  for (int k = 0; k < 4; ++k)
+  {
+    Point3 at{ 1.0 / 6, 1.0 / 6, 1.0 / 6 };
+    if (k < 3)
+    {
+      at[k] = 0.5;
+    }
+    sum += 0.45 * determinantAt(at);
+  }
+  return std::abs(sum) / 6;
 }
 
 void expectSameIntegral(vtkPointSet* mesh, vtkPointSet* before, const char* name, int component = 0)
@@ -339,6 +373,42 @@ TEST_F(FieldsUnderOperations, inThePlaneStayLinearAndConstant)
   {
     expectConstant(mesh);
   }
+}
+
+/// Curved cells hold what the straight ones did: their volumes are integrals of det J, by the
+/// quadrature of degree 3 on tetrahedra (P. Keast, 1986).
+TEST_F(FieldsUnderOperations, ofQuadraticCellsKeepTheirIntegrals)
+{
+  if (exchange.rank() > 0)
+  {
+    return;
+  }
+  const auto mesh = cadtest::toGrid(cadtest::ballMesh(2, 0.05));
+  addFields(mesh);
+  const cadtest::FilterRun filters(cadtest::writeInto(folder, cadtest::sphere(2), ".brep"));
+  const auto projected = filters.run<vtkProjectOntoCAD>(mesh, conserve);
+  const auto curved = filters.run<vtkRefineWithCAD>(projected,
+    [](vtkRefineWithCAD* filter)
+    {
+      conserve(filter);
+      filter->SetMethod(vtkRefineWithCAD::UNIFORM_BISECTION);
+      filter->QuadraticCellsOn();
+    });
+  vtkDataArray* heat = curved->GetCellData()->GetArray("Heat");
+  double held = 0;
+  double volume = 0;
+  for (vtkIdType c = 0; c < curved->GetNumberOfCells(); ++c)
+  {
+    if (curved->GetCellType(c) == VTK_QUADRATIC_TETRA)
+    {
+      const double size = curvedVolume(curved, c);
+      volume += size;
+      held += size * heat->GetTuple1(c);
+    }
+  }
+  const Integral was = integrate(mesh, "Heat");
+  EXPECT_NEAR(held, was.value, 1e-12 * was.magnitude);
+  EXPECT_GT(volume, integrate(projected, "Constant").value / 2.7 * 1.1);
 }
 
 /// In the plane, and on a surface in space.

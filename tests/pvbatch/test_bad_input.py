@@ -230,6 +230,10 @@ class BadInput(Case):
         self.assert_fails(self.mesh, self.cad, "--region", "50", "51", "50", "51", "50", "51",
                           names="the region (--region) contains no boundary vertex")
 
+    def test_missing_density(self):
+        self.assert_fails(self.mesh, self.cad, "--conserve", "heat",
+                          names="naca0012_coarse.vtu: there is no cell array heat (--conserve); cell arrays there: ")
+
     def test_missing_indicator(self):
         self.assert_fails(self.mesh, self.cad, "--indicator", "velocity", "--indicator-threshold", "1",
                           names="naca0012_coarse.vtu: there is no cell array velocity (--indicator); cell arrays there: ")

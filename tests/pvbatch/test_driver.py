@@ -28,6 +28,16 @@ STEP_KEYS = {"step", "vertices", "cells", "cad_vertices", "projected_points", "g
              "invalid_cells", "unprojected_vertices", "minimum_quality", "seconds"}
 
 
+def held_by_triangles(mesh, name):
+    """The integral of a cell array over a planar mesh."""
+    total = 0.0
+    for block, values in zip(mesh.cells, mesh.cell_data[name]):
+        corners = mesh.points[block.data]
+        normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        total += np.sum(values * np.linalg.norm(normals, axis=1) / 2)
+    return total
+
+
 class Case(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -110,6 +120,18 @@ class Results(Case):
         driver.report_of(RANKS, *ARCS, "--steps", "1", "--output", output)
         self.assertTrue(os.path.isfile(output))
         self.assertEqual(driver.report_of(RANKS, output, ARCS[1], "--steps", "0")["steps"][0]["invalid_cells"], 0)
+
+    def test_densities(self):
+        mesh = meshio.read(ARCS[0])
+        [cells] = [block.data for block in mesh.cells if block.type == "triangle"]
+        mesh.cells = [("triangle", cells)]
+        mesh.cell_data = {"heat": [np.arange(len(cells)) % 7 + 0.5]}
+        path, output = self.path("heat.vtu"), self.path("adapted.vtu")
+        mesh.write(path)
+        driver.report_of(RANKS, path, ARCS[1], "--steps", "2", "--minimum-quality", "0.9", "--conserve", "heat",
+                         "--no-boundary-cells", "--output", output)
+        before, after = (held_by_triangles(meshio.read(name), "heat") for name in (path, output))
+        self.assertAlmostEqual(after / before, 1, delta=1e-12)
 
     def test_curves_in_the_plane(self):
         report = driver.report_of(RANKS, *ARCS, "--steps", "4", "--method", "uniform")
