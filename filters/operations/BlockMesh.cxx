@@ -10,6 +10,9 @@ namespace cadrefine
 namespace
 {
 
+/// Of boundary off the CAD, without tags.
+constexpr Index wallLabel = -2;
+
 template<std::size_t Corners>
 std::array<Index, Corners> sorted(std::array<Index, Corners> corners)
 {
@@ -119,7 +122,7 @@ void BlockMesh::addFacets(const Members& members)
   {
     const auto corners = localCorners(boundary_.boundary.facets[f].vertices);
     const bool onCAD = boundary_.classes.facets[f].onCAD != 0;
-    facets[sorted(corners)] = { corners, onCAD ? 0 : -2, -1 };
+    facets[sorted(corners)] = { corners, onCAD ? 0 : wallLabel, -1 };
   }
   for (const Index t : members.triangles)
   {
@@ -179,7 +182,8 @@ void BlockMesh::addSegments(const Members& members)
       const auto corners = sorted(localCorners(edges.edges()[e]));
       if (boundary_.boundary.kind == BoundaryKind::Segments)
       {
-        segments[corners] = { corners, onCAD ? lineOf(edges.edges()[e]) : -1, -1, edgeClass };
+        segments[corners] = { corners, onCAD ? lineOf(edges.edges()[e]) : wallLabel, -1,
+          edgeClass };
       }
       else if (edgeClass.kind != EdgeClass::Smooth && !isOnWall)
       {

@@ -252,7 +252,7 @@ private:
       options.keepsError = options_.targetError > 0;
     }
     const RefinementOutcome outcome = refine(options);
-    if (outcome.limited)
+    if (outcome.markedCells > 0 && outcome.limited)
     {
       return "there would be more cells than allowed (MaximumCells)";
     }

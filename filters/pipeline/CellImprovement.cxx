@@ -157,17 +157,14 @@ private:
   /// Returns whether cells have changed.
   bool improve(const std::vector<unsigned char>& flags, int round)
   {
-    const ImprovementLimits limits{ std::max(options_.minimumQuality, aim),
-      options_.minimumQuality };
+    const ImprovementLimits limits{ std::max(options_.minimumQuality, aim), options_.minimumQuality,
+      options_.surface };
     const std::int64_t operations = operate(context_, state_, flags,
       { ringsOfCells, round, options_.largestBlock,
         [&](Index cell)
         { return visitCells(mesh(), [&](const auto& cells) { return mayChange(cells[cell]); }); } },
       [&](BlockMesh& block, const SurfaceRule& rule)
-      {
-        const SurfaceRule strict = options_.keepsError ? rule.keepingError() : rule;
-        return improveCells(block.mesh(), &strict, limits);
-      });
+      { return improveCells(block.mesh(), &rule, limits); });
     operations_ += operations;
     context_.statistics.set("local operations", static_cast<double>(operations_));
     return operations > 0;

@@ -3,6 +3,8 @@
 
 #include "pipeline/MeshState.h"
 
+#include <cadrefine/operations/SurfaceRule.h>
+
 #include <cstdint>
 #include <functional>
 
@@ -15,7 +17,7 @@ struct CellImprovementOptions
   /// Cells with a vertex elsewhere stay; empty: none.
   std::function<bool(const Point3&)> inRegion = {};
   std::int64_t largestBlock = 8192; ///< Cells of a block.
-  bool keepsError = false;          ///< Facets whose geometric error is larger are not accepted.
+  SurfaceLimits surface = {};       ///< What may become of the boundary.
 };
 
 /// Rounds of operations (see operateOnBlocks) on the cells round vertices that are off the CAD and

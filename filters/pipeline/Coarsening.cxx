@@ -60,7 +60,8 @@ private:
     {
     }
     state_.arrays.ofVertices->RemoveArray(goesArray);
-    improveCells(context_, state_, { options_.minimumQuality, {}, options_.largestBlock, true });
+    improveCells(
+      context_, state_, { options_.minimumQuality, {}, options_.largestBlock, { 0, true, true } });
     const std::int64_t gone = before - countMesh(exchange_, state_.mesh).vertices;
     gone_ += gone;
     return gone > 0;

@@ -303,7 +303,7 @@ private:
     {
       const auto stopwatch = watch("seconds local operations");
       CellImprovementOptions improvement{ *options_.minimumQuality };
-      improvement.keepsError = options_.keepsError;
+      improvement.surface.keepsError = options_.keepsError;
       improveCells(context_, state_, improvement);
     }
   }

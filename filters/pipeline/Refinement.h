@@ -26,7 +26,7 @@ struct RefinementOptions
   bool projectNewVertices = true;
   /// See improveCells; none: no local operations.
   std::optional<double> minimumQuality;
-  bool keepsError = false; ///< See CellImprovementOptions.
+  bool keepsError = false; ///< See SurfaceLimits.
   bool balance = true;
   /// Put out cells of second order (see placeMidNodes); not for vtkPolyData, which has none.
   bool quadraticCells = false;

@@ -182,7 +182,7 @@ private:
     {
       return true;
     }
-    if (!rule_.accepts(mesh_, cavity_, limits_.distance))
+    if (!rule_.accepts(mesh_, cavity_, { limits_.distance, false, true }))
     {
       return false;
     }
@@ -226,9 +226,9 @@ OperationResult coarsen(EditableMesh& mesh, const SurfaceRule& rule,
   double errorLeft =
     limits.errorPerFacet < infinity ? limits.errorPerFacet * countFacetsOnCAD(mesh) : infinity;
   std::int64_t collapses = Coarsener<Dimension>(mesh, rule, goes, limits, errorLeft).run();
-  const SurfaceRule strict = rule.keepingError();
-  OperationResult result =
-    improveCells(mesh, &strict, { std::max(limits.minimumQuality, aim), limits.minimumQuality });
+  const SurfaceLimits surface{ 0, true, true };
+  OperationResult result = improveCells(
+    mesh, &rule, { std::max(limits.minimumQuality, aim), limits.minimumQuality, surface });
   goes.resize(mesh.vertexCount(), 0);
   collapses += Coarsener<Dimension>(mesh, rule, goes, limits, errorLeft).run();
   result.counts.collapses += collapses;

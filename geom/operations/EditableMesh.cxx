@@ -101,7 +101,7 @@ void EditableMesh::closeFacets()
       {
         const auto& others = facets_[around[around[0] == static_cast<Index>(f) ? 1 : 0]].corners;
         return std::all_of(
-          others.begin(), others.end(), [&](Index v) { return isInPlaneOf(corners, v); });
+          others.begin(), others.end(), [&](Index v) { return isInSpanOf(corners, v); });
       };
       if (segmentOf(a, b) < 0 && !areAlike)
       {
@@ -161,21 +161,40 @@ bool EditableMesh::hasFacet(const std::array<Index, 3>& corners) const
     });
 }
 
-bool EditableMesh::isInPlaneOf(const std::array<Index, 3>& facet, Index v) const
+namespace
 {
-  const Point3& origin = vertices_[facet[0]].point;
-  const Vector3 normal =
-    normalized(twofoldAreaVector(origin, vertices_[facet[1]].point, vertices_[facet[2]].point));
+
+/// Of a distance from a plane or line through some of these points: their coordinates may be
+/// middles of middles.
+double roundingOf(const std::vector<Point3>& points)
+{
   double size = 0;
-  for (const Index corner : { facet[0], facet[1], facet[2], v })
+  for (const Point3& point : points)
   {
-    for (const double x : vertices_[corner].point)
+    for (const double x : point)
     {
       size = std::max(size, std::abs(x));
     }
   }
-  constexpr double rounding = 1e-13; // of coordinates that are middles of middles
-  return std::abs(dot(normal, vertices_[v].point - origin)) <= rounding * size;
+  return 1e-13 * size;
+}
+
+} // namespace
+
+bool EditableMesh::isInSpanOf(const std::array<Index, 3>& facet, Index v) const
+{
+  const auto at = [&](int k) -> const Point3& { return vertices_[facet[k]].point; };
+  const Point3& point = vertices_[v].point;
+  const Vector3 normal = normalized(twofoldAreaVector(at(0), at(1), at(2)));
+  return std::abs(dot(normal, point - at(0))) <= roundingOf({ at(0), at(1), at(2), point });
+}
+
+bool EditableMesh::isInSpanOf(const std::array<Index, 2>& segment, Index v) const
+{
+  const auto at = [&](int k) -> const Point3& { return vertices_[segment[k]].point; };
+  const Point3& point = vertices_[v].point;
+  const Vector3 direction = normalized(at(1) - at(0));
+  return norm(cross(direction, point - at(0))) <= roundingOf({ at(0), at(1), point });
 }
 
 Index EditableMesh::segmentOf(Index a, Index b) const

@@ -185,8 +185,10 @@ public:
 
   Freedom freedomOf(Index v) const;
   bool hasFacet(const std::array<Index, 3>& corners) const;
-  /// Whether a vertex lies in the plane of a facet but for rounding of the coordinates.
-  bool isInPlaneOf(const std::array<Index, 3>& facet, Index v) const;
+  /// Whether a vertex lies in the plane of a facet, or on the line of a segment, but for rounding
+  /// of the coordinates.
+  bool isInSpanOf(const std::array<Index, 3>& facet, Index v) const;
+  bool isInSpanOf(const std::array<Index, 2>& segment, Index v) const;
   /// The segment between two vertices; -1: none.
   Index segmentOf(Index a, Index b) const;
 

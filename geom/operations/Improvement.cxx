@@ -273,7 +273,8 @@ private:
 
   bool keepsSurface() const
   {
-    return !mesh_.touchesBoundary(cavity_) || (rule_ && rule_->accepts(mesh_, cavity_));
+    return !mesh_.touchesBoundary(cavity_) ||
+           (rule_ && rule_->accepts(mesh_, cavity_, limits_.surface));
   }
 
   /// Of triangles also on the CAD, where it has got there.

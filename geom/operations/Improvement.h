@@ -13,6 +13,7 @@ struct ImprovementLimits
 {
   double floor = 0.3;   ///< Cells below this, with their vertices where they are wanted, are tried.
   double minimum = 0.1; ///< Edges of cells below this are split; below it none gets worse in place.
+  SurfaceLimits surface = {};
 };
 
 /// Operates on cells below a floor, the worst first. Of the removals of their edges and faces and

@@ -33,6 +33,42 @@ Vector3 directionOf(const EditableMesh& mesh, const std::array<Index, 2>& segmen
   return normalized(mesh.vertex(segment[1]).wanted - mesh.vertex(segment[0]).wanted);
 }
 
+bool areTurnedAlike(
+  const EditableMesh& mesh, const std::array<Index, 3>& a, const std::array<Index, 3>& b)
+{
+  return dot(normalOf(mesh, a), normalOf(mesh, b)) > 0;
+}
+
+/// Segments have no side.
+bool areTurnedAlike(const EditableMesh&, const std::array<Index, 2>&, const std::array<Index, 2>&)
+{
+  return true;
+}
+
+/// Whether the boundary off the CAD stays as it is, or, where it may change, in its planes and
+/// lines: each new part lies in one of those before, and is turned as that is.
+template<class Store, class List>
+bool areWallsKept(const EditableMesh& mesh, const Store& store, const std::vector<Index>& before,
+  const List& after, bool mayChange)
+{
+  const auto isPartOf = [&](const auto& wall, const auto& old)
+  {
+    return old.label == wall.label && areTurnedAlike(mesh, wall.corners, old.corners) &&
+           std::all_of(wall.corners.begin(), wall.corners.end(),
+             [&](Index v) { return mesh.isInSpanOf(old.corners, v); });
+  };
+  const auto isOnWall = [&](const auto& wall)
+  {
+    return std::any_of(
+      before.begin(), before.end(), [&](Index old) { return isPartOf(wall, store[old]); });
+  };
+  const bool hasWalls =
+    std::any_of(before.begin(), before.end(), [&](Index old) { return store[old].label < 0; });
+  return !hasWalls ||
+         (mayChange && std::all_of(after.begin(), after.end(),
+                         [&](const auto& part) { return part.label >= 0 || isOnWall(part); }));
+}
+
 } // namespace
 
 SurfaceRule::Fit SurfaceRule::fitOf(
@@ -68,27 +104,18 @@ bool SurfaceRule::isOnCAD(const EditableMesh& mesh, const std::array<Index, 3>& 
   return projector_.isOnCAD(onCAD);
 }
 
-/// Whether a new facet off the CAD is a part of those before.
-bool SurfaceRule::isOnWall(
-  const EditableMesh& mesh, const Cavity& cavity, const LabelledSimplex<3>& facet)
+bool SurfaceRule::accepts(
+  const EditableMesh& mesh, const Cavity& cavity, const SurfaceLimits& limits) const
 {
-  return std::any_of(cavity.facets.begin(), cavity.facets.end(),
-    [&](Index f)
-    {
-      const auto& old = mesh.facets()[f];
-      return old.label == facet.label &&
-             dot(normalOf(mesh, facet.corners), normalOf(mesh, old.corners)) > 0 &&
-             std::all_of(facet.corners.begin(), facet.corners.end(),
-               [&](Index v) { return mesh.isInPlaneOf(old.corners, v); });
-    });
-}
-
-bool SurfaceRule::accepts(const EditableMesh& mesh, const Cavity& cavity, double distance) const
-{
-  const bool fits = mesh.kind() == EditableMesh::Kind::Plane
-                      ? acceptsSegments(mesh, cavity, distance)
-                      : acceptsFacets(mesh, cavity, distance);
-  return fits && (!keepsError_ || errorGain(mesh, cavity) <= 0);
+  const bool isPlane = mesh.kind() == EditableMesh::Kind::Plane;
+  const bool keepsWalls = isPlane ? areWallsKept(mesh, mesh.segments(), cavity.segments,
+                                      cavity.newSegments, limits.changesWalls)
+                                  : areWallsKept(mesh, mesh.facets(), cavity.facets,
+                                      cavity.newFacets, limits.changesWalls);
+  return keepsWalls &&
+         (isPlane ? acceptsSegments(mesh, cavity, limits.distance)
+                  : acceptsFacets(mesh, cavity, limits.distance)) &&
+         (!limits.keepsError || errorGain(mesh, cavity) <= 0);
 }
 
 bool SurfaceRule::acceptsFacets(
@@ -103,8 +130,7 @@ bool SurfaceRule::acceptsFacets(
   };
   // What costs least comes first.
   if (!std::all_of(cavity.newFacets.begin(), cavity.newFacets.end(),
-        [&](const auto& facet)
-        { return facet.label < 0 ? isOnWall(mesh, cavity, facet) : turnsLittle(facet); }))
+        [&](const auto& facet) { return facet.label < 0 || turnsLittle(facet); }))
   {
     return false;
   }
@@ -279,6 +305,10 @@ bool SurfaceRule::acceptsSegments(
   return std::all_of(cavity.newSegments.begin(), cavity.newSegments.end(),
     [&](const auto& segment)
     {
+      if (segment.label < 0)
+      {
+        return true;
+      }
       const Vector3 direction = directionOf(mesh, segment.corners);
       const bool turnsLittle = std::any_of(cavity.segments.begin(), cavity.segments.end(),
         [&](Index old)

@@ -11,18 +11,21 @@
 namespace cadrefine
 {
 
+/// What may become of a boundary.
+struct SurfaceLimits
+{
+  double distance = 0;       ///< From the CAD, at least what facets before have.
+  bool keepsError = false;   ///< The geometric error must not become larger.
+  bool changesWalls = false; ///< Facets off the CAD may be exchanged for others in their planes.
+};
+
 /// Judges new boundary facets, of a planar mesh segments, with their vertices where they are
 /// wanted, and places new vertices. All answers are pure functions of the mesh at the cavity and
 /// the model.
 class SurfaceRule
 {
 public:
-  /// `keepsError`: what makes the geometric error larger is not accepted either.
-  explicit SurfaceRule(const BoundaryProjector& projector, bool keepsError = false)
-    : projector_(projector), keepsError_(keepsError)
-  {
-  }
-  SurfaceRule keepingError() const { return SurfaceRule(projector_, true); }
+  explicit SurfaceRule(const BoundaryProjector& projector) : projector_(projector) {}
 
   /// How well facets follow the CAD.
   struct Fit
@@ -47,10 +50,11 @@ public:
   /// Whether the new facets of a cavity follow the CAD as well as those before: each is classified
   /// as on the CAD; its normal makes no more than 40 degrees with one of theirs, and with those of
   /// the CAD at its centroid and the middles of its edges, unless theirs do; and none of these
-  /// points is farther from the CAD than `distance`, or than those of the facets before. Facets off
-  /// the CAD stay in the planes of those before. Of a planar mesh the same of the segments'
-  /// directions and middles. Work: up to 4 projections a facet, 2 a segment.
-  bool accepts(const EditableMesh& mesh, const Cavity& cavity, double distance = 0) const;
+  /// points is farther from the CAD than the limit, or than those of the facets before. Facets off
+  /// the CAD stay, or stay in their planes. Of a planar mesh the same of the segments' directions
+  /// and middles. Work: up to 4 projections a facet, 2 a segment, and that of errorGain.
+  bool accepts(
+    const EditableMesh& mesh, const Cavity& cavity, const SurfaceLimits& limits = {}) const;
 
   /// By how much the geometric error (see geometricErrors; extrapolated from depth 2) of the new
   /// facets is larger than that of those before; 0 where that is rounding. Work: some 10
@@ -62,8 +66,6 @@ public:
   ClosestPoint placeOfMiddle(const EditableMesh& mesh, Index a, Index b) const;
 
 private:
-  static bool isOnWall(
-    const EditableMesh& mesh, const Cavity& cavity, const LabelledSimplex<3>& facet);
   bool acceptsSegments(const EditableMesh& mesh, const Cavity& cavity, double distance) const;
   double farthestMiddle(const EditableMesh& mesh, const std::vector<Index>& segments) const;
   double distanceOfMiddle(const EditableMesh& mesh, const std::array<Index, 2>& segment) const;
@@ -75,7 +77,6 @@ private:
     Fit& fit) const;
 
   const BoundaryProjector& projector_;
-  bool keepsError_;
 };
 
 } // namespace cadrefine
