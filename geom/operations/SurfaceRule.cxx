@@ -286,7 +286,8 @@ bool SurfaceRule::isAsGood(const Fit& fit, const Fit& before)
   return fit.distance <= before.distance && fit.cosine >= std::min(turnCosine, before.cosine);
 }
 
-/// Of the middles of these segments from the CAD, but for rounding.
+/// Of the middles of these segments from the CAD, but for rounding, and of their ends from where
+/// they are wanted.
 double SurfaceRule::farthestMiddle(
   const EditableMesh& mesh, const std::vector<Index>& segments) const
 {
@@ -294,6 +295,10 @@ double SurfaceRule::farthestMiddle(
   for (const Index segment : segments)
   {
     farthest = std::max(farthest, distanceOfMiddle(mesh, mesh.segments()[segment].corners));
+    for (const Index end : mesh.segments()[segment].corners)
+    {
+      farthest = std::max(farthest, distance(mesh.vertex(end).point, mesh.vertex(end).wanted));
+    }
   }
   return farthest;
 }

@@ -236,7 +236,7 @@ vtkSmartPointer<vtkUnstructuredGrid> spoiltTriangles(
   }
   mesh.segments.clear();
   mesh.vertices.clear();
-  const auto grid = cadtest::toGrid(mesh);
+  auto grid = cadtest::toGrid(mesh);
   grid->GetCellData()->AddArray(materials);
   return grid;
 }
