@@ -1,14 +1,16 @@
 #!/usr/bin/python3
 """Meshes whose every boundary node is known to lie on some CAD entity, moved off it a little.
 
-usage: gmsh_truth.py FOLDER [SOLID ...]
+usage: gmsh_truth.py FOLDER [SOLID or SURFACE ...]
 
 For each solid writes the CAD file FOLDER/SOLID.brep and, at two sizes, the meshes FOLDER/SOLID_coarse.vtu and
 FOLDER/SOLID_fine.vtu of tetrahedra. Each node is moved in a random direction (of a fixed seed) by up to 5% of the mean
 length of its edges. Of a wing with a blunt trailing edge, which is thinner than that, writes three sizes moved by up to
 2% with three seeds each, FOLDER/blunt_wing_SIZE_SEED.vtu; moving inverts some of its cells. Of the wing and of each
-solid that is read from a file, writes FOLDER/SOLID.vtu, with its nodes where gmsh put them. Point arrays: TruthDimension and TruthTag, the dimension and tag of gmsh's entity that the node
-belongs to (3: inside); ExactPosition, where gmsh had put it.
+solid that is read from a file, writes FOLDER/SOLID.vtu, with its nodes where gmsh put them. Point arrays:
+TruthDimension and TruthTag, the dimension and tag of gmsh's entity that the node belongs to (3: inside);
+ExactPosition, where gmsh had put it. Of surfaces that are read from files, writes FOLDER/SURFACE.vtu with triangles,
+where nodes of different faces that lie in one place are one.
 """
 
 import math
@@ -147,6 +149,14 @@ FILES = {
 }
 
 
+# Surface: its file, the size of cells in parts of the size of the surface, and whether gmsh is to sew its faces (which
+# makes slivers of those of the bearing).
+SURFACES = {
+    "hammer_surface": ("/usr/share/opencascade/data/iges/hammer.iges", 0.1, True),
+    "bearing_surface": ("/usr/share/opencascade/data/iges/bearing.iges", 0.2, False),
+}
+
+
 def write_cad(path, make):
     gmsh.clear()
     make()
@@ -222,6 +232,31 @@ def write_wing(folder):
             write_mesh(f"{path}_{label}_{seed}.vtu", blunt_wing, size, seed=seed, largest=LARGEST_MOVE_OF_WING)
 
 
+def write_surface(path, file, part, sewn):
+    gmsh.clear()
+    occ.importShapes(file)
+    if sewn:
+        occ.healShapes(sewFaces=True, makeSolids=False)
+    occ.synchronize()
+    box = np.array(gmsh.model.getBoundingBox(-1, -1)).reshape(2, 3)
+    size = part * np.max(box[1] - box[0])
+    gmsh.option.setNumber("Mesh.MeshSizeMax", size)
+    gmsh.option.setNumber("Mesh.MeshSizeMin", size)
+    gmsh.model.mesh.generate(2)
+    tags, coordinates, _ = gmsh.model.mesh.getNodes()
+    number = {tag: place for place, tag in enumerate(tags)}
+    points = coordinates.reshape(-1, 3)
+    cells = np.vectorize(number.get)(gmsh.model.mesh.getElementsByType(2)[1]).reshape(-1, 3)
+    places = np.round(points / (1e-6 * np.max(box[1] - box[0])))
+    _, firsts, joined = np.unique(places, axis=0, return_index=True, return_inverse=True)
+    cells = joined.reshape(-1)[cells]
+    cells = cells[[len(set(cell)) == 3 for cell in cells]]
+    used, cells = np.unique(cells, return_inverse=True)
+    points, cells = points[firsts][used], cells.reshape(-1, 3)
+    meshio.write(path, meshio.Mesh(points, [("triangle", cells)]))
+    print(f"{os.path.basename(path)}: {len(points)} vertices, {len(cells)} triangles")
+
+
 def main():
     folder = sys.argv[1]
     os.makedirs(folder, exist_ok=True)
@@ -232,6 +267,9 @@ def main():
         if name in FILES:
             file, size = FILES[name]
             write_mesh(os.path.join(folder, f"{name}.vtu"), lambda file=file: occ.importShapes(file), size)
+    for name in sys.argv[2:] or SURFACES:
+        if name in SURFACES:
+            write_surface(os.path.join(folder, f"{name}.vtu"), *SURFACES[name])
     for name in sys.argv[2:] or SOLIDS:
         if name not in SOLIDS:
             continue
