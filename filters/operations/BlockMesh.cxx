@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <set>
 
 namespace cadrefine
 {
@@ -143,24 +144,24 @@ void BlockMesh::addFacets(const Members& members)
   }
 }
 
-/// The cells of a mesh of triangles. Those of a surface that are not on the CAD have labels of
-/// their own, so that they stay.
+/// The cells of a mesh of triangles. Those of which no surface is known, of a surface off the CAD
+/// or of a mesh in space whose CAD has no faces, have labels of their own, so that they stay.
 void BlockMesh::addTriangles(const Members& members, const std::vector<Index>& cells)
 {
-  std::map<Index, Index> ownLabels;
+  const bool isOfCurves = block_.kind() == EditableMesh::Kind::Plane && block_.plane() == Vector3{};
+  std::set<Index> staying;
   for (const Index f : members.facets)
   {
-    const bool stays = boundary_.boundary.ofSurface && boundary_.classes.facets[f].onCAD == 0;
-    if (stays)
+    if (boundary_.boundary.ofSurface && boundary_.classes.facets[f].onCAD == 0)
     {
-      ownLabels[boundary_.boundary.facets[f].cell] = -2 - f;
+      staying.insert(boundary_.boundary.facets[f].cell);
     }
   }
   for (const Index cell : cells)
   {
-    const auto own = ownLabels.find(cell);
-    block_.addFacet({ localCorners(mesh_.triangles[cell]),
-      own == ownLabels.end() ? labels_.ofTriangles[cell] : own->second, cell });
+    const bool stays = isOfCurves || staying.count(cell) > 0;
+    block_.addFacet(
+      { localCorners(mesh_.triangles[cell]), stays ? -2 - cell : labels_.ofTriangles[cell], cell });
   }
 }
 

@@ -22,11 +22,11 @@ struct CellImprovementOptions
 
 /// Rounds of operations (see operateOnBlocks) on the cells round vertices that are off the CAD and
 /// round cells with a mean ratio below a minimum, each followed by another try to move vertices
-/// onto the CAD (see moveOntoCAD), until nothing is left or nothing is gained. Of a mesh of
-/// tetrahedra that is classified; others stay as they are. Cells and listed triangles are told
-/// apart by their tags (see isTag). Collective. Work: that of qualityOf; where something is found,
-/// a look at every cell, and in rounds that of redistribute, findBoundary, improveCells of a block
-/// and moveOntoCAD.
+/// onto the CAD (see moveOntoCAD), until nothing is left or nothing is gained. Of a mesh that is
+/// classified; triangles in space whose CAD has no faces stay as they are. Cells, listed triangles
+/// and lines are told apart by their tags (see isTag). Collective. Work: that of qualityOf; where
+/// something is found, a look at every cell, and in rounds that of redistribute, findBoundary,
+/// improveCells of a block and moveOntoCAD.
 void improveCells(
   const PipelineContext& context, MeshState& state, const CellImprovementOptions& options);
 

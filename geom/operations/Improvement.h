@@ -17,8 +17,9 @@ struct ImprovementLimits
 };
 
 /// Operates on cells below a floor, the worst first. Of the removals of their edges and faces and
-/// the moves of their vertices inside the mesh it does the one with the best worst cell; where none
-/// makes the worst cell better, of the collapses of their edges; then of the splits of these. Cells
+/// the moves of their vertices inside the mesh, of triangles also along the CAD, it does the one
+/// with the best worst cell; where none makes the worst cell better, of the collapses of their
+/// edges; then of the splits of these (of triangles, see swapRoundMiddle). Cells
 /// where vertices are stay valid, and none of them gets worse than `minimum` and those that it
 /// comes from. The boundary changes only as `rule` accepts; null: it does not. It ends when nothing
 /// is gained, or after ten passes over the cells that changed. The result depends on the order of

@@ -55,7 +55,7 @@ struct OperationCounts
   std::int64_t faceRemovals = 0;
   std::int64_t collapses = 0;
   std::int64_t splits = 0;
-  std::int64_t moves = 0; ///< Of vertices inside the mesh.
+  std::int64_t moves = 0; ///< Of vertices.
   std::int64_t cells = 0; ///< That were tried.
 
   std::int64_t operations() const

@@ -4,7 +4,11 @@
 #include "DataSets.h"
 #include "FilterRun.h"
 #include "MeshChecks.h"
+#include "TestMeshes.h"
+#include "TestShapes.h"
 
+#include <vtkCoarsenWithCAD.h>
+#include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkUnstructuredGrid.h>
 
@@ -12,6 +16,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <string>
 #include <vector>
@@ -143,6 +148,29 @@ TEST_P(SurfacePart, isWorkedOnInTheRegionAlone)
   const auto kept = beyond(cadtest::toMesh(half));
   EXPECT_FALSE(left.empty());
   EXPECT_TRUE(std::includes(kept.begin(), kept.end(), left.begin(), left.end()));
+}
+
+/// Nothing tells on which surface the triangles are that a curve bounds.
+TEST(SurfaceInACurve, staysAsItIs)
+{
+  const cadtest::TemporaryFolder folder;
+  const cadtest::FilterRun filters(cadtest::writeInto(folder, cadtest::circle(1), ".step"));
+  const auto disc =
+    filters.refineUniformly(filters.project(cadtest::toGrid(cadtest::discMesh(1, 0.02, 12))), 3);
+  for (vtkIdType p = 0; p < disc->GetNumberOfPoints(); ++p)
+  {
+    double point[3];
+    disc->GetPoint(p, point);
+    const double fromRim = 1 - point[0] * point[0] - point[1] * point[1];
+    disc->GetPoints()->SetPoint(
+      p, point[0], point[1], fromRim < 1e-9 ? 0 : fromRim * std::cos(20 * point[0]));
+  }
+  const auto trianglesOf = [](vtkPointSet* data) { return cadtest::toMesh(data).triangles; };
+  const auto coarse = filters.run<vtkCoarsenWithCAD>(disc, [](vtkCoarsenWithCAD*) {});
+  EXPECT_EQ(trianglesOf(coarse), trianglesOf(disc));
+  const auto improved = filters.run<vtkProjectOntoCAD>(
+    disc, [](vtkProjectOntoCAD* filter) { filter->SetMinimumQuality(0.9); });
+  EXPECT_EQ(trianglesOf(improved), trianglesOf(disc));
 }
 
 INSTANTIATE_TEST_SUITE_P(Parts, SurfacePart,
