@@ -300,7 +300,7 @@ MeshArrays refineArrays(
   carryOver(coarse.ofCells, fine.ofCells,
     [&](vtkAbstractArray* array)
     {
-      const auto result = gather(array, parents);
+      auto result = gather(array, parents);
       if (isMeasured(array->GetName()))
       {
         return result;

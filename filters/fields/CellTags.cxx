@@ -116,6 +116,7 @@ std::map<std::uint64_t, std::int64_t> countValues(
     ++counts[value.name];
   }
   std::vector<ValueCount> mine;
+  mine.reserve(counts.size());
   for (const auto& [name, count] : counts)
   {
     mine.push_back({ name, count });
