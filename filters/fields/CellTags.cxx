@@ -145,7 +145,7 @@ bool isTag(vtkDataArray* array)
          !isOwn;
 }
 
-std::vector<std::string> findNumberings(
+std::vector<std::uint64_t> findNumberings(
   RankExchange& exchange, vtkCellData* data, const CellRange& cells)
 {
   constexpr std::int64_t mostKinds = 32; // that are taken for tags, however few cells there are
@@ -163,29 +163,25 @@ std::vector<std::string> findNumberings(
       values.insert(values.end(), own.begin(), own.end());
     });
   const std::int64_t cellCount = exchange.sum(cells.count);
-  auto counts = countValues(exchange, values);
-  std::vector<std::string> names;
-  forEachTag(data,
-    [&](vtkDataArray* array)
+  std::vector<std::uint64_t> names; // also of arrays that this rank, without cells, does not have
+  for (const auto& [name, count] : countValues(exchange, values))
+  {
+    if (count > mostKinds && 2 * count > cellCount)
     {
-      const std::int64_t count = counts[hashOf(array->GetName())];
-      if (count > mostKinds && 2 * count > cellCount)
-      {
-        names.emplace_back(array->GetName());
-      }
-    });
-  std::sort(names.begin(), names.end());
+      names.push_back(name);
+    }
+  }
   return names;
 }
 
 std::vector<Index> labelsOf(
-  vtkCellData* data, const CellRange& cells, const std::vector<std::string>& numberings)
+  vtkCellData* data, const CellRange& cells, const std::vector<std::uint64_t>& numberings)
 {
   std::vector<Index> labels(cells.count, 0);
   forEachTag(data,
     [&](vtkDataArray* array)
     {
-      if (std::find(numberings.begin(), numberings.end(), array->GetName()) != numberings.end())
+      if (std::binary_search(numberings.begin(), numberings.end(), hashOf(array->GetName())))
       {
         return;
       }

@@ -8,7 +8,7 @@
 #include <vtkType.h>
 
 #include <cstddef>
-#include <string>
+#include <cstdint>
 #include <vector>
 
 class vtkCellData;
@@ -28,15 +28,15 @@ struct CellRange
   std::size_t count;
 };
 
-/// Names, in their order, of arrays that look like tags but number the cells: over all ranks they
-/// have more than 32 different values, and more than half as many as there are cells in the range.
-/// The same on all ranks. Collective: two times all-to-all, 16 bytes a value that a rank has.
-/// Values are told apart by hashes of 64 bits.
-std::vector<std::string> findNumberings(
+/// Hashes of the names, ascending, of arrays that look like tags but number the cells: over all
+/// ranks they have more than 32 different values, and more than half as many as there are cells in
+/// the range. The same on all ranks. Collective: two times all-to-all, 16 bytes a value that a rank
+/// has. Values are told apart by hashes of 64 bits.
+std::vector<std::uint64_t> findNumberings(
   RankExchange& exchange, vtkCellData* data, const CellRange& cells);
 
-/// Numbers of the different tags of the cells, but for those of these names.
+/// Numbers of the different tags of the cells, but for the arrays that number these.
 std::vector<Index> labelsOf(
-  vtkCellData* data, const CellRange& cells, const std::vector<std::string>& numberings);
+  vtkCellData* data, const CellRange& cells, const std::vector<std::uint64_t>& numberings);
 
 } // namespace cadrefine

@@ -37,7 +37,7 @@ struct MeshState
   /// 1 for vertices that may be on the boundary; none: not known.
   std::vector<unsigned char> onBoundary = {};
   /// Tags that do not tell kinds of cells apart, as the mesh came; none: not looked at.
-  std::optional<std::vector<std::string>> numberings = std::nullopt;
+  std::optional<std::vector<std::uint64_t>> numberings = std::nullopt;
   bool remembers = false; ///< Keep what is measured for the boundary after the next step.
   BoundaryCache cache = {};
 };

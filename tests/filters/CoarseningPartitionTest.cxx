@@ -14,6 +14,7 @@
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
+#include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkUnstructuredGrid.h>
@@ -26,7 +27,7 @@ namespace cadrefine
 namespace
 {
 
-/// The box with a hole, refined, with an array that is small where x is.
+/// The box with a hole, refined, with an array that is small where x is, and numbers of the cells.
 vtkSmartPointer<vtkPointSet> fineMesh(const cadtest::FilterRun& filters)
 {
   auto mesh = filters.refineUniformly(
@@ -40,6 +41,13 @@ vtkSmartPointer<vtkPointSet> fineMesh(const cadtest::FilterRun& filters)
     indicator->InsertNextValue(bounds[1]);
   }
   mesh->GetCellData()->AddArray(indicator);
+  vtkNew<vtkIntArray> numbers; // no tags, also on a rank that has no cells at first
+  numbers->SetName("Number");
+  for (vtkIdType c = 0; c < mesh->GetNumberOfCells(); ++c)
+  {
+    numbers->InsertNextValue(static_cast<int>(c));
+  }
+  mesh->GetCellData()->AddArray(numbers);
   mesh->GetFieldData()->Initialize();
   return mesh;
 }

@@ -12,6 +12,7 @@ cadrefine_geom_test(method_tests
     motion/PatchOptimiserTest.cxx
     motion/ShapeEnergyTest.cxx
     motion/ThreadsTest.cxx
+    operations/CoarseningTest.cxx
     operations/FieldRowsTest.cxx
     operations/ImprovementTest.cxx
     operations/OperationsTest.cxx

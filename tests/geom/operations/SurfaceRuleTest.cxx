@@ -105,4 +105,43 @@ TEST_F(SurfaceRules, putsTheMiddleOfAnEdgeOntoTheSphere)
   EXPECT_FALSE(rule.placeOfMiddle(mesh, 0, 1).entity); // a crease that is on no CAD edge
 }
 
+/// Both pairs of facets are under the same part of the sphere, so that the error differs by the
+/// volume between the pairs: that of the tetrahedron of the four vertices.
+TEST_F(SurfaceRules, errorGainIsTheVolumeBetweenTheFacets)
+{
+  for (const double scale : { 1.0, 0.5, 0.25 })
+  {
+    const EditableMesh mesh = cap(0.3 * scale, 0.2 * scale);
+    Cavity cavity;
+    ASSERT_TRUE(proposeEdgeRemoval(mesh, 0, 1, cavity));
+    const auto at = [&](Index v) { return mesh.vertex(v).point; };
+    const double volume = std::abs(sixfoldVolume(at(0), at(1), at(2), at(3))) / 6;
+    EXPECT_NEAR(rule.errorGain(mesh, cavity), -volume, 0.05 * volume) << scale;
+    EXPECT_TRUE(rule.accepts(mesh, cavity, { 0, true, false }));
+  }
+}
+
+/// Facets off the CAD are exchanged for others in their plane where that is allowed.
+TEST_F(SurfaceRules, wallsChangeInTheirPlaneAlone)
+{
+  for (const double height : { 0.0, 0.1 })
+  {
+    EditableMesh mesh;
+    for (const Point3& point :
+      { Point3{ 0, 0, 0 }, Point3{ 1, 0, 0 }, Point3{ 1, 1, height }, Point3{ 0, 1, 0 } })
+    {
+      mesh.addVertex({ point, point, {}, false, false });
+    }
+    mesh.addVertex({ { 0.5, 0.5, -1 }, { 0.5, 0.5, -1 }, {}, false, true });
+    mesh.addCell({ { 4, 0, 1, 2 }, 0, 0 });
+    mesh.addCell({ { 4, 0, 2, 3 }, 0, 1 });
+    mesh.addFacet({ { 0, 1, 2 }, -2, -1 });
+    mesh.addFacet({ { 0, 2, 3 }, -2, -1 });
+    Cavity cavity;
+    ASSERT_TRUE(proposeEdgeRemoval(mesh, 0, 2, cavity));
+    EXPECT_FALSE(rule.accepts(mesh, cavity));
+    EXPECT_EQ(rule.accepts(mesh, cavity, { 0, false, true }), height == 0);
+  }
+}
+
 } // namespace
