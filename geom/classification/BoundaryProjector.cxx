@@ -12,6 +12,8 @@ namespace cadrefine
 namespace
 {
 
+constexpr double leastPartInside = 1.0 / 8;
+
 /// The nearer of two answers; on a tie the smaller entity.
 bool isBetter(const ClosestPoint& a, const ClosestPoint& b)
 {
@@ -236,16 +238,47 @@ ClosestPoint BoundaryProjector::projectMidpoint(const BoundaryEdge& edge) const
 
 ClosestPoint BoundaryProjector::offCrease(const BoundaryEdge& edge, const ClosestPoint& where) const
 {
-  const bool isOnCrease =
-    where.entity.dimension == 1 && model_.nurbs().edges[where.entity.index].sharp;
-  if (!isOnCrease || kind_ != BoundaryKind::Triangles || edge.edgeClass.kind != EdgeClass::Smooth)
+  if (kind_ != BoundaryKind::Triangles || edge.edgeClass.kind != EdgeClass::Smooth)
+  {
+    return where;
+  }
+  const auto faces = commonEntities(model_.nurbs(), edge.entities[0], edge.entities[1], 2);
+  if (where.entity.dimension == 2 &&
+      (faces.empty() || std::binary_search(faces.begin(), faces.end(), where.entity.index)))
   {
     return where;
   }
   const Point3 middle = 0.5 * (edge.points[0] + edge.points[1]);
-  ClosestPoint inside = nearestOnShared(edge.entities, 2 * where.point - middle);
-  inside.distance = distance(middle, inside.point);
-  return inside.entity ? inside : where;
+  ClosestPoint border = where; // that of the face where it is nearest, not of another one behind it
+  for (std::size_t f = 0; f < faces.size(); ++f)
+  {
+    const ClosestPoint onFace = nearestOn({ 2, faces[f] }, middle);
+    border = f == 0 || isBetter(onFace, border) ? onFace : border;
+  }
+  if (border.entity.dimension != 1)
+  {
+    return border;
+  }
+  if (!model_.nurbs().edges[border.entity.index].sharp)
+  {
+    // Beyond a smooth edge the surface goes on.
+    const auto beside = entitiesAround(model_.nurbs(), border.entity, 2);
+    const bool isBeside = where.entity.dimension == 2 &&
+                          std::binary_search(beside.begin(), beside.end(), where.entity.index);
+    return isBeside ? where : border;
+  }
+  // As far inside as the middle is outside; where the face is narrower than that, less.
+  for (double part = 1; part >= leastPartInside; part *= 0.5)
+  {
+    ClosestPoint inside =
+      nearestOnShared(edge.entities, border.point + part * (border.point - middle));
+    if (inside.entity)
+    {
+      inside.distance = distance(middle, inside.point);
+      return inside;
+    }
+  }
+  return border;
 }
 
 ClosestPoint BoundaryProjector::project(

@@ -88,9 +88,11 @@ public:
   /// The same for another point that stands for the edge, such as one of a curved edge.
   ClosestPoint project(
     const EdgeClass& edgeClass, const Point3& point, const std::array<EntityId, 2>& entities) const;
-  /// A place for the midpoint of an edge that is projected to `where`, but not on a crease that the
-  /// edge is not on, where it would meet the vertices of the crease's own mesh edges: in the face,
-  /// as far from the crease as the midpoint is outside. So it is with a chord that leaves its face.
+  /// A place for the midpoint of an edge that is projected to `where`, in the faces that both ends
+  /// share: not on another one that is nearer to a chord which leaves its face, and not on a crease
+  /// that the edge is not on, where it would meet the vertices of the crease's own mesh edges. As
+  /// far inside the crease as the midpoint is outside, or less where the face is narrower. Work:
+  /// none where `where` is on such a face; else a projection a face, and up to four more.
   ClosestPoint offCrease(const BoundaryEdge& edge, const ClosestPoint& where) const;
 
   /// CAD vertices that want a mesh vertex of their own: see findCorners.

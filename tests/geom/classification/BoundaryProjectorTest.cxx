@@ -228,6 +228,26 @@ TEST(Ring, keepsTheMiddleOfAChordThatCrossesTheHole)
   EXPECT_NEAR(where.distance, distance(where.point, middle), 1e-15);
 }
 
+/// The middle of a chord that leaves its face may be nearest to another face, which it is not on.
+TEST(Ring, takesTheMiddleOfAChordFromAnotherFaceToItsOwn)
+{
+  const auto model = cadtest::modelOf(cadtest::pipe(1, 1.5, 1));
+  const BoundaryProjector projector(*model, BoundaryKind::Triangles);
+  const std::array<Point3, 2> points{ { { 0, 1, 1 }, { -1.5, 0, 1 } } };
+  const std::array<EntityId, 2> entities{ projector.nearest(points[0], unlimited).entity,
+    projector.nearest(points[1], unlimited).entity };
+  const BoundaryEdge edge{ { EdgeClass::Smooth, -1 }, points, entities };
+  const ClosestPoint wall = projector.nearest({ -0.7, 0.7, 0.5 }, unlimited);
+  const EntityId ring = projector.nearest({ 0, 1.25, 1 }, unlimited).entity;
+  ASSERT_EQ(wall.entity.dimension, 2);
+  ASSERT_NE(wall.entity, ring);
+  const ClosestPoint where = projector.offCrease(edge, wall);
+  EXPECT_EQ(where.entity, ring);
+  EXPECT_EQ(where.point, projector.offCrease(edge, projector.projectMidpoint(edge)).point);
+  const BoundaryEdge onWall{ { EdgeClass::OnEdge, entities[0].index }, points, entities };
+  EXPECT_EQ(projector.offCrease(onWall, wall).entity, wall.entity) << "only of smooth edges";
+}
+
 TEST_F(ThinSheet, hasNoCorners)
 {
   EXPECT_TRUE(projector.corners().empty()) << "its circles close smoothly";
