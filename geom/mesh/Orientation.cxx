@@ -5,6 +5,7 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace cadrefine
 {
@@ -12,6 +13,14 @@ namespace
 {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+
+/// With L the sum of the squared edge lengths, sixfoldVolume errs by less than 4 epsilon L^(3/2)
+/// (see QualitySummary.cxx). This is the square of eight times as much.
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double certain = (32 * epsilon) * (32 * epsilon);
+/// Between these, nothing of that underflows or overflows.
+constexpr double smallestLengths = 1e-80;
+constexpr double largestLengths = 1e80;
 
 /// Rational arithmetic has no infinities.
 template<class... Points>
@@ -46,6 +55,18 @@ int signOf(double value)
 int orientation(const Point3& a, const Point3& b, const Point3& c, const Point3& d)
 {
   return areFinite(a, b, c, d) ? CGAL::orientation(exact(a), exact(b), exact(c), exact(d)) : 0;
+}
+
+bool isPositive(const Point3& a, const Point3& b, const Point3& c, const Point3& d)
+{
+  const double lengths = squaredEdgeLengths(a, b, c, d);
+  const double volume = sixfoldVolume(a, b, c, d);
+  if (lengths > smallestLengths && lengths < largestLengths &&
+      volume * volume > certain * lengths * lengths * lengths)
+  {
+    return volume > 0;
+  }
+  return orientation(a, b, c, d) > 0;
 }
 
 std::array<int, 3> normalSigns(const Point3& a, const Point3& b, const Point3& c)

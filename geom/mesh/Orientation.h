@@ -19,6 +19,10 @@ namespace cadrefine
 /// to some microseconds). Coordinates that are not finite give 0.
 int orientation(const Point3& a, const Point3& b, const Point3& c, const Point3& d);
 
+/// Whether orientation is positive. It is asked only where rounding errors could change the sign:
+/// some 5 ns, for coordinates whose squares are finite.
+bool isPositive(const Point3& a, const Point3& b, const Point3& c, const Point3& d);
+
 /// The signs of the three components of a triangle's normal: all 0 where the points lie on a line.
 std::array<int, 3> normalSigns(const Point3& a, const Point3& b, const Point3& c);
 

@@ -65,9 +65,16 @@ template<std::size_t Corners>
 std::vector<Index> SimplexStore<Corners>::at(Index a, Index b) const
 {
   std::vector<Index> result;
+  at(a, b, result);
+  return result;
+}
+
+template<std::size_t Corners>
+void SimplexStore<Corners>::at(Index a, Index b, std::vector<Index>& result) const
+{
+  result.clear();
   std::copy_if(at_[a].begin(), at_[a].end(), std::back_inserter(result),
     [&](Index simplex) { return hasCorner(simplices_[simplex].corners, b); });
-  return result;
 }
 
 template class SimplexStore<2>;
@@ -118,12 +125,14 @@ void EditableMesh::closeFacets()
 void EditableMesh::setVertex(Index v, const Vertex& vertex)
 {
   vertices_[v] = vertex;
+  forgetQualities(v);
 }
 
 void EditableMesh::moveVertex(Index v, const Point3& point)
 {
   vertices_[v].point = point;
   vertices_[v].wanted = point;
+  forgetQualities(v);
 }
 
 EditableMesh::Freedom EditableMesh::freedomOf(Index v) const
@@ -231,8 +240,8 @@ double EditableMesh::presentQuality(const std::array<Index, 3>& cell) const
 
 bool EditableMesh::isValid(const std::array<Index, 4>& cell, const Vector3&) const
 {
-  return orientation(vertices_[cell[0]].point, vertices_[cell[1]].point, vertices_[cell[2]].point,
-           vertices_[cell[3]].point) > 0;
+  return isPositive(vertices_[cell[0]].point, vertices_[cell[1]].point, vertices_[cell[2]].point,
+    vertices_[cell[3]].point);
 }
 
 bool EditableMesh::isValid(const std::array<Index, 3>& cell, const Vector3& side) const
@@ -241,13 +250,39 @@ bool EditableMesh::isValid(const std::array<Index, 3>& cell, const Vector3& side
            plane_ != Vector3{} ? plane_ : side) > 0;
 }
 
+double EditableMesh::qualityOf(Index cell) const
+{
+  const auto number = static_cast<std::size_t>(cell);
+  if (number >= qualities_.size())
+  {
+    qualities_.resize(kind_ == Kind::Solid ? cells_.size() : facets_.size(),
+      std::numeric_limits<double>::quiet_NaN());
+  }
+  double& known = qualities_[number];
+  if (std::isnan(known))
+  {
+    known = kind_ == Kind::Solid ? quality(cells_[cell].corners) : quality(facets_[cell].corners);
+  }
+  return known;
+}
+
+void EditableMesh::forgetQualities(Index v)
+{
+  for (const Index cell : kind_ == Kind::Solid ? cells_.at(v) : facets_.at(v))
+  {
+    if (static_cast<std::size_t>(cell) < qualities_.size())
+    {
+      qualities_[cell] = std::numeric_limits<double>::quiet_NaN();
+    }
+  }
+}
+
 double EditableMesh::worst(const std::vector<Index>& cells) const
 {
   double result = std::numeric_limits<double>::infinity();
   for (const Index cell : cells)
   {
-    result = std::min(result,
-      kind_ == Kind::Solid ? quality(cells_[cell].corners) : quality(facets_[cell].corners));
+    result = std::min(result, qualityOf(cell));
   }
   return result;
 }

@@ -102,6 +102,7 @@ public:
   const std::vector<Index>& at(Index vertex) const { return at_[vertex]; }
   /// Those at both vertices, in this order.
   std::vector<Index> at(Index a, Index b) const;
+  void at(Index a, Index b, std::vector<Index>& result) const;
 
 private:
   std::vector<Simplex> simplices_;
@@ -196,6 +197,8 @@ public:
   /// where it would turn over on the way there.
   double quality(const std::array<Index, 4>& cell) const;
   double quality(const std::array<Index, 3>& cell) const;
+  /// Of a cell that is there (of a mesh of triangles a facet). It is computed once.
+  double qualityOf(Index cell) const;
   /// Mean ratio with the vertices where they are.
   double presentQuality(const std::array<Index, 4>& cell) const;
   double presentQuality(const std::array<Index, 3>& cell) const;
@@ -217,10 +220,12 @@ public:
 
 private:
   Vector3 areaVector(const std::array<Index, 3>& facet) const;
+  void forgetQualities(Index v);
 
   Kind kind_ = Kind::Solid;
   Vector3 plane_{};
   std::vector<Vertex> vertices_;
+  mutable std::vector<double> qualities_; ///< Of the cells; NaN, or not there: not known.
   SimplexStore<4> cells_;
   SimplexStore<3> facets_;
   SimplexStore<2> segments_;

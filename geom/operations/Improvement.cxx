@@ -2,10 +2,12 @@
 
 #include <cadrefine/mesh/Quality.h>
 #include <cadrefine/operations/Operations.h>
+#include <cadrefine/operations/QualityCost.h>
 #include <cadrefine/operations/Relocation.h>
 #include <cadrefine/operations/TriangleOperations.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 #include <unordered_map>
 #include <utility>
@@ -15,8 +17,6 @@ namespace cadrefine
 namespace
 {
 
-/// What the worst cell must gain, of what it lacks.
-constexpr double leastGain = 0.01;
 constexpr int mostPasses = 10;
 
 /// A tetrahedron's or a triangle's.
@@ -69,7 +69,7 @@ public:
   using Cell = LabelledSimplex<Dimension + 1>;
 
   Improver(EditableMesh& mesh, const SurfaceRule* rule, const ImprovementLimits& limits)
-    : mesh_(mesh), rule_(rule), limits_(limits)
+    : mesh_(mesh), rule_(rule), limits_(limits), cost_(limits.floor)
   {
   }
 
@@ -82,7 +82,7 @@ public:
       const auto cell = static_cast<Index>(c);
       if (cells().exists(cell))
       {
-        const double quality = mesh_.quality(cells()[cell].corners);
+        const double quality = mesh_.qualityOf(cell);
         if (quality < limits_.floor)
         {
           bad.emplace_back(quality, cell);
@@ -104,7 +104,7 @@ public:
       }
       else
       {
-        tried_[cell] = now_;
+        noteFailure(cell);
       }
     }
     return changed;
@@ -140,10 +140,37 @@ private:
     }
     const auto& corners = cells()[cell].corners;
     const auto last = tried_.find(cell);
-    return mesh_.quality(corners) < limits_.floor &&
+    return mesh_.qualityOf(cell) < limits_.floor &&
            (last == tried_.end() ||
              std::any_of(corners.begin(), corners.end(),
                [&](Index vertex) { return changedAt(vertex) > last->second; }));
+  }
+
+  /// Nothing helped a cell, and so nothing that was tried with its edges: other cells need not try
+  /// the same again.
+  void noteFailure(Index cell)
+  {
+    tried_[cell] = now_;
+    const auto& corners = cells()[cell].corners;
+    const bool withSplit = mesh_.qualityOf(cell) < limits_.minimum;
+    for (const auto& [i, j] : edgesOfCell<Dimension>())
+    {
+      failures_[keyOf(corners[i], corners[j])] = { now_, withSplit };
+    }
+  }
+
+  static std::uint64_t keyOf(Index a, Index b)
+  {
+    const auto [low, high] = std::minmax(a, b);
+    return static_cast<std::uint64_t>(low) << 32 | static_cast<std::uint64_t>(high);
+  }
+
+  /// Whether it is known that nothing is to be gained from an edge as it is, also by halving it.
+  bool isHopeless(const std::array<Index, 2>& edge, bool withSplit) const
+  {
+    const auto found = failures_.find(keyOf(edge[0], edge[1]));
+    return found != failures_.end() && (found->second.withSplit || !withSplit) &&
+           changedAt(edge[0]) <= found->second.time && changedAt(edge[1]) <= found->second.time;
   }
 
   /// When the cells at a vertex last changed.
@@ -188,16 +215,14 @@ private:
     return corners;
   }
 
-  /// One operation, if one makes the worst cell better: the best of those that cost least.
+  /// One operation, if one makes cells better: the best of those that cost least.
   bool improve(Index cell)
   {
     const auto corners = cells()[cell].corners;
     best_ = {};
-    for (const auto& [i, j] : edgesOfCell<Dimension>())
-    {
-      consider(
-        proposeEdgeRemoval(mesh_, corners[i], corners[j], cavity_), &OperationCounts::edgeRemovals);
-    }
+    forEdges(corners, false,
+      [&](Index a, Index b)
+      { consider(proposeEdgeRemoval(mesh_, a, b, cavity_), &OperationCounts::edgeRemovals); });
     for (int k = 0; k <= Dimension; ++k)
     {
       if constexpr (Dimension == 3)
@@ -205,23 +230,66 @@ private:
         consider(proposeFaceRemoval(mesh_, cell, k, cavity_), &OperationCounts::faceRemovals);
       }
       considerMove(corners[k]);
+      if (Dimension == 2)
+      {
+        considerMoveOnCAD(corners[k]);
+      }
     }
     if (!best_.count)
     {
-      collapse(corners);
+      forEdges(corners, false,
+        [&](Index a, Index b)
+        {
+          considerCollapse(a, b);
+          considerCollapse(b, a);
+        });
     }
-    if (!best_.count && mesh_.quality(corners) < limits_.minimum)
+    const bool isBad = mesh_.qualityOf(cell) < limits_.minimum;
+    if (!best_.count && isBad)
     {
-      split(corners);
+      for (const Index vertex : corners)
+      {
+        considerMoveOnCAD(vertex);
+      }
+      forEdges(corners, true, [&](Index a, Index b) { considerSplit(a, b); });
     }
     return carryOut();
   }
 
-  /// Of triangles also a half of what a bad cell has: a narrow face of the CAD takes many splits.
-  static bool gains(double before, double after)
+  /// Of a cell's edges those from which something may be gained.
+  template<class Visit>
+  void forEdges(const Corners& corners, bool withSplit, const Visit& visit)
   {
-    const double least = leastGain * (1 - before);
-    return after > before + (Dimension == 2 && before > 0 ? std::min(least, 0.5 * before) : least);
+    for (const auto& [i, j] : edgesOfCell<Dimension>())
+    {
+      if (!isHopeless({ corners[i], corners[j] }, withSplit))
+      {
+        visit(corners[i], corners[j]);
+      }
+    }
+  }
+
+  double costOf(const std::vector<Index>& numbers) const
+  {
+    double cost = 0;
+    for (const Index number : numbers)
+    {
+      cost += cost_.of(mesh_.qualityOf(number));
+    }
+    return cost;
+  }
+
+  /// The least cost of a cell over the face of this one that is opposite to one of its vertices.
+  double leastCostOver(const Corners& corners, Index opposite) const
+  {
+    if constexpr (Dimension == 3)
+    {
+      const auto& face =
+        tetrahedronFaces[std::find(corners.begin(), corners.end(), opposite) - corners.begin()];
+      const auto at = [&](int k) -> const Point3& { return mesh_.vertex(corners[face[k]]).wanted; };
+      return cost_.of(largestMeanRatioOver(at(0), at(1), at(2)));
+    }
+    return 0;
   }
 
   /// Whether the operation in the cavity is the best so far.
@@ -231,12 +299,15 @@ private:
     {
       return false;
     }
-    double after = std::numeric_limits<double>::infinity();
-    const double before = mesh_.worst(removedCells());
+    const double worst = mesh_.worst(removedCells());
+    const double before = costOf(removedCells());
+    double newWorst = std::numeric_limits<double>::infinity();
+    double after = 0;
     for (const Cell& cell : newCells())
     {
-      after = std::min(after, mesh_.quality(cell.corners));
-      if (after <= best_.worst || !gains(before, after))
+      newWorst = std::min(newWorst, mesh_.quality(cell.corners));
+      after += cost_.of(mesh_.quality(cell.corners));
+      if (newWorst < worst || newWorst <= best_.worst || !QualityCost::isGain(before, after))
       {
         return false;
       }
@@ -246,7 +317,7 @@ private:
       return false;
     }
     best_.cavity = cavity_;
-    best_.worst = after;
+    best_.worst = newWorst;
     best_.count = count;
     best_.moved = -1;
     return true;
@@ -277,64 +348,104 @@ private:
            (rule_ && rule_->accepts(mesh_, cavity_, limits_.surface));
   }
 
-  /// Of triangles also on the CAD, where it has got there.
-  bool mayMove(Index number) const
-  {
-    using Freedom = EditableMesh::Freedom;
-    const Freedom freedom = mesh_.freedomOf(number);
-    if (Dimension == 3 || freedom == Freedom::None)
-    {
-      return freedom == Freedom::Space;
-    }
-    const EditableMesh::Vertex& vertex = mesh_.vertex(number);
-    const int dimension = freedom == Freedom::Facet ? 2 : 1;
-    return isInside(number) ||
-           (rule_ && vertex.entity.dimension == dimension && vertex.point == vertex.wanted);
-  }
-
+  /// Whether a vertex is inside the mesh: it may go anywhere.
   bool isInside(Index vertex) const
   {
-    return mesh_.kind() != EditableMesh::Kind::Surface && !mesh_.vertex(vertex).entity;
+    return Dimension == 3
+             ? mesh_.freedomOf(vertex) == EditableMesh::Freedom::Space
+             : mesh_.kind() != EditableMesh::Kind::Surface && !mesh_.vertex(vertex).entity &&
+                 mesh_.freedomOf(vertex) != EditableMesh::Freedom::None;
   }
 
-  /// Moves a vertex. The quality of its worst cell then; -2 where the boundary would follow the CAD
-  /// less well.
-  double relocated(Index vertex, const std::vector<Index>& around, double before)
+  /// Whether a vertex may go along the CAD: where it has got there.
+  bool isOnCAD(Index number) const
   {
-    const Simplices<Dimension + 1> corners = cornersOf(copiesOf(around));
-    if constexpr (Dimension == 2)
+    using Freedom = EditableMesh::Freedom;
+    const EditableMesh::Vertex& vertex = mesh_.vertex(number);
+    if (!rule_ || !vertex.entity || vertex.point != vertex.wanted)
     {
-      if (!isInside(vertex))
-      {
-        const SurfaceRule::Fit fit = rule_->fitAt(mesh_, vertex);
-        const double after = relocateOnCAD(mesh_, vertex, corners, rule_->projector());
-        const bool isAllowed =
-          gains(before, after) && SurfaceRule::isAsGood(rule_->fitAt(mesh_, vertex), fit);
-        return isAllowed ? after : -2;
-      }
+      return false;
     }
-    return relocate(mesh_, vertex, corners);
+    const Freedom freedom = mesh_.freedomOf(number);
+    const auto& facets = mesh_.facets().at(number);
+    return (freedom == Freedom::Facet || freedom == Freedom::Segment) &&
+           vertex.entity.dimension == (freedom == Freedom::Facet ? 2 : 1) &&
+           (Dimension == 2 || std::all_of(facets.begin(), facets.end(),
+                                [&](Index facet) { return mesh_.facets()[facet].label >= 0; }));
   }
 
   void considerMove(Index vertex)
   {
-    std::int64_t& stuck = stuck_.try_emplace(vertex, -1).first->second;
-    if (changedAt(vertex) <= stuck || !mayMove(vertex))
+    if (isInside(vertex))
+    {
+      considerMove(vertex,
+        [&](const auto& corners)
+        {
+          relocate(mesh_, vertex, corners);
+          return true;
+        });
+    }
+  }
+
+  /// The boundary is to follow the CAD as well as before.
+  void considerMoveOnCAD(Index vertex)
+  {
+    if (!isOnCAD(vertex))
     {
       return;
     }
-    const Point3 start = mesh_.vertex(vertex).point;
+    considerMove(vertex,
+      [&](const auto& corners)
+      {
+        const Point3 start = mesh_.vertex(vertex).point;
+        relocateOnCAD(mesh_, vertex, corners, rule_->projector());
+        const Point3 place = mesh_.vertex(vertex).point;
+        if (place == start)
+        {
+          return false;
+        }
+        const SurfaceRule::Fit after = rule_->fitAt(mesh_, vertex);
+        mesh_.moveVertex(vertex, start);
+        const SurfaceRule::Fit before = rule_->fitAt(mesh_, vertex);
+        mesh_.moveVertex(vertex, place);
+        return SurfaceRule::isAsGood(after, before);
+      });
+  }
+
+  /// `move` moves the vertex, given the corners of the cells at it, and returns whether it may.
+  template<class Move>
+  void considerMove(Index vertex, const Move& move)
+  {
+    std::int64_t& stuck = stuck_.try_emplace(vertex, -1).first->second;
+    if (changedAt(vertex) <= stuck)
+    {
+      return;
+    }
     const std::vector<Index>& around = cells().at(vertex);
-    const double before = mesh_.worst(around);
+    const Simplices<Dimension + 1> corners = cornersOf(copiesOf(around));
+    const double before = costOf(around);
+    double least = 0;
+    for (const Corners& cell : corners)
+    {
+      least += leastCostOver(cell, vertex);
+    }
+    if (!QualityCost::isGain(before, least))
+    {
+      stuck = now_;
+      return;
+    }
+    const Point3 start = mesh_.vertex(vertex).point;
+    const double worst = mesh_.worst(around);
     const double present = worstPresent(around);
-    const double after = relocated(vertex, around, before);
-    if (!gains(before, after))
+    const bool mayMove = move(corners);
+    const double newWorst = mesh_.worst(around);
+    if (!mayMove || newWorst < worst || !QualityCost::isGain(before, costOf(around)))
     {
       stuck = now_;
     }
-    else if (after > best_.worst && worstPresent(around) >= present)
+    else if (newWorst > best_.worst && worstPresent(around) >= present)
     {
-      best_.worst = after;
+      best_.worst = newWorst;
       best_.count = &OperationCounts::moves;
       best_.moved = vertex;
       best_.place = mesh_.vertex(vertex).point;
@@ -426,24 +537,43 @@ private:
     return parent;
   }
 
-  void collapse(const Corners& corners)
+  /// What costs least comes first: whether cells get too bad, before what the corners tell.
+  void considerCollapse(Index from, Index to)
   {
-    for (const auto& [i, j] : edgesOfCell<Dimension>())
+    if (mesh_.vertex(from).stays || mesh_.vertex(from).isOnRim)
     {
-      consider(
-        proposeCollapse(mesh_, corners[i], corners[j], cavity_), &OperationCounts::collapses);
-      consider(
-        proposeCollapse(mesh_, corners[j], corners[i], cavity_), &OperationCounts::collapses);
+      return;
     }
+    const std::vector<Index>& around = cells().at(from);
+    const double worst = mesh_.worst(around);
+    const double before = costOf(around);
+    double after = 0;
+    for (const Index cell : around)
+    {
+      Corners corners = cells()[cell].corners;
+      if (!hasCorner(corners, to))
+      {
+        std::replace(corners.begin(), corners.end(), from, to);
+        const double quality = mesh_.quality(corners);
+        after += cost_.of(quality);
+        if (quality < worst || quality <= best_.worst || !QualityCost::isGain(before, after))
+        {
+          return;
+        }
+      }
+    }
+    consider(proposeCollapse(mesh_, from, to, cavity_), &OperationCounts::collapses);
   }
 
-  /// Halves the edge for which that gains most.
-  void split(const Corners& corners)
+  /// Whether halves of the cells at an edge can be better, wherever its middle is.
+  bool canGainBySplit() const
   {
-    for (const auto& [i, j] : edgesOfCell<Dimension>())
+    double least = 0;
+    for (const Cell& half : newCells())
     {
-      considerSplit(corners[i], corners[j]);
+      least += leastCostOver(half.corners, middle_);
     }
+    return QualityCost::isGain(costOf(removedCells()), least);
   }
 
   void considerSplit(Index a, Index b)
@@ -454,7 +584,7 @@ private:
     {
       middle_ = mesh_.addVertex({});
     }
-    if (!proposeSplit(mesh_, a, b, middle_, cavity_))
+    if (!proposeSplit(mesh_, a, b, middle_, cavity_) || !canGainBySplit())
     {
       return;
     }
@@ -498,6 +628,7 @@ private:
   EditableMesh& mesh_;
   const SurfaceRule* rule_;
   const ImprovementLimits limits_;
+  const QualityCost cost_;
   Index middle_ = -1; ///< A vertex without cells.
   Cavity cavity_;
   Best best_;
@@ -505,6 +636,12 @@ private:
   std::vector<std::int64_t> changes_;             ///< See changedAt.
   std::unordered_map<Index, std::int64_t> tried_; ///< When nothing helped a cell.
   std::unordered_map<Index, std::int64_t> stuck_; ///< When no move helped a vertex.
+  struct Failure
+  {
+    std::int64_t time = 0;
+    bool withSplit = false;
+  };
+  std::unordered_map<std::uint64_t, Failure> failures_; ///< When nothing helped a cell at an edge.
   OperationResult result_;
 };
 

@@ -61,6 +61,10 @@ struct Ring
 /// Empty where the cells do not make one ring of the size that is allowed.
 Ring ringOf(const EditableMesh& mesh, const std::vector<Index>& cells, Index a, Index b)
 {
+  if (cells.size() > largestRing)
+  {
+    return {};
+  }
   std::vector<std::array<Index, 2>> links;
   links.reserve(cells.size());
   for (const Index cell : cells)
@@ -269,7 +273,7 @@ template<std::size_t Corners>
 void split(const SimplexStore<Corners>& store, Index a, Index b, Index middle,
   std::vector<Index>& removed, std::vector<LabelledSimplex<Corners>>& added)
 {
-  removed = store.at(a, b);
+  store.at(a, b, removed);
   for (const Index simplex : removed)
   {
     for (const Index end : { a, b })
@@ -294,14 +298,14 @@ bool proposeEdgeRemoval(const EditableMesh& mesh, Index a, Index b, Cavity& cavi
   {
     return false;
   }
-  cavity.cells = mesh.cells().at(a, b);
+  mesh.cells().at(a, b, cavity.cells);
   const Ring ring = ringOf(mesh, cavity.cells, a, b);
   if (ring.vertices.empty() || !areAlike(mesh, cavity.cells))
   {
     return false;
   }
   const std::vector<Index>& r = ring.vertices;
-  cavity.facets = mesh.facets().at(a, b);
+  mesh.facets().at(a, b, cavity.facets);
   if (cavity.facets.size() != (ring.isClosed ? 0 : 2) || (ring.isClosed && r.size() < 3))
   {
     return false;

@@ -195,6 +195,13 @@ double relocate(EditableMesh& mesh, Index vertex, const Simplices<3>& cells)
 }
 
 double relocateOnCAD(
+  EditableMesh& mesh, Index vertex, const Simplices<4>& cells, const BoundaryProjector& projector)
+{
+  return relocate(
+    mesh, Star(mesh, vertex, cells), OnEntity{ projector, mesh.vertex(vertex).entity });
+}
+
+double relocateOnCAD(
   EditableMesh& mesh, Index vertex, const Simplices<3>& cells, const BoundaryProjector& projector)
 {
   return relocate(

@@ -14,8 +14,10 @@ namespace cadrefine
 double relocate(EditableMesh& mesh, Index vertex, const Simplices<4>& cells);
 double relocate(EditableMesh& mesh, Index vertex, const Simplices<3>& cells);
 
-/// The same of a vertex of triangles on the CAD, along its face or edge, where it stays. Work: some
-/// 3 projections a step.
+/// The same of a vertex on the CAD, along its face or edge, where it stays. Work: some 3
+/// projections a step.
+double relocateOnCAD(
+  EditableMesh& mesh, Index vertex, const Simplices<4>& cells, const BoundaryProjector& projector);
 double relocateOnCAD(
   EditableMesh& mesh, Index vertex, const Simplices<3>& cells, const BoundaryProjector& projector);
 

@@ -16,6 +16,7 @@ cadrefine_geom_test(method_tests
     operations/FieldRowsTest.cxx
     operations/ImprovementTest.cxx
     operations/OperationsTest.cxx
+    operations/QualityCostTest.cxx
     operations/SurfaceRuleTest.cxx
     operations/TriangleImprovementTest.cxx
     operations/TriangleOperationsTest.cxx

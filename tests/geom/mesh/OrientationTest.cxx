@@ -51,6 +51,28 @@ TEST(Orientation, isExactNextToAPlane)
   }
 }
 
+/// With cells from good to flat by the last bit, and of any size.
+TEST(Orientation, ofOneSideIsTheSame)
+{
+  const Point3 a{ 0.1, 0.2, 0.3 };
+  const Point3 b{ 1.7, 0.9, 0.7 };
+  const Point3 c{ 0.4, 1.3, 0.1 };
+  const Point3 inside = (1.0 / 3.0) * (a + b + c);
+  for (double scale = 1e-60; scale < 1e61; scale *= 1e12)
+  {
+    for (double height = 1; height > 1e-20; height *= 0.1)
+    {
+      for (const double side : { -height, 0.0, height })
+      {
+        const Point3 d = inside + Vector3{ 0, 0, side };
+        EXPECT_EQ(isPositive(scale * a, scale * b, scale * c, scale * d),
+          orientation(scale * a, scale * b, scale * c, scale * d) > 0)
+          << scale << " " << side;
+      }
+    }
+  }
+}
+
 /// Midpoints of rounded coordinates need not lie on the line: the four corners of a bisected face
 /// may have a volume of one bit, whose sign changes with every exchange of two vertices.
 TEST(Orientation, changesItsSignWithEveryExchange)
