@@ -21,13 +21,6 @@ std::int64_t encode(const EdgeClass& edgeClass)
   return 1 + edgeClass.kind + 4 * static_cast<std::int64_t>(edgeClass.edge + 1);
 }
 
-EdgeClass decode(std::int64_t code)
-{
-  return code == 0 ? EdgeClass{}
-                   : EdgeClass{ static_cast<EdgeClass::Kind>((code - 1) % 4),
-                       static_cast<std::int32_t>((code - 1) / 4 - 1) };
-}
-
 BoundaryEdge edgeOf(const EdgeClass& edgeClass, const std::array<Index, 2>& ends,
   const SimplexMesh& mesh, const Classification& classification)
 {
@@ -114,6 +107,13 @@ std::vector<GlobalId> numberMidpoints(RankExchange& exchange, DistributedMesh& m
   return std::move(numbering.numbers);
 }
 
+EdgeClass classOfCode(std::int64_t code)
+{
+  return code == 0 ? EdgeClass{}
+                   : EdgeClass{ static_cast<EdgeClass::Kind>((code - 1) % 4),
+                       static_cast<std::int32_t>((code - 1) / 4 - 1) };
+}
+
 std::vector<std::int64_t> edgeCodes(
   RankExchange& exchange, const MarkedEdges& edges, const ClassifiedBoundary& classified)
 {
@@ -178,7 +178,7 @@ std::vector<MidpointOnCAD> projectMidpoints(RankExchange& exchange, const Simple
   {
     const bool isKnown = next != known.end() && next->edge == static_cast<Index>(e);
     const Index boundaryEdge = isKnown ? (next++)->boundaryEdge : -1;
-    const EdgeClass edgeClass = decode(codes[e]);
+    const EdgeClass edgeClass = classOfCode(codes[e]);
     if (edges.marks[e] && edgeClass.kind != EdgeClass::Straight)
     {
       if (!isKnown)
@@ -202,7 +202,8 @@ std::vector<MidpointOnCAD> projectMidpoints(RankExchange& exchange, const Simple
   for (std::size_t i = 0; edges.offCreases && i < midpoints.size(); ++i)
   {
     const Index e = edgesOf[i];
-    const BoundaryEdge edge = edgeOf(decode(codes[e]), edges.table.edges[e], mesh, classification);
+    const BoundaryEdge edge =
+      edgeOf(classOfCode(codes[e]), edges.table.edges[e], mesh, classification);
     midpoints[i].where = classified.projector.offCrease(edge, midpoints[i].where);
   }
   midpoints.erase(std::remove_if(midpoints.begin(), midpoints.end(),

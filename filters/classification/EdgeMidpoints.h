@@ -41,6 +41,9 @@ std::vector<GlobalId> numberMidpoints(RankExchange& exchange, DistributedMesh& m
 std::vector<std::int64_t> edgeCodes(
   RankExchange& exchange, const MarkedEdges& edges, const ClassifiedBoundary& classified);
 
+/// The class in such a number.
+EdgeClass classOfCode(std::int64_t code);
+
 /// Where the midpoints of these edges belong. Collective; shared out evenly over ranks and threads,
 /// and counted as `work` in the progress (see mapBalanced).
 Answers<ClosestPoint> projectEdges(RankExchange& exchange, const BoundaryProjector& projector,

@@ -6,6 +6,7 @@
 #include <cadrefine/refinement/RefinementTrace.h>
 
 #include <array>
+#include <cstddef>
 #include <string>
 #include <utility>
 #include <variant>
@@ -56,6 +57,11 @@ public:
   MeshArrays follow(RankExchange& exchange, MeshArrays arrays, std::size_t done = 0) const;
 
   std::size_t stageCount() const { return stages_.size(); }
+  /// Forgets what happened after so many stages.
+  void forgetAfter(std::size_t stages)
+  {
+    stages_.erase(stages_.begin() + static_cast<std::ptrdiff_t>(stages), stages_.end());
+  }
 
 private:
   using Edges = std::vector<std::array<Index, 2>>;

@@ -9,20 +9,23 @@ namespace cadrefine
 namespace
 {
 
-/// By their parents; where those of each begin.
+/// By their parents, those of one in the order in which they came; where those of each begin.
 template<std::size_t Corners>
-void order(std::vector<Descendant<Corners>>& descendants, std::size_t parentCount,
+void order(const std::vector<Descendant<Corners>>& descendants, std::size_t parentCount,
   Simplices<Corners>& cells, std::vector<Index>& firsts)
 {
-  std::stable_sort(descendants.begin(), descendants.end(),
-    [](const auto& a, const auto& b) { return a.parent < b.parent; });
   firsts.assign(parentCount + 1, 0);
   for (const auto& descendant : descendants)
   {
-    cells.push_back(descendant.corners);
     ++firsts[descendant.parent + 1];
   }
   std::partial_sum(firsts.begin(), firsts.end(), firsts.begin());
+  std::vector<Index> next(firsts.begin(), firsts.end() - 1);
+  cells.resize(descendants.size());
+  for (const auto& descendant : descendants)
+  {
+    cells[next[descendant.parent]++] = descendant.corners;
+  }
 }
 
 /// Adds rows with other targets and sources.

@@ -1,5 +1,6 @@
 #include "pipeline/CellImprovement.h"
 
+#include "classification/EdgeMidpoints.h"
 #include "mesh/MeshPlane.h"
 #include "motion/BoundaryMotion.h"
 #include "pipeline/LocalOperations.h"
@@ -11,8 +12,12 @@
 #include <cadrefine/motion/MoveGuard.h>
 #include <cadrefine/operations/Improvement.h>
 
+#include <vtkCellData.h>
+#include <vtkPointData.h>
+
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,6 +31,11 @@ constexpr int maximumRounds = 6;
 constexpr int ringsOfCells = 3;
 /// Cells below this are operated on in the neighbourhood of those below the user's limit.
 constexpr double aim = 0.3;
+/// Cells are cut so many times at most, as long as so much is left of what was bad.
+constexpr int maximumCuts = 8;
+constexpr double worthwhile = 0.75;
+/// A least mean ratio that is no smaller part of that before a step is as good.
+constexpr double asGood = 0.9;
 
 class CellImprovement
 {
@@ -47,27 +57,149 @@ public:
         return; // the CAD's edges do not tell on which surface they are
       }
     }
-    std::int64_t before = std::numeric_limits<std::int64_t>::max();
-    for (int round = 0; round < maximumRounds; ++round)
+    Left left = operateInRounds();
+    for (int cut = 0; cut < maximumCuts && mayCut(left); ++cut)
     {
-      const auto [flags, count] = findBad();
-      if (count == 0 || count >= before)
+      const Backup before(state_);
+      if (!cutBad(left))
       {
         return;
+      }
+      const Left now = operateInRounds();
+      if (!now.isWorthwhile(left))
+      {
+        before.restore(state_);
+        return;
+      }
+      left = now;
+    }
+  }
+
+private:
+  /// What is not as it should be, over all ranks.
+  struct Left
+  {
+    std::int64_t verticesOff = 0;
+    std::int64_t badCells = 0;
+
+    std::int64_t count() const { return verticesOff + badCells; }
+    /// Whether it is so much less than before that it is worth the new cells.
+    bool isWorthwhile(const Left& before) const
+    {
+      return verticesOff < before.verticesOff ||
+             (verticesOff == before.verticesOff &&
+               static_cast<double>(badCells) < worthwhile * static_cast<double>(before.badCells));
+    }
+  };
+
+  /// A mesh as it was.
+  class Backup
+  {
+  public:
+    explicit Backup(const MeshState& state)
+      : mesh_(state.mesh), arrays_(state.arrays), classification_(state.classification),
+        onBoundary_(state.onBoundary), stages_(state.mapping.stageCount())
+    {
+      // Lists of their own of the same arrays, as arrays come and go.
+      arrays_.ofVertices = vtkSmartPointer<vtkPointData>::New();
+      arrays_.ofVertices->ShallowCopy(state.arrays.ofVertices);
+      arrays_.ofCells = vtkSmartPointer<vtkCellData>::New();
+      arrays_.ofCells->ShallowCopy(state.arrays.ofCells);
+    }
+
+    void restore(MeshState& state) const
+    {
+      meshHasChanged(state);
+      state.mesh = mesh_;
+      state.arrays = arrays_;
+      state.classification = classification_;
+      state.onBoundary = onBoundary_;
+      state.mapping.forgetAfter(stages_);
+    }
+
+  private:
+    DistributedMesh mesh_;
+    MeshArrays arrays_;
+    std::optional<Classification> classification_;
+    std::vector<unsigned char> onBoundary_;
+    std::size_t stages_;
+  };
+
+  Left operateInRounds()
+  {
+    std::int64_t before = std::numeric_limits<std::int64_t>::max();
+    for (int round = 0;; ++round)
+    {
+      const Bad bad = findBad();
+      const std::int64_t count = bad.left.count();
+      if (count == 0 || count >= before || round == maximumRounds)
+      {
+        return bad.left;
       }
       before = count;
       exchange_.progress().say(static_cast<double>(round) / maximumRounds,
         "improving cells, round " + std::to_string(round + 1) + " of at most " +
           std::to_string(maximumRounds));
-      if (!improve(flags, round))
+      if (!improve(bad.vertices, round))
       {
-        return;
+        return bad.left;
       }
       moveOn();
     }
   }
 
-private:
+  /// Whether cells may be cut: where vertices are off the CAD, or where a step has made the worst
+  /// cell worse. What the CAD's own angles give stays.
+  bool mayCut(const Left& left)
+  {
+    if (mesh().dimension != 3 || options_.inRegion || left.count() == 0)
+    {
+      return false;
+    }
+    return left.verticesOff > 0 ||
+           qualityOf(exchange_, state_).minimum() < asGood * options_.qualityBefore;
+  }
+
+  /// Whether edges of the boundary off the CAD would be cut. Collective.
+  bool reachesWalls(const RefinementPlan& plan)
+  {
+    const auto codes = edgeCodes(exchange_, plan, boundaryOf(context_, state_));
+    bool reaches = false;
+    for (std::size_t e = 0; e < codes.size(); ++e)
+    {
+      reaches = reaches || (plan.marks[e] && codes[e] != 0 &&
+                             classOfCode(codes[e]).kind == EdgeClass::Straight);
+    }
+    return exchange_.any(reaches);
+  }
+
+  /// Bisects cells that are badly shaped and those at vertices off the CAD; for the former alone
+  /// not so that the boundary off the CAD gets new vertices. Returns whether that was done.
+  bool cutBad(const Left& left)
+  {
+    exchange_.progress().say(1, "cutting cells that operations do not help");
+    const auto& distances = state_.classification->distances;
+    const auto& cells = mesh().tetrahedra;
+    std::vector<unsigned char> marks(cells.size(), 0);
+    for (std::size_t c = 0; c < cells.size(); ++c)
+    {
+      marks[c] = std::any_of(
+        cells[c].begin(), cells[c].end(), [&](Index vertex) { return distances[vertex] > 0; });
+    }
+    for (const Index cell : badCells(wantedPoints()))
+    {
+      marks[cell] = 1;
+    }
+    RefinementPlan plan = planLongestEdge(exchange_, state_.mesh, marks, nullptr);
+    if (left.verticesOff == 0 && reachesWalls(plan))
+    {
+      return false;
+    }
+    plan.offCreases = true;
+    cut(context_, state_, plan, NewVertices::MoveOntoCAD);
+    return true;
+  }
+
   SimplexMesh& mesh() { return state_.mesh.mesh(); }
 
   /// Where the vertices are wanted. Collective.
@@ -89,7 +221,7 @@ private:
   struct Bad
   {
     std::vector<unsigned char> vertices; ///< 1: of a bad cell, or off the CAD.
-    std::int64_t count = 0;              ///< Such cells and vertices over all ranks.
+    Left left;
   };
 
   /// Vertices off the CAD, and cells that are badly shaped once they are on it. Collective.
@@ -110,21 +242,28 @@ private:
       [&](Index vertex) { return state_.mesh.shared.owner(vertex) == exchange_.rank(); });
     const std::vector<Index> cells = badCells(anyOff ? wantedPoints() : mesh().points);
     flagVertices(mesh(), cells, flags);
-    return { std::move(flags), exchange_.sum(owned + static_cast<std::ptrdiff_t>(cells.size())) };
+    const auto counts =
+      exchange_.sum(std::vector<std::int64_t>{ owned, static_cast<std::int64_t>(cells.size()) });
+    return { std::move(flags), { counts[0], counts[1] } };
   }
 
-  double qualityOfCell(const std::array<Index, 4>& cell, const std::vector<Point3>& points) const
+  /// Whether the mean ratio is below the minimum: with tetrahedra, of which there are most, by the
+  /// cubes of both.
+  bool isBad(const std::array<Index, 4>& cell, const std::vector<Point3>& points) const
   {
-    const auto& [i, j, k, l] = cell;
-    return meanRatio(points[i], points[j], points[k], points[l]);
+    const auto& [a, b, c, d] = cell;
+    const double twelfth = squaredEdgeLengths(points[a], points[b], points[c], points[d]) / 12;
+    const double volume = sixfoldVolume(points[a], points[b], points[c], points[d]) / 2;
+    const double least = options_.minimumQuality * twelfth;
+    return volume <= 0 || volume * volume < least * least * least;
   }
 
-  double qualityOfCell(const std::array<Index, 3>& cell, const std::vector<Point3>& points) const
+  bool isBad(const std::array<Index, 3>& cell, const std::vector<Point3>& points) const
   {
     const std::vector<Point3>& now = state_.mesh.mesh().points;
     const Vector3 side =
       plane_ != Vector3{} ? plane_ : twofoldAreaVector(now[cell[0]], now[cell[1]], now[cell[2]]);
-    return stateOf(cell, points, side).quality;
+    return stateOf(cell, points, side).quality < options_.minimumQuality;
   }
 
   std::vector<Index> badCells(const std::vector<Point3>& points) const
@@ -137,7 +276,7 @@ private:
           {
             for (std::size_t c = begin; c < end; ++c)
             {
-              if (mayChange(cells[c]) && qualityOfCell(cells[c], points) < options_.minimumQuality)
+              if (isBad(cells[c], points) && mayChange(cells[c]))
               {
                 bad.push_back(static_cast<Index>(c));
               }
@@ -173,8 +312,14 @@ private:
   /// Vertices that stopped on the way to the CAD try again.
   void moveOn()
   {
-    ClassifiedBoundary& boundary = boundaryOf(context_, state_);
     Classification& classification = *state_.classification;
+    const auto& distances = classification.distances;
+    if (!exchange_.any(std::any_of(
+          distances.begin(), distances.end(), [](double distance) { return distance > 0; })))
+    {
+      return;
+    }
+    ClassifiedBoundary& boundary = boundaryOf(context_, state_);
     const std::vector<Point3> before = pointsToKeep(state_);
     Moves moves = movesOntoCAD(mesh(), boundary.projector, classification);
     moveOntoCAD(exchange_, state_.mesh, std::move(moves), classification,

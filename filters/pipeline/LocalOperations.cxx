@@ -54,6 +54,19 @@ OperationBlocks gather(const PipelineContext& context, MeshState& state, Operati
   return blocks;
 }
 
+/// Those of the vertices that are left; new ones may be on the boundary.
+std::vector<unsigned char> flagsOfKept(
+  const std::vector<unsigned char>& flags, const std::vector<Index>& kept)
+{
+  std::vector<unsigned char> result(kept.size(), 1);
+  for (std::size_t i = 0; i < kept.size(); ++i)
+  {
+    const auto vertex = static_cast<std::size_t>(kept[i]);
+    result[i] = vertex < flags.size() ? flags[vertex] : 1;
+  }
+  return result;
+}
+
 } // namespace
 
 void findNumberings(RankExchange& exchange, MeshState& state)
@@ -82,7 +95,10 @@ std::int64_t operate(const PipelineContext& context, MeshState& state,
   OperationTrace trace = operateOnBlocks(exchange, state.mesh, *state.classification, boundary,
     { blocks, ofCells, work, { needs.means, !needs.densities.empty() } }, state.parallelFor);
   meshHasChanged(state);
-  state.onBoundary.clear();
+  if (!state.onBoundary.empty())
+  {
+    state.onBoundary = flagsOfKept(state.onBoundary, trace.keptVertices);
+  }
   const std::size_t done = state.mapping.stageCount();
   state.mapping.refine(std::move(trace.cells));
   state.mapping.convert(

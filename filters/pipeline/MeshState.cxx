@@ -159,6 +159,29 @@ void meshHasChanged(MeshState& state)
   state.quality.reset();
 }
 
+std::int64_t cut(const PipelineContext& context, MeshState& state, const RefinementPlan& plan,
+  NewVertices newVertices)
+{
+  std::vector<Point3> before = pointsToKeep(state);
+  RefinementTrace trace =
+    state.classification
+      ? refineOntoCAD(context.exchange, state.mesh, plan, boundaryOf(context, state),
+          *state.classification, newVertices, context.statistics)
+      : refine(context.exchange, state.mesh, plan, context.statistics);
+  meshHasChanged(state);
+  state.onBoundary = std::move(trace.onBoundary);
+  const std::int64_t projectedPoints = trace.projectedPoints;
+  const RunStatistics::Stopwatch stopwatch(context.statistics, "seconds copying fields");
+  if (!state.mapping.needs().densities.empty())
+  {
+    trace.ofDensities = densitiesOfRefined(state.mesh.mesh(), trace, std::move(before));
+  }
+  const std::size_t done = state.mapping.stageCount();
+  state.mapping.refine(std::move(trace));
+  followMapping(context.exchange, state, done);
+  return projectedPoints;
+}
+
 vtkSmartPointer<vtkPointSet> makeDataSet(const MeshState& state)
 {
   const ConvertedMesh& converted = state.mesh.converted;

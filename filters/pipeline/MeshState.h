@@ -8,6 +8,7 @@
 #include "mesh/DistributedMesh.h"
 #include "pipeline/PipelineContext.h"
 #include "pipeline/PipelineResult.h"
+#include "refinement/DistributedRefinement.h"
 
 #include <cadrefine/cad/model/EntitySelection.h>
 #include <cadrefine/mesh/QualitySummary.h>
@@ -93,6 +94,11 @@ void meshHasChanged(MeshState& state);
 
 /// Sends the cells to these ranks (see Balancing.h). Collective.
 void redistribute(const PipelineContext& context, MeshState& state, const std::vector<int>& ranks);
+
+/// Cuts the mesh as planned (see refineOntoCAD; of a mesh that is not classified, refine), and its
+/// arrays with it. Returns how many points were projected. Collective.
+std::int64_t cut(const PipelineContext& context, MeshState& state, const RefinementPlan& plan,
+  NewVertices newVertices);
 
 /// The mesh as a data set with all arrays.
 vtkSmartPointer<vtkPointSet> makeDataSet(const MeshState& state);

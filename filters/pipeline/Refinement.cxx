@@ -281,29 +281,18 @@ private:
   {
     const bool withOperations = options_.projectNewVertices && options_.minimumQuality;
     plan.offCreases = withOperations;
-    std::vector<Point3> before = pointsToKeep(state_);
-    RefinementTrace trace = state_.classification
-                              ? refineOntoCAD(exchange_, state_.mesh, plan, boundary(),
-                                  *state_.classification, newVertices_, context_.statistics)
-                              : refine(exchange_, state_.mesh, plan, context_.statistics);
-    meshHasChanged(state_);
-    projectedPoints_ += trace.projectedPoints;
-    state_.onBoundary = std::move(trace.onBoundary);
+    const double qualityBefore = withOperations ? qualityOf(exchange_, state_).minimum() : 1;
+    if (state_.classification)
     {
-      const auto stopwatch = watch("seconds copying fields");
-      if (!state_.mapping.needs().densities.empty())
-      {
-        trace.ofDensities = densitiesOfRefined(state_.mesh.mesh(), trace, std::move(before));
-      }
-      const std::size_t done = state_.mapping.stageCount();
-      state_.mapping.refine(std::move(trace));
-      followMapping(exchange_, state_, done);
+      boundary(); // so that its time is that of the projection
     }
+    projectedPoints_ += cut(context_, state_, plan, newVertices_);
     if (withOperations)
     {
       const auto stopwatch = watch("seconds local operations");
       CellImprovementOptions improvement{ *options_.minimumQuality };
       improvement.surface.keepsError = options_.keepsError;
+      improvement.qualityBefore = qualityBefore;
       improveCells(context_, state_, improvement);
     }
   }

@@ -146,6 +146,7 @@ WING_SEEDS = (1, 2, 3)
 FILES = {
     "bottle": ("/usr/share/opencascade/data/occ/bottle.brep", 4.7),
     "crank_arm": ("/usr/share/opencascade/data/occ/CrankArm.brep", 7.7),
+    "crank_arm_coarse": ("/usr/share/opencascade/data/occ/CrankArm.brep", 12.25),
 }
 
 
