@@ -182,7 +182,8 @@ private:
     {
       return true;
     }
-    if (!rule_.accepts(mesh_, cavity_, { limits_.distance, false, true }))
+    if (!rule_.accepts(
+          mesh_, cavity_, { limits_.distance, false, SurfaceLimits::Walls::LoseVertices }))
     {
       return false;
     }
@@ -226,7 +227,7 @@ OperationResult coarsen(EditableMesh& mesh, const SurfaceRule& rule,
   double errorLeft =
     limits.errorPerFacet < infinity ? limits.errorPerFacet * countFacetsOnCAD(mesh) : infinity;
   std::int64_t collapses = Coarsener<Dimension>(mesh, rule, goes, limits, errorLeft).run();
-  const SurfaceLimits surface{ 0, true, true };
+  const SurfaceLimits surface{ 0, true, SurfaceLimits::Walls::LoseVertices };
   OperationResult result = improveCells(
     mesh, &rule, { std::max(limits.minimumQuality, aim), limits.minimumQuality, surface });
   goes.resize(mesh.vertexCount(), 0);

@@ -49,7 +49,7 @@ bool areTurnedAlike(const EditableMesh&, const std::array<Index, 2>&, const std:
 /// lines: each new part lies in one of those before, and is turned as that is.
 template<class Store, class List>
 bool areWallsKept(const EditableMesh& mesh, const Store& store, const std::vector<Index>& before,
-  const List& after, bool mayChange)
+  const List& after, SurfaceLimits::Walls walls)
 {
   const auto isPartOf = [&](const auto& wall, const auto& old)
   {
@@ -62,11 +62,21 @@ bool areWallsKept(const EditableMesh& mesh, const Store& store, const std::vecto
     return std::any_of(
       before.begin(), before.end(), [&](Index old) { return isPartOf(wall, store[old]); });
   };
-  const bool hasWalls =
-    std::any_of(before.begin(), before.end(), [&](Index old) { return store[old].label < 0; });
-  return !hasWalls ||
-         (mayChange && std::all_of(after.begin(), after.end(),
-                         [&](const auto& part) { return part.label >= 0 || isOnWall(part); }));
+  const auto isLeft = [&](Index vertex)
+  {
+    return std::any_of(after.begin(), after.end(),
+      [&](const auto& part) { return part.label < 0 && hasCorner(part.corners, vertex); });
+  };
+  const auto stays = [&](Index old)
+  {
+    const auto& corners = store[old].corners;
+    return store[old].label >= 0 || walls == SurfaceLimits::Walls::LoseVertices ||
+           (walls == SurfaceLimits::Walls::KeepVertices &&
+             std::all_of(corners.begin(), corners.end(), isLeft));
+  };
+  return std::all_of(before.begin(), before.end(), stays) &&
+         std::all_of(after.begin(), after.end(),
+           [&](const auto& part) { return part.label >= 0 || isOnWall(part); });
 }
 
 } // namespace
@@ -108,10 +118,9 @@ bool SurfaceRule::accepts(
   const EditableMesh& mesh, const Cavity& cavity, const SurfaceLimits& limits) const
 {
   const bool isPlane = mesh.kind() == EditableMesh::Kind::Plane;
-  const bool keepsWalls = isPlane ? areWallsKept(mesh, mesh.segments(), cavity.segments,
-                                      cavity.newSegments, limits.changesWalls)
-                                  : areWallsKept(mesh, mesh.facets(), cavity.facets,
-                                      cavity.newFacets, limits.changesWalls);
+  const bool keepsWalls =
+    isPlane ? areWallsKept(mesh, mesh.segments(), cavity.segments, cavity.newSegments, limits.walls)
+            : areWallsKept(mesh, mesh.facets(), cavity.facets, cavity.newFacets, limits.walls);
   return keepsWalls &&
          (isPlane ? acceptsSegments(mesh, cavity, limits.distance)
                   : acceptsFacets(mesh, cavity, limits.distance)) &&

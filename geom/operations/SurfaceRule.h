@@ -14,9 +14,17 @@ namespace cadrefine
 /// What may become of a boundary.
 struct SurfaceLimits
 {
-  double distance = 0;       ///< From the CAD, at least what facets before have.
-  bool keepsError = false;   ///< The geometric error must not become larger.
-  bool changesWalls = false; ///< Facets off the CAD may be exchanged for others in their planes.
+  double distance = 0;     ///< From the CAD, at least what facets before have.
+  bool keepsError = false; ///< The geometric error must not become larger.
+  /// What may become of facets off the CAD: nothing, or, where they lie in one plane (segments: on
+  /// a line), they may be exchanged for others there, with the same vertices or with fewer.
+  enum class Walls
+  {
+    Stay,
+    KeepVertices,
+    LoseVertices
+  };
+  Walls walls = Walls::KeepVertices;
 };
 
 /// Judges new boundary facets, of a planar mesh segments, with their vertices where they are

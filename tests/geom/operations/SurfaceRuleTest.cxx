@@ -117,7 +117,7 @@ TEST_F(SurfaceRules, errorGainIsTheVolumeBetweenTheFacets)
     const auto at = [&](Index v) { return mesh.vertex(v).point; };
     const double volume = std::abs(sixfoldVolume(at(0), at(1), at(2), at(3))) / 6;
     EXPECT_NEAR(rule.errorGain(mesh, cavity), -volume, 0.05 * volume) << scale;
-    EXPECT_TRUE(rule.accepts(mesh, cavity, { 0, true, false }));
+    EXPECT_TRUE(rule.accepts(mesh, cavity, { 0, true }));
   }
 }
 
@@ -139,8 +139,8 @@ TEST_F(SurfaceRules, wallsChangeInTheirPlaneAlone)
     mesh.addFacet({ { 0, 2, 3 }, -2, -1 });
     Cavity cavity;
     ASSERT_TRUE(proposeEdgeRemoval(mesh, 0, 2, cavity));
-    EXPECT_FALSE(rule.accepts(mesh, cavity));
-    EXPECT_EQ(rule.accepts(mesh, cavity, { 0, false, true }), height == 0);
+    EXPECT_FALSE(rule.accepts(mesh, cavity, { 0, false, SurfaceLimits::Walls::Stay }));
+    EXPECT_EQ(rule.accepts(mesh, cavity), height == 0);
   }
 }
 
