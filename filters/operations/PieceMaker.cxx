@@ -11,7 +11,7 @@ namespace
 
 /// By their parents, those of one in the order in which they came; where those of each begin.
 template<std::size_t Corners>
-void order(const std::vector<Descendant<Corners>>& descendants, std::size_t parentCount,
+void order(std::vector<Descendant<Corners>>& descendants, std::size_t parentCount,
   Simplices<Corners>& cells, std::vector<Index>& firsts)
 {
   firsts.assign(parentCount + 1, 0);
@@ -21,11 +21,15 @@ void order(const std::vector<Descendant<Corners>>& descendants, std::size_t pare
   }
   std::partial_sum(firsts.begin(), firsts.end(), firsts.begin());
   std::vector<Index> next(firsts.begin(), firsts.end() - 1);
+  std::vector<Descendant<Corners>> ordered(descendants.size());
   cells.resize(descendants.size());
   for (const auto& descendant : descendants)
   {
-    cells[next[descendant.parent]++] = descendant.corners;
+    const Index place = next[descendant.parent]++;
+    ordered[place] = descendant;
+    cells[place] = descendant.corners;
   }
+  descendants = std::move(ordered);
 }
 
 /// Adds rows with other targets and sources.
