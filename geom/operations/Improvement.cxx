@@ -292,6 +292,27 @@ private:
     return 0;
   }
 
+  /// The worst quality of some cells, and what they cost together.
+  struct State
+  {
+    double worst;
+    double cost;
+  };
+
+  /// Whether cells may be exchanged for others. Of triangles the worst one has to gain a hundredth
+  /// of what it lacks, or, if that is less, half of what it has: a narrow face of the CAD takes
+  /// many splits.
+  static bool gains(const State& before, const State& after)
+  {
+    if constexpr (Dimension == 3)
+    {
+      return after.worst >= before.worst && QualityCost::isGain(before.cost, after.cost);
+    }
+    const double least = 0.01 * (1 - before.worst);
+    return after.worst >
+           before.worst + (before.worst > 0 ? std::min(least, 0.5 * before.worst) : least);
+  }
+
   /// Whether the operation in the cavity is the best so far.
   bool consider(bool isPossible, Count count)
   {
@@ -307,7 +328,7 @@ private:
     {
       newWorst = std::min(newWorst, mesh_.quality(cell.corners));
       after += cost_.of(mesh_.quality(cell.corners));
-      if (newWorst < worst || newWorst <= best_.worst || !QualityCost::isGain(before, after))
+      if (newWorst <= best_.worst || !gains({ worst, before }, { newWorst, after }))
       {
         return false;
       }
@@ -390,9 +411,9 @@ private:
   /// The boundary is to follow the CAD as well as before.
   void considerMoveOnCAD(Index vertex)
   {
-    if (!isOnCAD(vertex))
+    if (!isOnCAD(vertex) || limits_.surface.keepsError)
     {
-      return;
+      return; // what a move adds to the error is not asked
     }
     considerMove(vertex,
       [&](const auto& corners)
@@ -439,7 +460,7 @@ private:
     const double present = worstPresent(around);
     const bool mayMove = move(corners);
     const double newWorst = mesh_.worst(around);
-    if (!mayMove || newWorst < worst || !QualityCost::isGain(before, costOf(around)))
+    if (!mayMove || !gains({ worst, before }, { newWorst, costOf(around) }))
     {
       stuck = now_;
     }
@@ -556,7 +577,7 @@ private:
         std::replace(corners.begin(), corners.end(), from, to);
         const double quality = mesh_.quality(corners);
         after += cost_.of(quality);
-        if (quality < worst || quality <= best_.worst || !QualityCost::isGain(before, after))
+        if (quality <= best_.worst || !gains({ worst, before }, { quality, after }))
         {
           return;
         }
