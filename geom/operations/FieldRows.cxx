@@ -406,14 +406,35 @@ private:
     }
     else if (isOld(vertex) || !mesh_.vertex(vertex).entity)
     {
-      std::vector<Index> all(old_.size());
-      std::iota(all.begin(), all.end(), 0);
-      const auto [nearest, outside] = deepest(point, all);
+      const auto [nearest, outside] = leastOutside(vertex, search);
       if (nearest >= 0)
       {
         addVertexRow(vertex, nearest, outside);
       }
     }
+  }
+
+  /// Among the old cells near those that the vertex has now; of all where there are none.
+  std::pair<Index, std::array<double, Corners>> leastOutside(
+    Index vertex, const ShapeSearch<Corners>& search) const
+  {
+    BoundingBox box;
+    for (const Index cell : cells_.at(vertex))
+    {
+      for (const Index corner : cells_[cell].corners)
+      {
+        box.include(mesh_.vertex(corner).point);
+      }
+    }
+    const Point3& point = mesh_.vertex(vertex).point;
+    const auto found = deepest(point, search.near(box));
+    if (found.first >= 0)
+    {
+      return found;
+    }
+    std::vector<Index> all(old_.size());
+    std::iota(all.begin(), all.end(), 0);
+    return deepest(point, all);
   }
 
   std::pair<Index, std::array<double, Corners>> deepest(

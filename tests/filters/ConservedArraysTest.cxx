@@ -426,7 +426,7 @@ TEST_F(FieldsUnderOperations, ofTrianglesKeepTheirIntegrals)
         [](vtkRefineWithCAD* filter)
         {
           conserve(filter);
-          filter->SetLevels(4);
+          filter->SetLevels(3);
           filter->SetMinimumQuality(0.9);
         });
     };
