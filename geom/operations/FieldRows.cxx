@@ -384,7 +384,7 @@ private:
     for (std::size_t v = 0; v < mesh_.vertexCount(); ++v)
     {
       const auto vertex = static_cast<Index>(v);
-      if (isOld(vertex) ? moved_[v] != 0 : !cells_.at(vertex).empty())
+      if (!cells_.at(vertex).empty() && (!isOld(vertex) || moved_[v] != 0))
       {
         addVertex(vertex, search);
       }
