@@ -268,7 +268,8 @@ ClosestPoint BoundaryProjector::offCrease(const BoundaryEdge& edge, const Closes
     return isBeside ? where : border;
   }
   // As far inside as the middle is outside; where the face is narrower than that, less.
-  for (double part = 1; part >= leastPartInside; part *= 0.5)
+  double part = 1;
+  while (part >= leastPartInside)
   {
     ClosestPoint inside =
       nearestOnShared(edge.entities, border.point + part * (border.point - middle));
@@ -277,6 +278,7 @@ ClosestPoint BoundaryProjector::offCrease(const BoundaryEdge& edge, const Closes
       inside.distance = distance(middle, inside.point);
       return inside;
     }
+    part *= 0.5;
   }
   return border;
 }

@@ -58,10 +58,12 @@ TEST(Orientation, ofOneSideIsTheSame)
   const Point3 b{ 1.7, 0.9, 0.7 };
   const Point3 c{ 0.4, 1.3, 0.1 };
   const Point3 inside = (1.0 / 3.0) * (a + b + c);
-  for (double scale = 1e-60; scale < 1e61; scale *= 1e12)
+  for (int k = -60; k <= 60; k += 12)
   {
-    for (double height = 1; height > 1e-20; height *= 0.1)
+    const double scale = std::pow(10.0, k);
+    for (int l = 0; l <= 20; ++l)
     {
+      const double height = std::pow(0.1, l);
       for (const double side : { -height, 0.0, height })
       {
         const Point3 d = inside + Vector3{ 0, 0, side };

@@ -5,6 +5,7 @@
 #include <cadrefine/mesh/Overlap.h>
 #include <cadrefine/operations/FieldRows.h>
 #include <cadrefine/operations/Improvement.h>
+#include <cadrefine/operations/Operations.h>
 
 #include <gtest/gtest.h>
 
@@ -283,6 +284,39 @@ TEST(FieldRows, ofTrianglesInSpace)
   EXPECT_NEAR(valueOf(rows.ofDensities, 0, { 1, 3 }) * area(2) +
                 valueOf(rows.ofDensities, 1, { 1, 3 }) * area(3),
     held, 1e-15 * held + 1e-15);
+}
+
+/// A vertex that moved and then went is in no cell any more.
+TEST(FieldRows, haveNoneOfVerticesThatWent)
+{
+  EditableMesh mesh = cadtest::spoiltCube(1);
+  const MeshBefore was = before(mesh);
+  Index gone = -1;
+  Cavity cavity;
+  for (std::size_t v = 0; v < mesh.vertexCount() && gone < 0; ++v)
+  {
+    const auto vertex = static_cast<Index>(v);
+    for (const Index cell : std::vector<Index>(mesh.cells().at(vertex)))
+    {
+      for (const Index to : mesh.cells()[cell].corners)
+      {
+        if (gone < 0 && to != vertex && proposeCollapse(mesh, vertex, to, cavity) &&
+            mesh.isValid(cavity))
+        {
+          gone = vertex;
+        }
+      }
+    }
+    if (gone >= 0)
+    {
+      mesh.moveVertex(gone, mesh.vertex(gone).point + Vector3{ 1e-6, 0, 0 });
+      mesh.replace(cavity);
+    }
+  }
+  ASSERT_GE(gone, 0);
+  const FieldRows rows = findFieldRows(mesh, was, { true, true });
+  EXPECT_EQ(std::count(rows.ofVertices.targets.begin(), rows.ofVertices.targets.end(), gone), 0);
+  EXPECT_FALSE(rows.ofCells.empty());
 }
 
 } // namespace
