@@ -2,6 +2,7 @@
 
 #include <cadrefine/mesh/Quality.h>
 #include <cadrefine/operations/Operations.h>
+#include <cadrefine/operations/ParentCells.h>
 #include <cadrefine/operations/QualityCost.h>
 #include <cadrefine/operations/Relocation.h>
 #include <cadrefine/operations/TriangleOperations.h>
@@ -31,33 +32,6 @@ constexpr const auto& edgesOfCell()
   {
     return triangleEdges;
   }
-}
-
-/// How far a point is within a tetrahedron, in parts of it: the smallest of its four coordinates.
-double depthIn(const std::array<Point3, 4>& cell, const Point3& point)
-{
-  const double volume = sixfoldVolume(cell[0], cell[1], cell[2], cell[3]);
-  double depth = std::numeric_limits<double>::infinity();
-  for (const auto& face : tetrahedronFaces)
-  {
-    const double part = -sixfoldVolume(cell[face[0]], cell[face[1]], cell[face[2]], point);
-    depth = std::min(depth, volume > 0 ? part / volume : part);
-  }
-  return depth;
-}
-
-/// The same of a triangle, seen along its normal.
-double depthIn(const std::array<Point3, 3>& cell, const Point3& point)
-{
-  const Vector3 whole = twofoldAreaVector(cell[0], cell[1], cell[2]);
-  const double area = squaredNorm(whole);
-  double depth = std::numeric_limits<double>::infinity();
-  for (const auto& [i, j] : triangleEdges)
-  {
-    const double part = dot(whole, twofoldAreaVector(cell[i], cell[j], point));
-    depth = std::min(depth, area > 0 ? part / area : part);
-  }
-  return depth;
 }
 
 /// Of the cells of a mesh of this dimension.
@@ -507,7 +481,7 @@ private:
     {
       if (cell.parent < 0)
       {
-        cell.parent = parentOf(cell.corners, cavity.cellsOf<Dimension>());
+        cell.parent = parentOf(mesh_, cells(), cell.corners, cavity.cellsOf<Dimension>());
       }
     }
     mesh_.replace(cavity);
@@ -524,38 +498,6 @@ private:
     {
       return cavity.newFacets;
     }
-  }
-
-  std::array<Point3, Dimension + 1> pointsOf(const Corners& corners) const
-  {
-    std::array<Point3, Dimension + 1> points;
-    std::transform(corners.begin(), corners.end(), points.begin(),
-      [&](Index vertex) { return mesh_.vertex(vertex).point; });
-    return points;
-  }
-
-  /// The parent of the cell that the centroid lies in, or least outside of.
-  Index parentOf(const Corners& corners, const std::vector<Index>& numbers) const
-  {
-    const auto points = pointsOf(corners);
-    Point3 sum = points[0];
-    for (int k = 1; k <= Dimension; ++k)
-    {
-      sum = sum + points[k];
-    }
-    const Point3 centroid = (1.0 / (Dimension + 1)) * sum;
-    Index parent = -1;
-    double deepest = -std::numeric_limits<double>::infinity();
-    for (const Index cell : numbers)
-    {
-      const double depth = depthIn(pointsOf(cells()[cell].corners), centroid);
-      if (depth > deepest)
-      {
-        deepest = depth;
-        parent = cells()[cell].parent;
-      }
-    }
-    return parent;
   }
 
   /// What costs least comes first: whether cells get too bad, before what the corners tell.
