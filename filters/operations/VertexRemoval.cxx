@@ -6,7 +6,7 @@
 #include <cadrefine/operations/EditableMesh.h>
 
 #include <algorithm>
-#include <cstdint>
+#include <utility>
 
 namespace cadrefine
 {

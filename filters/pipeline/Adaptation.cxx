@@ -17,6 +17,7 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -207,12 +208,12 @@ private:
       criteria.push_back(asThreshold(exchange_, state_.mesh, state_.arrays, criterion));
     }
     const EntitySelection faces = selectFaces(context_, state_, options_.refinement.faces);
-    for (const double tolerance : faces.chordTolerances)
+    std::set<double> tolerances(faces.chordTolerances.begin(), faces.chordTolerances.end());
+    tolerances.erase(0);
+    if (!tolerances.empty())
     {
-      if (tolerance > 0)
-      {
-        criteria.push_back({ arrays::chordError, MarkingCriterion::Strategy::AtLeast, tolerance });
-      }
+      criteria.push_back(
+        { arrays::chordError, MarkingCriterion::Strategy::AtLeast, *tolerances.begin() });
     }
     for (MarkingCriterion& criterion : criteria)
     {

@@ -12,7 +12,6 @@
 #include <cadrefine/cad/import/CADFile.h>
 
 #include <vtkCellData.h>
-#include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkIntArray.h>
 #include <vtkNew.h>
@@ -32,15 +31,7 @@ vtkSmartPointer<vtkPointSet> fineMesh(const cadtest::FilterRun& filters)
 {
   auto mesh = filters.refineUniformly(
     filters.project(cadtest::readGrid(CADREFINE_TRUTH "/box_minus_cylinder_coarse.vtu")));
-  vtkNew<vtkDoubleArray> indicator;
-  indicator->SetName("Indicator");
-  for (vtkIdType c = 0; c < mesh->GetNumberOfCells(); ++c)
-  {
-    std::array<double, 6> bounds{};
-    mesh->GetCellBounds(c, bounds.data());
-    indicator->InsertNextValue(bounds[1]);
-  }
-  mesh->GetCellData()->AddArray(indicator);
+  cadtest::addLargestX(mesh, "Indicator");
   vtkNew<vtkIntArray> numbers; // no tags, also on a rank that has no cells at first
   numbers->SetName("Number");
   for (vtkIdType c = 0; c < mesh->GetNumberOfCells(); ++c)

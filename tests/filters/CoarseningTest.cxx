@@ -93,18 +93,7 @@ class CoarseningAeroplane : public testing::Test
 {
 protected:
   /// An indicator that is the largest x of each cell.
-  void SetUp() override
-  {
-    vtkNew<vtkDoubleArray> indicator;
-    indicator->SetName("Indicator");
-    for (vtkIdType c = 0; c < mesh->GetNumberOfCells(); ++c)
-    {
-      std::array<double, 6> bounds{};
-      mesh->GetCellBounds(c, bounds.data());
-      indicator->InsertNextValue(bounds[1]);
-    }
-    mesh->GetCellData()->AddArray(indicator);
-  }
+  void SetUp() override { cadtest::addLargestX(mesh, "Indicator"); }
 
   FilterRun filters{ CADREFINE_DATA "/aeroplane.igs" };
   FilterRun::Data mesh = filters.project(cadtest::readGrid(CADREFINE_DATA "/aeroplane_coarse.vtu"));

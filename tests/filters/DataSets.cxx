@@ -22,6 +22,7 @@
 #include <vtkXMLUnstructuredGridReader.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <map>
 #include <stdexcept>
@@ -305,6 +306,19 @@ void addArrays(vtkPointSet* dataSet)
   dataSet->GetPointData()->AddArray(region);
   dataSet->GetCellData()->AddArray(tag);
   dataSet->GetCellData()->AddArray(colour);
+}
+
+void addLargestX(vtkPointSet* dataSet, const char* name)
+{
+  vtkNew<vtkDoubleArray> values;
+  values->SetName(name);
+  for (vtkIdType c = 0; c < dataSet->GetNumberOfCells(); ++c)
+  {
+    std::array<double, 6> bounds{};
+    dataSet->GetCellBounds(c, bounds.data());
+    values->InsertNextValue(bounds[1]);
+  }
+  dataSet->GetCellData()->AddArray(values);
 }
 
 void addGlobalIds(vtkPointSet* dataSet)

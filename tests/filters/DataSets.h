@@ -49,6 +49,9 @@ void addArrays(vtkPointSet* dataSet);
 /// The linear function.
 double linearAt(const double point[3]);
 
+/// Adds a cell array of this name: the largest x of each cell.
+void addLargestX(vtkPointSet* dataSet, const char* name);
+
 /// Sets global ids of points and cells, in an order that is not that of the points and cells.
 void addGlobalIds(vtkPointSet* dataSet);
 
