@@ -1,0 +1,559 @@
+// Validity, shape and size of hexahedra, wedges, pyramids and quadrilaterals: closed forms, and
+// sampling that must never contradict.
+
+#include "FloatingPointPause.h"
+
+#include <cadrefine/mesh/CellJacobian.h>
+#include <cadrefine/mesh/Quality.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <random>
+#include <set>
+
+namespace
+{
+
+using namespace cadrefine;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+const double pi = std::acos(-1.0);
+const Vector3 up{ 0, 0, 1 };
+
+const Quadrilateral square{ { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 } } };
+const Hexahedron cube{ { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 }, { 0, 0, 1 },
+  { 1, 0, 1 }, { 1, 1, 1 }, { 0, 1, 1 } } };
+const Wedge prism{ { { 0, 0, 0 }, { 1, 0, 0 }, { 0.5, std::sqrt(0.75), 0 }, { 0, 0, 1 },
+  { 1, 0, 1 }, { 0.5, std::sqrt(0.75), 1 } } };
+const Pyramid pyramid{ { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 },
+  { 0.5, 0.5, std::sqrt(0.5) } } };
+
+/// Shape functions, written out.
+Point3 pointAt(const Hexahedron& c, const Vector3& at)
+{
+  const auto [r, s, t] = at;
+  return (1 - r) * (1 - s) * (1 - t) * c[0] + r * (1 - s) * (1 - t) * c[1] +
+         r * s * (1 - t) * c[2] + (1 - r) * s * (1 - t) * c[3] + (1 - r) * (1 - s) * t * c[4] +
+         r * (1 - s) * t * c[5] + r * s * t * c[6] + (1 - r) * s * t * c[7];
+}
+
+/// The triangle from a square, folded down at one side: its corner 0 is at s = 1.
+Point3 pointAt(const Wedge& c, const Vector3& at)
+{
+  const auto [r, s, t] = at;
+  const double weight[3] = { s, (1 - r) * (1 - s), r * (1 - s) };
+  Point3 result{};
+  for (int k = 0; k < 3; ++k)
+  {
+    result = result + weight[k] * ((1 - t) * c[k] + t * c[3 + k]);
+  }
+  return result;
+}
+
+Point3 pointAt(const Pyramid& c, const Vector3& at)
+{
+  const auto [r, s, t] = at;
+  const Point3 base =
+    (1 - r) * (1 - s) * c[0] + r * (1 - s) * c[1] + r * s * c[2] + (1 - r) * s * c[3];
+  return (1 - t) * base + t * c[4];
+}
+
+/// By differences across the whole cell, in each direction of which the maps are linear.
+template<class Cell>
+double jacobianAt(const Cell& cell, const Vector3& at)
+{
+  std::array<Vector3, 3> along;
+  for (int d = 0; d < 3; ++d)
+  {
+    Vector3 end = at;
+    end[d] = 1;
+    Vector3 start = at;
+    start[d] = 0;
+    along[d] = pointAt(cell, end) - pointAt(cell, start);
+  }
+  return dot(along[0], cross(along[1], along[2]));
+}
+
+/// Where the square that a triangle or a pyramid is made of shrinks, the determinant vanishes by
+/// that alone.
+double shrinkingAt(const Hexahedron&, const Vector3&)
+{
+  return 1;
+}
+
+double shrinkingAt(const Wedge&, const Vector3& at)
+{
+  return 1 - at[1];
+}
+
+double shrinkingAt(const Pyramid&, const Vector3& at)
+{
+  return (1 - at[2]) * (1 - at[2]);
+}
+
+template<class Cell>
+double smallestSample(const Cell& cell, int n)
+{
+  // Up to next to the end, where it may be 0 / 0.
+  const auto parameter = [n](int i) { return std::min(1.0 * i / n, 1023 / 1024.0); };
+  double smallest = infinity;
+  for (int i = 0; i <= n; ++i)
+  {
+    for (int j = 0; j <= n; ++j)
+    {
+      for (int k = 0; k <= n; ++k)
+      {
+        const Vector3 at{ parameter(i), parameter(j), parameter(k) };
+        smallest = std::min(smallest, jacobianAt(cell, at) / shrinkingAt(cell, at));
+      }
+    }
+  }
+  return smallest;
+}
+
+/// By Gauss points, exact for these degrees.
+template<class Cell>
+double integral(const Cell& cell)
+{
+  const double points[3] = { 0.5 - std::sqrt(0.15), 0.5, 0.5 + std::sqrt(0.15) };
+  const double weights[3] = { 5 / 18.0, 8 / 18.0, 5 / 18.0 };
+  double sum = 0;
+  for (int i = 0; i < 3; ++i)
+  {
+    for (int j = 0; j < 3; ++j)
+    {
+      for (int k = 0; k < 3; ++k)
+      {
+        sum += weights[i] * weights[j] * weights[k] *
+               jacobianAt(cell, { points[i], points[j], points[k] });
+      }
+    }
+  }
+  return sum;
+}
+
+template<class Cell>
+Cell mapped(Cell cell, const std::function<Point3(const Point3&)>& map)
+{
+  std::transform(cell.begin(), cell.end(), cell.begin(), map);
+  return cell;
+}
+
+template<class Cell>
+Cell scaled(const Cell& cell, const Vector3& factors)
+{
+  return mapped(cell,
+    [&](const Point3& p) {
+      return Point3{ factors[0] * p[0], factors[1] * p[1], factors[2] * p[2] };
+    });
+}
+
+template<class Cell>
+Cell mirrored(const Cell& cell)
+{
+  return scaled(cell, { -1, 1, 1 });
+}
+
+/// With the corners at z = 1 mapped in the plane by (x, y) -> (a x + b y, c x + d y). On the axis
+/// the determinant is that of (1 - z) I + z (a b; c d), and so over all of the cell.
+template<class Cell>
+Cell withTop(Cell cell, const std::array<double, 4>& map)
+{
+  for (Point3& p : cell)
+  {
+    if (p[2] == 1)
+    {
+      p = { map[0] * p[0] + map[1] * p[1], map[2] * p[0] + map[3] * p[1], 1 };
+    }
+  }
+  return cell;
+}
+
+std::array<double, 4> rotation(double degrees)
+{
+  const double angle = degrees * pi / 180;
+  return { std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle) };
+}
+
+template<class Cell>
+Cell withRandomCorners(Cell cell, double size, std::mt19937& random)
+{
+  std::uniform_real_distribution<double> offset(-size, size);
+  for (Point3& corner : cell)
+  {
+    corner = corner + Vector3{ offset(random), offset(random), offset(random) };
+  }
+  return cell;
+}
+
+template<class Cell>
+class CellJacobian : public testing::Test
+{
+public:
+  static Cell ideal()
+  {
+    if constexpr (std::is_same_v<Cell, Hexahedron>)
+    {
+      return cube;
+    }
+    else if constexpr (std::is_same_v<Cell, Wedge>)
+    {
+      return prism;
+    }
+    else
+    {
+      return pyramid;
+    }
+  }
+};
+
+using Cells = testing::Types<Hexahedron, Wedge, Pyramid>;
+TYPED_TEST_SUITE(CellJacobian, Cells);
+
+TYPED_TEST(CellJacobian, theIdealCellHasOne)
+{
+  const TypeParam cell = this->ideal();
+  EXPECT_TRUE(hasPositiveJacobian(cell));
+  EXPECT_NEAR(scaledJacobian(cell), 1, 1e-15);
+  std::mt19937 random(1);
+  for (int n = 0; n < 100; ++n)
+  {
+    EXPECT_LT(scaledJacobian(withRandomCorners(cell, 0.2, random)), 1);
+  }
+  for (const double height : { 0.5, 0.9, 1.1, 2.0, 100.0 })
+  {
+    EXPECT_LE(scaledJacobian(scaled(cell, { 1, 1, height })), 1);
+  }
+}
+
+TYPED_TEST(CellJacobian, aMirroredCellIsNotValid)
+{
+  const TypeParam cell = mirrored(this->ideal());
+  EXPECT_FALSE(hasPositiveJacobian(cell));
+  EXPECT_LT(scaledJacobian(cell), -0.5);
+  EXPECT_NEAR(volume(cell), -volume(this->ideal()), 1e-15);
+}
+
+TYPED_TEST(CellJacobian, aFlatCellIsNotValid)
+{
+  for (const Vector3& factors : { Vector3{ 0, 1, 1 }, { 1, 0, 1 }, { 1, 1, 0 }, { 0, 0, 0 } })
+  {
+    const TypeParam cell = scaled(this->ideal(), factors);
+    EXPECT_FALSE(hasPositiveJacobian(cell));
+    EXPECT_EQ(scaledJacobian(cell), 0);
+    EXPECT_EQ(volume(cell), 0);
+  }
+  for (std::size_t k = 1; k < this->ideal().size(); ++k)
+  {
+    TypeParam collapsed = this->ideal();
+    collapsed[k] = collapsed[k - 1];
+    EXPECT_FALSE(hasPositiveJacobian(collapsed)) << k;
+    EXPECT_LE(scaledJacobian(collapsed), 0) << k;
+  }
+}
+
+TYPED_TEST(CellJacobian, isTheSameAtAnyScale)
+{
+  std::mt19937 random(2);
+  for (int n = 0; n < 50; ++n)
+  {
+    const TypeParam cell = withRandomCorners(this->ideal(), 0.5, random);
+    for (const double scale : { 1e-100, 1e-30, 1e50 })
+    {
+      const TypeParam other = scaled(cell, { scale, scale, scale });
+      EXPECT_EQ(hasPositiveJacobian(other), hasPositiveJacobian(cell)) << scale;
+      EXPECT_NEAR(scaledJacobian(other), scaledJacobian(cell), 1e-13) << scale;
+      const double cubed = scale * scale * scale;
+      EXPECT_NEAR(volume(other) / cubed, volume(cell), 1e-13) << scale;
+    }
+  }
+}
+
+TYPED_TEST(CellJacobian, aThinCellIsValid)
+{
+  for (const double height : { 1e-3, 1e-8, 1e-100 })
+  {
+    TypeParam cell = scaled(this->ideal(), { 1, 1, height });
+    EXPECT_TRUE(hasPositiveJacobian(cell)) << height;
+    EXPECT_GT(scaledJacobian(cell), 0) << height;
+    cell[0][2] += 2 * height;
+    EXPECT_FALSE(hasPositiveJacobian(cell)) << height;
+  }
+}
+
+TYPED_TEST(CellJacobian, ofWhatIsNotFiniteIsNotPositive)
+{
+  const cadtest::FloatingPointPause pause;
+  for (const double bad : { infinity, -infinity, nan })
+  {
+    for (std::size_t k = 0; k < this->ideal().size(); ++k)
+    {
+      TypeParam cell = this->ideal();
+      cell[k][1] = bad;
+      EXPECT_FALSE(hasPositiveJacobian(cell)) << k;
+      EXPECT_FALSE(scaledJacobian(cell) > 0) << k;
+    }
+  }
+}
+
+TYPED_TEST(CellJacobian, agreesWithSamples)
+{
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> size(0, 1);
+  int validCount = 0;
+  for (int n = 0; n < 2000; ++n)
+  {
+    const TypeParam cell = withRandomCorners(this->ideal(), size(random), random);
+    const double smallest = smallestSample(cell, 8);
+    const bool valid = hasPositiveJacobian(cell);
+    validCount += valid;
+    EXPECT_FALSE(valid && smallest < 1e-14) << smallest;
+    EXPECT_FALSE(!valid && smallest > 0.05) << smallest;
+    EXPECT_EQ(scaledJacobian(cell) > 0, valid);
+    EXPECT_NEAR(volume(cell), integral(cell), 1e-14);
+  }
+  EXPECT_GT(validCount, 500);
+  EXPECT_LT(validCount, 1500);
+}
+
+/// Determinant (1 - t + a t) (1 - t + d t) of a top that is stretched, cos(angle) in the middle
+/// of one that is turned.
+template<class Cell>
+void expectPositiveTwoByTwo(const Cell& cell)
+{
+  EXPECT_TRUE(hasPositiveJacobian(withTop(cell, { 0.1, 0, 0, 5 })));
+  EXPECT_TRUE(hasPositiveJacobian(withTop(cell, rotation(120))));
+  EXPECT_TRUE(hasPositiveJacobian(withTop(cell, rotation(179))));
+  EXPECT_FALSE(hasPositiveJacobian(withTop(cell, { -1, 0, 0, -1 })));
+  // The corners alone do not tell: determinants 1 at the bottom and 4 at the top, between them
+  // (1 - 2 t) (1 - 5 t).
+  const Cell folded = withTop(cell, { -1, 0, 0, -4 });
+  EXPECT_FALSE(hasPositiveJacobian(folded));
+  EXPECT_EQ(std::min(0.0, scaledJacobian(folded)), scaledJacobian(folded));
+}
+
+TEST(HexahedronJacobian, ofATurnedTop)
+{
+  const Hexahedron centred = mapped(cube,
+    [](const Point3& p) {
+      return p - Vector3{ 0.5, 0.5, 0 };
+    });
+  expectPositiveTwoByTwo(centred);
+  EXPECT_NEAR(smallestSample(withTop(centred, { -1, 0, 0, -4 }), 20), -0.225, 1e-12);
+}
+
+TEST(WedgeJacobian, ofATurnedTop)
+{
+  expectPositiveTwoByTwo(prism);
+  EXPECT_EQ(scaledJacobian(withTop(prism, { -1, 0, 0, -4 })), 0);
+}
+
+/// Positive at all corners and on all edges, negative within.
+TEST(HexahedronJacobian, isBoundedWithinTheCell)
+{
+  std::mt19937 random(4);
+  int found = 0;
+  for (int n = 0; n < 200000 && found < 3; ++n)
+  {
+    const Hexahedron cell = withRandomCorners(cube, 0.7, random);
+    if (smallestSample(cell, 1) > 0.01 && smallestSample(cell, 4) < 0)
+    {
+      ++found;
+      EXPECT_FALSE(hasPositiveJacobian(cell));
+      EXPECT_LE(scaledJacobian(cell), 0);
+    }
+  }
+  EXPECT_EQ(found, 3);
+}
+
+TEST(HexahedronJacobian, ofACubeWithACornerMovedThroughTheOppositeOne)
+{
+  // The determinant at the corner is 3 x - 2.
+  for (const auto& [x, valid] : { std::pair{ 1.5, true }, { 0.67, true }, { 0.66, false },
+         { 0.4, false }, { 0.0, false }, { -0.1, false } })
+  {
+    Hexahedron cell = cube;
+    cell[6] = { x, x, x };
+    EXPECT_EQ(hasPositiveJacobian(cell), valid) << x;
+    EXPECT_EQ(smallestSample(cell, 8) > 1e-15, valid) << x;
+  }
+}
+
+/// A corner that is flat but for the last bits of one coordinate.
+TEST(HexahedronJacobian, ofAnAlmostFlatCornerIsExact)
+{
+  Hexahedron cell = cube;
+  for (const double height : { 0.0, 1e-17, -1e-17, 1e-200 })
+  {
+    cell[0] = { 1 / 3.0, 1 / 3.0, 1 / 3.0 };
+    cell[0][2] = 1 - cell[0][0] - cell[0][1] - height;
+    const double below = 1 - cell[0][0] - cell[0][1] - cell[0][2];
+    EXPECT_EQ(hasPositiveJacobian(cell), below > 0) << height;
+  }
+  for (const double depth : { 1e-17, 1e-100, -1e-17 })
+  {
+    Wedge wedge = prism;
+    wedge[3] = { -0.5, -0.5, depth };
+    EXPECT_EQ(hasPositiveJacobian(wedge), depth > 0) << depth;
+    Pyramid flat = pyramid;
+    flat[4][2] = depth;
+    EXPECT_EQ(hasPositiveJacobian(flat), depth > 0) << depth;
+  }
+}
+
+/// All numberings that a rotation of the cell gives.
+std::set<std::array<int, 8>> rotationsOfHexahedron()
+{
+  const std::array<std::array<int, 8>, 2> turns{ { { 1, 2, 3, 0, 5, 6, 7, 4 },
+    { 4, 5, 1, 0, 7, 6, 2, 3 } } };
+  std::set<std::array<int, 8>> result{ { 0, 1, 2, 3, 4, 5, 6, 7 } };
+  for (std::size_t before = 0; before != result.size();)
+  {
+    before = result.size();
+    for (const auto& numbers : std::set<std::array<int, 8>>(result))
+    {
+      for (const auto& turn : turns)
+      {
+        std::array<int, 8> turned;
+        std::transform(
+          turn.begin(), turn.end(), turned.begin(), [&](int place) { return numbers[place]; });
+        result.insert(turned);
+      }
+    }
+  }
+  return result;
+}
+
+TEST(HexahedronJacobian, doesNotDependOnTheFirstCorner)
+{
+  const auto rotations = rotationsOfHexahedron();
+  ASSERT_EQ(rotations.size(), 24U);
+  std::mt19937 random(5);
+  for (int n = 0; n < 200; ++n)
+  {
+    const Hexahedron cell = withRandomCorners(cube, 0.45, random);
+    for (const auto& numbers : rotations)
+    {
+      Hexahedron turned;
+      std::transform(
+        numbers.begin(), numbers.end(), turned.begin(), [&](int corner) { return cell[corner]; });
+      EXPECT_EQ(hasPositiveJacobian(turned), hasPositiveJacobian(cell));
+      EXPECT_NEAR(scaledJacobian(turned), scaledJacobian(cell), 1e-14);
+      EXPECT_NEAR(volume(turned), volume(cell), 1e-14);
+    }
+  }
+}
+
+TEST(WedgeJacobian, doesNotDependOnTheFirstCorner)
+{
+  std::mt19937 random(6);
+  for (int n = 0; n < 200; ++n)
+  {
+    const Wedge w = withRandomCorners(prism, 0.4, random);
+    for (const Wedge& turned :
+      { Wedge{ w[1], w[2], w[0], w[4], w[5], w[3] }, Wedge{ w[3], w[5], w[4], w[0], w[2], w[1] } })
+    {
+      EXPECT_EQ(hasPositiveJacobian(turned), hasPositiveJacobian(w));
+      EXPECT_NEAR(scaledJacobian(turned), scaledJacobian(w), 1e-14);
+      EXPECT_NEAR(volume(turned), volume(w), 1e-14);
+    }
+    EXPECT_FALSE(hasPositiveJacobian(Wedge{ w[3], w[4], w[5], w[0], w[1], w[2] }));
+  }
+}
+
+TEST(Volume, isThatOfTheClosedForm)
+{
+  EXPECT_EQ(volume(cube), 1);
+  EXPECT_EQ(volume(scaled(cube, { 2, 3, 0.5 })), 3);
+  EXPECT_NEAR(volume(prism), std::sqrt(0.75) / 2, 1e-15);
+  EXPECT_NEAR(volume(pyramid), std::sqrt(0.5) / 3, 1e-15);
+  // A frustum: a square of side 1 shrinks to one of 1/2.
+  EXPECT_NEAR(volume(withTop(cube, { 0.5, 0, 0, 0.5 })), 7.0 / 12, 1e-15);
+  EXPECT_NEAR(volume(withTop(prism, { 0.5, 0, 0, 0.5 })), 7.0 / 12 * std::sqrt(0.75) / 2, 1e-15);
+}
+
+/// With plane faces a cell is the union of tetrahedra.
+TEST(Volume, isThatOfTheTetrahedra)
+{
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> entry(-1, 1);
+  for (int n = 0; n < 100; ++n)
+  {
+    const std::array<Vector3, 4> rows = withRandomCorners(std::array<Vector3, 4>{}, 1, random);
+    const auto affine = [&](const Point3& p) {
+      return Point3{ dot(rows[0], p), dot(rows[1], p), dot(rows[2], p) } + rows[3];
+    };
+    const Hexahedron h = mapped(withTop(cube, { 0.3, 0, 0, 0.3 }), affine);
+    const int cut[6][2] = { { 1, 2 }, { 2, 3 }, { 3, 7 }, { 7, 4 }, { 4, 5 }, { 5, 1 } };
+    double sum = 0;
+    for (const auto& [a, b] : cut)
+    {
+      sum += sixfoldVolume(h[0], h[a], h[b], h[6]);
+    }
+    EXPECT_NEAR(volume(h), sum / 6, 1e-15);
+    const Wedge w{ h[0], h[1], h[3], h[4], h[5], h[7] };
+    EXPECT_NEAR(volume(w),
+      (sixfoldVolume(w[0], w[1], w[2], w[3]) + sixfoldVolume(w[1], w[4], w[2], w[3]) +
+        sixfoldVolume(w[4], w[5], w[2], w[3])) /
+        6,
+      1e-15);
+    const Pyramid p{ h[0], h[1], h[2], h[3], h[6] };
+    EXPECT_NEAR(volume(p),
+      (sixfoldVolume(p[0], p[1], p[2], p[4]) + sixfoldVolume(p[0], p[2], p[3], p[4])) / 6, 1e-15);
+  }
+}
+
+TEST(Quadrilateral, isValidWhereAllCornersTurnTheSameWay)
+{
+  EXPECT_TRUE(isValidQuadrilateral(square, up));
+  EXPECT_FALSE(isValidQuadrilateral(square, -1.0 * up));
+  EXPECT_EQ(scaledJacobian(square, up), 1);
+  EXPECT_EQ(scaledJacobian(square, -1.0 * up), -1);
+  for (const auto& [x, valid] :
+    { std::pair{ 0.51, true }, { 0.5, false }, { 0.4, false }, { -0.1, false } })
+  {
+    Quadrilateral cell = square;
+    cell[2] = { x, x, 0 };
+    EXPECT_EQ(isValidQuadrilateral(cell, up), valid) << x;
+    EXPECT_EQ(scaledJacobian(cell, up) > 0, valid) << x;
+  }
+  const Quadrilateral bowTie{ square[0], square[1], square[3], square[2] };
+  EXPECT_FALSE(isValidQuadrilateral(bowTie, up));
+}
+
+TEST(Quadrilateral, isJudgedExactlyInAPlane)
+{
+  for (const double scale : { 1e-100, 1.0, 1e50 })
+  {
+    Quadrilateral cell = scaled(square, { scale, scale, scale });
+    cell[2] = 0.5 * (cell[1] + cell[3]);
+    EXPECT_FALSE(isValidQuadrilateral(cell, up));
+    EXPECT_LE(scaledJacobian(cell, up), 0);
+    cell[2][0] = std::nextafter(cell[2][0], infinity);
+    EXPECT_TRUE(isValidQuadrilateral(cell, up));
+    EXPECT_GT(scaledJacobian(cell, up), 0);
+  }
+}
+
+TEST(Quadrilateral, isTheSameInSpace)
+{
+  Quadrilateral warped = square;
+  warped[2][2] = 0.2;
+  EXPECT_TRUE(isValidQuadrilateral(warped, { 0.1, 0.1, 1 }));
+  EXPECT_GT(scaledJacobian(warped, up), 0.9);
+  EXPECT_NEAR(area(square), 1, 1e-15);
+  const Quadrilateral tilted = mapped(square,
+    [](const Point3& p) {
+      return Point3{ p[0], p[1], p[0] };
+    });
+  EXPECT_NEAR(area(tilted), std::sqrt(2.0), 1e-15);
+  EXPECT_NEAR(scaledJacobian(tilted, { -1, 0, 1 }), 1, 1e-15);
+  EXPECT_NEAR(scaledJacobian(tilted, { 0, 0, 1 }), 1, 1e-15);
+}
+
+} // namespace
