@@ -38,10 +38,10 @@ cadrefine::PipelineResult vtkMeshValidity::Execute(
   quality->SetNumberOfValues(cells);
   quality->FillValue(1);
   const vtkIdType first = firstCellOfDimension(mesh, mesh.dimension);
-  for (std::size_t c = 0; c < qualities.meanRatios.size(); ++c)
+  for (std::size_t c = 0; c < qualities.qualities.size(); ++c)
   {
     validity->SetValue(first + static_cast<vtkIdType>(c), qualities.valid[c]);
-    quality->SetValue(first + static_cast<vtkIdType>(c), qualities.meanRatios[c]);
+    quality->SetValue(first + static_cast<vtkIdType>(c), qualities.qualities[c]);
   }
   state.arrays.ofCells->AddArray(validity);
   state.arrays.ofCells->AddArray(quality);

@@ -55,6 +55,7 @@ cadrefine::RefinementOptions vtkRefinementAlgorithm::MakeOptions() const
   }
   options.faces = this->GetFaces();
   options.cutFacets = this->CutFacets;
+  options.keepLayers = this->KeepLayers;
   options.projectNewVertices = this->ProjectNewVertices;
   options.balance = this->Balance;
   options.minimumQuality = this->FindMinimumQuality();
@@ -95,6 +96,7 @@ void vtkRefinementAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ChordTolerance: " << this->ChordTolerance << "\n";
   os << indent << "NormalAngle: " << this->NormalAngle << "\n";
   os << indent << "CutFacets: " << this->CutFacets << "\n";
+  os << indent << "KeepLayers: " << this->KeepLayers << "\n";
   os << indent << "ProjectNewVertices: " << this->ProjectNewVertices << "\n";
   os << indent << "Balance: " << this->Balance << "\n";
 }

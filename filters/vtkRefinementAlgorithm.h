@@ -89,6 +89,17 @@ public:
 
   ///@{
   /**
+   * Whether boundary layers are cut along the wall only, all cells over each other alike (see
+   * cadrefine::markLongestEdges); off: their cells are cut as others are, and become pyramids and
+   * tetrahedra beside finer ones. Default on.
+   */
+  vtkSetMacro(KeepLayers, bool);
+  vtkGetMacro(KeepLayers, bool);
+  vtkBooleanMacro(KeepLayers, bool);
+  ///@}
+
+  ///@{
+  /**
    * Whether new boundary vertices are put onto the CAD; off: they stay in the middle of their edge
    * (classified, with their CADDistance, if the mesh was projected). Default on.
    */
@@ -141,6 +152,7 @@ private:
   double ChordTolerance = 0;
   double NormalAngle = 0;
   bool CutFacets;
+  bool KeepLayers = true;
   bool ProjectNewVertices = true;
   bool Balance = true;
 };

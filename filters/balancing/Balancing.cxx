@@ -38,10 +38,7 @@ std::vector<Point3> cellCentres(const SimplexMesh& mesh)
 {
   std::vector<Point3> centres;
   centres.reserve(mesh.cellCount());
-  appendCentres(mesh, mesh.vertices, centres);
-  appendCentres(mesh, mesh.segments, centres);
-  appendCentres(mesh, mesh.triangles, centres);
-  appendCentres(mesh, mesh.tetrahedra, centres);
+  visitShapes(mesh, [&](auto, const auto& cells) { appendCentres(mesh, cells, centres); });
   return centres;
 }
 
@@ -60,12 +57,19 @@ public:
     part_ = {};
     const SimplexMesh& piece = mesh_.mesh();
     part_.mesh.dimension = piece.dimension;
+    part_.mesh.wedgesAsDocumented = piece.wedgesAsDocumented;
     next_ = cells.begin();
     end_ = cells.end();
-    take(0, piece.vertices, part_.mesh.vertices);
-    take(1, piece.segments, part_.mesh.segments);
-    take(2, piece.triangles, part_.mesh.triangles);
-    take(3, piece.tetrahedra, part_.mesh.tetrahedra);
+    for (int d = 0; d < 4; ++d)
+    {
+      std::size_t first = 0; // of the shape, among those of the dimension
+      visitShapes(piece, d,
+        [&](auto shape, const auto& all)
+        {
+          take(d, first, all, part_.mesh.*decltype(shape)::cells);
+          first += all.size();
+        });
+    }
     for (const Index vertex : taken_)
     {
       vertexOf_[vertex] = -1;
@@ -76,14 +80,16 @@ public:
 
 private:
   template<std::size_t Corners>
-  void take(int dimension, const std::vector<std::array<Index, Corners>>& cells,
+  void take(int dimension, std::size_t firstOfShape,
+    const std::vector<std::array<Index, Corners>>& cells,
     std::vector<std::array<Index, Corners>>& taken)
   {
     const vtkIdType first = firstCellOfDimension(mesh_.mesh(), dimension);
-    const vtkIdType last = first + static_cast<vtkIdType>(cells.size());
+    const auto begin = first + static_cast<vtkIdType>(firstOfShape);
+    const auto last = begin + static_cast<vtkIdType>(cells.size());
     for (; next_ != end_ && *next_ < last; ++next_)
     {
-      const auto& corners = cells[*next_ - first];
+      const auto& corners = cells[*next_ - begin];
       auto& newCorners = taken.emplace_back();
       std::transform(corners.begin(), corners.end(), newCorners.begin(),
         [&](Index vertex) { return newVertex(vertex); });

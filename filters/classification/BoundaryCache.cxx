@@ -2,6 +2,7 @@
 
 #include <cadrefine/base/MixedBits.h>
 
+#include <algorithm>
 #include <tuple>
 
 namespace cadrefine
@@ -19,20 +20,18 @@ bool operator==(const ClassifiedFacet& a, const ClassifiedFacet& b)
   return std::tie(a.points, a.entities) == std::tie(b.points, b.entities);
 }
 
-/// -1 for the third one of a segment.
-std::array<GlobalId, 3> idsOf(const SimplexMesh& mesh, const Facet& facet)
+/// Fewer than four: -1 follows.
+std::array<GlobalId, 4> idsOf(const SimplexMesh& mesh, const Facet& facet)
 {
-  std::array<GlobalId, 3> ids{};
-  for (int k = 0; k < 3; ++k)
-  {
-    ids[k] = facet.vertices[k] < 0 ? -1 : mesh.ids[facet.vertices[k]];
-  }
+  std::array<GlobalId, 4> ids;
+  std::transform(facet.vertices.begin(), facet.vertices.end(), ids.begin(),
+    [&](Index vertex) { return vertex < 0 ? -1 : mesh.ids[vertex]; });
   return ids;
 }
 
 } // namespace
 
-std::size_t BoundaryCache::Hash::operator()(const std::array<GlobalId, 3>& ids) const
+std::size_t BoundaryCache::Hash::operator()(const std::array<GlobalId, 4>& ids) const
 {
   std::uint64_t hash = 0;
   for (const GlobalId id : ids)
@@ -56,7 +55,7 @@ BoundaryCache::BoundaryCache(const SimplexMesh& mesh, const Classification& clas
     {
       const Facet& facet = boundary.facets[f];
       Known& known = facets_.emplace_back();
-      known.corners = classifiedFacet(mesh, classification.entities, facet, boundary.kind);
+      known.corners = classifiedFacet(mesh, classification.entities, facet);
       known.offCAD = cornersOff(classification, facet);
       known.record = record;
       known.edges = boundary.facetEdges[f];
@@ -83,7 +82,7 @@ const FacetError* BoundaryCache::error(Index facet, const ErrorFacet& now, int d
 {
   const Known& known = facets_[facet];
   bool isSame = depth == depth_ && known.offCAD == now.offCAD;
-  for (int k = 0; k < 3; ++k)
+  for (int k = 0; k < 4; ++k)
   {
     isSame = isSame && (known.edges[k] < 0 || edgeClasses_[known.edges[k]] == now.edges[k]);
   }

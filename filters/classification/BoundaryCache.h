@@ -36,18 +36,18 @@ public:
 private:
   struct Hash
   {
-    std::size_t operator()(const std::array<GlobalId, 3>& ids) const;
+    std::size_t operator()(const std::array<GlobalId, 4>& ids) const;
   };
   struct Known
   {
     ClassifiedFacet corners;
-    std::array<bool, 3> offCAD;
+    std::array<bool, 4> offCAD;
     FacetRecord record;
-    std::array<Index, 3> edges;
+    std::array<Index, 4> edges;
     FacetError error;
   };
 
-  std::unordered_map<std::array<GlobalId, 3>, Index, Hash> byIds_;
+  std::unordered_map<std::array<GlobalId, 4>, Index, Hash> byIds_;
   std::vector<Known> facets_;
   std::vector<EdgeClass> edgeClasses_;
   std::vector<ClosestPoint> midpoints_;

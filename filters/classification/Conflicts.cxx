@@ -89,9 +89,12 @@ private:
   {
     for (std::size_t f = 0; f < records_.size(); ++f)
     {
-      for (int k = 0; k < 3 && records_[f].onCAD && records_[f].face >= 0; ++k)
+      if (!records_[f].onCAD || records_[f].face < 0)
       {
-        const Index v = task_.boundary.facets[f].vertices[k];
+        continue;
+      }
+      for (const Index v : task_.boundary.facets[f])
+      {
         conflicts_[v] = conflicts_[v] || !touches(hits_[v].entity, patches_[records_[f].face]);
       }
     }
@@ -144,7 +147,7 @@ private:
     std::vector<unsigned char> inside(hits_.size(), 1);
     for (std::size_t f = 0; f < records_.size(); ++f)
     {
-      for (const Index v : task_.boundary.facets[f].vertices)
+      for (const Index v : task_.boundary.facets[f])
       {
         inside[v] = inside[v] && records_[f].onCAD && !records_[f].free;
       }

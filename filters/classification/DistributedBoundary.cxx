@@ -21,11 +21,11 @@ void listEdges(const SimplexMesh& mesh, DistributedBoundary& boundary)
   boundary.edges = EdgeList(mesh.ids);
   for (const Facet& facet : boundary.facets)
   {
-    std::array<Index, 3> edges{ -1, -1, -1 };
-    const int corners = boundary.facetCorners();
-    for (int k = 0; k < (corners == 3 ? 3 : 1); ++k)
+    std::array<Index, 4> edges{ -1, -1, -1, -1 };
+    for (int k = 0; k < facet.edges(); ++k)
     {
-      edges[k] = boundary.edges.findOrAdd(facet.vertices[k], facet.vertices[(k + 1) % corners]);
+      edges[k] =
+        boundary.edges.findOrAdd(facet.vertices[k], facet.vertices[(k + 1) % facet.corners()]);
     }
     boundary.facetEdges.push_back(edges);
   }
@@ -55,9 +55,9 @@ void measureVertices(
     [](double a, double b) { return std::min(a, b); });
 }
 
-bool isClassified(const ClassifiedFacet& facet, BoundaryKind kind)
+bool isClassified(const ClassifiedFacet& facet)
 {
-  const auto end = facet.entities.begin() + (kind == BoundaryKind::Triangles ? 3 : 2);
+  const auto end = facet.entities.begin() + facet.corners;
   return std::all_of(
     facet.entities.begin(), end, [](EntityId entity) { return static_cast<bool>(entity); });
 }
@@ -136,11 +136,12 @@ std::vector<std::vector<FacetRecord>> gatherFacetRecords(RankExchange& exchange,
   return ofEdges;
 }
 
-ClassifiedFacet classifiedFacet(const SimplexMesh& mesh, const std::vector<EntityId>& entities,
-  const Facet& facet, BoundaryKind kind)
+ClassifiedFacet classifiedFacet(
+  const SimplexMesh& mesh, const std::vector<EntityId>& entities, const Facet& facet)
 {
   ClassifiedFacet result;
-  for (int k = 0; k < (kind == BoundaryKind::Triangles ? 3 : 2); ++k)
+  result.corners = facet.corners();
+  for (int k = 0; k < result.corners; ++k)
   {
     result.points[k] = mesh.points[facet.vertices[k]];
     result.entities[k] = entities[facet.vertices[k]];
@@ -150,27 +151,25 @@ ClassifiedFacet classifiedFacet(const SimplexMesh& mesh, const std::vector<Entit
 
 FacetRecord makeRecord(const BoundaryProjector& projector, const ClassifiedFacet& facet)
 {
-  const bool triangle = projector.kind() == BoundaryKind::Triangles;
-  const auto& p = facet.points;
   FacetRecord record;
-  if (triangle)
+  if (projector.kind() == BoundaryKind::Triangles)
   {
-    const Vector3 twofoldArea = twofoldAreaVector(p[0], p[1], p[2]);
+    const Vector3 twofoldArea = twofoldAreaVector(facet.points, facet.corners);
     record.normal = normalized(twofoldArea);
     record.area = 0.5 * norm(twofoldArea);
   }
-  record.onCAD = isClassified(facet, projector.kind()) && projector.isOnCAD(facet) ? 1 : 0;
+  record.onCAD = isClassified(facet) && projector.isOnCAD(facet) ? 1 : 0;
   return record;
 }
 
-Point3 centroidOf(const SimplexMesh& mesh, const Facet& facet, int corners)
+Point3 centroidOf(const SimplexMesh& mesh, const Facet& facet)
 {
   Point3 sum{};
-  for (int k = 0; k < corners; ++k)
+  for (const Index vertex : facet)
   {
-    sum = sum + mesh.points[facet.vertices[k]];
+    sum = sum + mesh.points[vertex];
   }
-  return (1.0 / corners) * sum;
+  return (1.0 / facet.corners()) * sum;
 }
 
 EntityId faceOf(const BoundaryProjector& projector, const Point3& centroid, int common)
@@ -193,9 +192,9 @@ EntityId edgeOf(const CADModel& model, const ClosestPoint& middle)
   return middle.entity;
 }
 
-std::array<bool, 3> cornersOff(const Classification& classification, const Facet& facet)
+std::array<bool, 4> cornersOff(const Classification& classification, const Facet& facet)
 {
-  std::array<bool, 3> off{};
+  std::array<bool, 4> off{};
   std::transform(facet.vertices.begin(), facet.vertices.end(), off.begin(),
     [&](Index vertex) { return vertex >= 0 && classification.distances[vertex] > 0; });
   return off;
@@ -212,8 +211,7 @@ BoundaryClasses classifyBoundary(RankExchange& exchange, const SimplexMesh& mesh
   classes.known.assign(records.size(), -1);
   const auto classifyFacet = [&](std::size_t f)
   {
-    const ClassifiedFacet facet =
-      classifiedFacet(mesh, entities, boundary.facets[f], boundary.kind);
+    const ClassifiedFacet facet = classifiedFacet(mesh, entities, boundary.facets[f]);
     FacetRecord& record = records[f];
     classes.known[f] = cache.find(mesh, boundary.facets[f], facet);
     if (classes.known[f] >= 0)
@@ -224,7 +222,7 @@ BoundaryClasses classifyBoundary(RankExchange& exchange, const SimplexMesh& mesh
     record = makeRecord(projector, facet);
     if (boundary.ofSurface)
     {
-      record.onCAD = isClassified(facet, boundary.kind);
+      record.onCAD = isClassified(facet);
     }
     if (record.onCAD && boundary.kind == BoundaryKind::Triangles)
     {

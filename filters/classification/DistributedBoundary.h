@@ -22,12 +22,13 @@ class BoundaryCache;
 struct DistributedBoundary
 {
   BoundaryKind kind = BoundaryKind::Triangles;
-  /// The facets are the cells of a mesh of triangles in space.
+  /// The facets are the cells of a mesh of area in space.
   bool ofSurface = false;
   std::vector<Facet> facets;
-  /// Edges of facets; of a triangle edge k joins corners k and k + 1, a segment is its own edge 0.
+  /// Edges of facets; edge k joins corners k and k + 1, a segment is its own edge 0. Where a facet
+  /// has fewer than four, -1 follows.
   EdgeList edges;
-  std::vector<std::array<Index, 3>> facetEdges;
+  std::vector<std::array<Index, 4>> facetEdges;
   SharedItems sharedEdges;
   /// 1 for vertices of facets, on whatever rank these are.
   std::vector<unsigned char> onBoundary;
@@ -36,15 +37,15 @@ struct DistributedBoundary
   /// Length of the shortest boundary edge at each vertex, over all ranks; infinite elsewhere.
   std::vector<double> shortestEdge;
 
-  int facetCorners() const { return kind == BoundaryKind::Triangles ? 3 : 2; }
+  int facetDimension() const { return kind == BoundaryKind::Triangles ? 2 : 1; }
 };
 
 /// Whether a mesh of triangles within these bounds is planar, and compared with the edges of the
 /// model: if this has no faces, or if all vertices have one coordinate in common.
 bool isPlanar(const MeshBounds& bounds, const CADModel& model);
 
-/// Boundary of the mesh: of a mesh of tetrahedra, or a planar one of triangles, the sides met once
-/// and listed interior ones (see findBoundaryFacets); of triangles in space, all triangles.
+/// Boundary of the mesh: of one of volume, or a planar one, the sides met once and listed interior
+/// ones (see findBoundaryFacets); of a mesh of area in space, all cells.
 /// `among`: see findBoundaryFacets. Collective; messages in proportion to the interface between
 /// pieces.
 DistributedBoundary findBoundary(RankExchange& exchange, const DistributedMesh& mesh,
@@ -56,15 +57,14 @@ std::vector<std::vector<FacetRecord>> gatherFacetRecords(RankExchange& exchange,
   const DistributedBoundary& boundary, const std::vector<FacetRecord>& ofFacets);
 
 /// The facets as the projector sees them.
-ClassifiedFacet classifiedFacet(const SimplexMesh& mesh, const std::vector<EntityId>& entities,
-  const Facet& facet, BoundaryKind kind);
+ClassifiedFacet classifiedFacet(
+  const SimplexMesh& mesh, const std::vector<EntityId>& entities, const Facet& facet);
 
 /// The record of a facet. It is on the CAD if all of its corners are classified and it fits the CAD
 /// there (BoundaryProjector::isOnCAD).
 FacetRecord makeRecord(const BoundaryProjector& projector, const ClassifiedFacet& facet);
 
-/// Of the first `corners` vertices.
-Point3 centroidOf(const SimplexMesh& mesh, const Facet& facet, int corners);
+Point3 centroidOf(const SimplexMesh& mesh, const Facet& facet);
 
 /// The CAD face of a triangle on the CAD with this centroid: `common`, that of its record, or where
 /// it spans several (-1) the nearest.
@@ -74,10 +74,10 @@ EntityId faceOf(const BoundaryProjector& projector, const Point3& centroid, int 
 EntityId edgeOf(const CADModel& model, const ClosestPoint& middle);
 
 /// Which corners are classified, but have not reached the CAD.
-std::array<bool, 3> cornersOff(const Classification& classification, const Facet& facet);
+std::array<bool, 4> cornersOff(const Classification& classification, const Facet& facet);
 
-/// Classes of all boundary edges of a classified mesh, and records of its facets. Of a mesh of
-/// triangles in space, every facet with classified corners is on the CAD: there is no inside that a
+/// Classes of all boundary edges of a classified mesh, and records of its facets. Of a mesh of area
+/// in space, every facet with classified corners is on the CAD: there is no inside that a
 /// wall could bound.
 struct BoundaryClasses
 {
@@ -99,7 +99,8 @@ struct ClassifiedBoundary
   BoundaryProjector projector;
   DistributedBoundary boundary;
   BoundaryClasses classes;
-  /// Of each boundary edge the place of its midpoint, where they were looked for.
+  /// Of each boundary edge, and after these of each of quadsOnCAD, the place of its midpoint,
+  /// where they were looked for.
   std::optional<std::vector<ClosestPoint>> midpoints = std::nullopt;
 };
 

@@ -4,7 +4,9 @@
 #include "comm/GlobalNumbering.h"
 #include "comm/VertexNumbering.h"
 
+#include <cadrefine/base/IndicesWhere.h>
 #include <cadrefine/base/LargeMemory.h>
+#include <cadrefine/error/GeometricError.h>
 
 #include <algorithm>
 #include <utility>
@@ -27,6 +29,15 @@ BoundaryEdge edgeOf(const EdgeClass& edgeClass, const std::array<Index, 2>& ends
   const auto [a, b] = ends;
   return { edgeClass, { mesh.points[a], mesh.points[b] },
     { classification.entities[a], classification.entities[b] } };
+}
+
+/// What places the middle of a facet that is a quadrilateral on the CAD.
+BoundaryEdge middleOfFacet(const SimplexMesh& mesh, const Classification& classification,
+  const ClassifiedBoundary& classified, Index f)
+{
+  const ClassifiedFacet facet =
+    classifiedFacet(mesh, classification.entities, classified.boundary.facets[f]);
+  return middleOfQuad(facet.points, facet.entities, classified.classes.facets[f].face);
 }
 
 /// An edge of the piece whose midpoint is known.
@@ -62,7 +73,7 @@ std::vector<unsigned char> rememberMidpoints(
   std::vector<unsigned char> isKnown(ofEdges.size(), 0);
   for (std::size_t f = 0; f < facets.size(); ++f)
   {
-    for (int k = 0; k < 3 && known[f] >= 0; ++k)
+    for (int k = 0; k < 4 && known[f] >= 0; ++k)
     {
       const Index edge = classified.boundary.facetEdges[f][k];
       const ClosestPoint* midpoint =
@@ -79,6 +90,12 @@ std::vector<unsigned char> rememberMidpoints(
 
 } // namespace
 
+std::vector<Index> quadsOnCAD(const ClassifiedBoundary& classified)
+{
+  return indicesWhere(classified.boundary.facets.size(), [&](std::size_t f)
+    { return classified.boundary.facets[f].corners() == 4 && classified.classes.facets[f].onCAD; });
+}
+
 MarkedEdges findEdges(RankExchange& exchange, const DistributedMesh& mesh, unsigned char mark)
 {
   MarkedEdges edges;
@@ -88,22 +105,40 @@ MarkedEdges findEdges(RankExchange& exchange, const DistributedMesh& mesh, unsig
   return edges;
 }
 
-std::vector<GlobalId> numberMidpoints(RankExchange& exchange, DistributedMesh& mesh,
+SharedQuads findQuads(RankExchange& exchange, const DistributedMesh& mesh, const EdgeTable& table)
+{
+  SharedQuads quads;
+  quads.table = buildQuadTable(table);
+  quads.any = exchange.any(!quads.table.edges.empty());
+  if (quads.any)
+  {
+    for (const auto& edges : quads.table.edges)
+    {
+      const auto& [a, b] = table.edges[edges[0]];
+      const auto& [c, d] = table.edges[edges[2]];
+      quads.corners.push_back({ a, b, c, d });
+    }
+    quads.shared = findSharedSimplices(exchange, mesh.shared, mesh.mesh().ids, quads.corners);
+  }
+  return quads;
+}
+
+std::vector<GlobalId> numberMidpoints(RankExchange& exchange, const SharedVertices& shared,
+  const std::vector<GlobalId>& ids, GlobalId& idBound,
   const std::vector<std::array<Index, 2>>& parentEdges)
 {
-  const auto& ids = mesh.mesh().ids;
   std::vector<VertexKey<1>> keys;
   resizeLong(keys, parentEdges.size());
   std::transform(parentEdges.begin(), parentEdges.end(), keys.begin(),
     [&](const std::array<Index, 2>& ends) {
       return VertexKey<1>{ ends[0], { ids[ends[1]] } };
     });
-  Numbering numbering = numberAtVertices(exchange, mesh.shared, ids, keys);
+  Numbering numbering = numberAtVertices(exchange, shared, ids, keys);
   for (GlobalId& number : numbering.numbers)
   {
-    number += mesh.vertexIdBound;
+    number += idBound;
   }
-  mesh.vertexIdBound += numbering.count;
+  idBound += numbering.count;
   return std::move(numbering.numbers);
 }
 
@@ -140,7 +175,8 @@ WorkBalance findMidpoints(RankExchange& exchange, const SimplexMesh& mesh,
   const Classification& classification, const BoundaryCache& cache, ClassifiedBoundary& classified)
 {
   const auto& ends = classified.boundary.edges.edges();
-  auto& midpoints = classified.midpoints.emplace(ends.size());
+  const std::vector<Index> quads = quadsOnCAD(classified);
+  auto& midpoints = classified.midpoints.emplace(ends.size() + quads.size());
   const auto isKnown = rememberMidpoints(cache, classified);
   std::vector<std::size_t> asking;
   std::vector<BoundaryEdge> queries;
@@ -152,6 +188,11 @@ WorkBalance findMidpoints(RankExchange& exchange, const SimplexMesh& mesh,
       asking.push_back(e);
       queries.push_back(edgeOf(edgeClass, ends[e], mesh, classification));
     }
+  }
+  for (std::size_t q = 0; q < quads.size(); ++q)
+  {
+    asking.push_back(ends.size() + q);
+    queries.push_back(middleOfFacet(mesh, classification, classified, quads[q]));
   }
   const auto answers = projectEdges(
     exchange, classified.projector, std::move(queries), { "projecting", "boundary edges" });
@@ -210,6 +251,70 @@ std::vector<MidpointOnCAD> projectMidpoints(RankExchange& exchange, const Simple
                     [](const MidpointOnCAD& midpoint) { return !midpoint.where.entity; }),
     midpoints.end());
   return midpoints;
+}
+
+std::vector<std::int32_t> quadCodes(RankExchange& exchange, const EdgeTable& table,
+  const SharedQuads& quads, const ClassifiedBoundary& classified)
+{
+  std::vector<std::int32_t> codes(quads.corners.size(), 0);
+  const DistributedBoundary& boundary = classified.boundary;
+  for (std::size_t f = 0; f < boundary.facets.size(); ++f)
+  {
+    if (boundary.facets[f].corners() == 4)
+    {
+      std::array<Index, 4> edges;
+      std::transform(boundary.facetEdges[f].begin(), boundary.facetEdges[f].end(), edges.begin(),
+        [&](Index edge)
+        {
+          const auto& [a, b] = boundary.edges.edges()[edge];
+          return table.find(a, b);
+        });
+      const FacetRecord& record = classified.classes.facets[f];
+      codes[quads.table.find(edges)] = record.onCAD ? 3 + record.face : 1;
+    }
+  }
+  combineShared(
+    exchange, quads.shared, codes, [](std::int32_t a, std::int32_t b) { return std::max(a, b); });
+  return codes;
+}
+
+void projectQuads(RankExchange& exchange, const SimplexMesh& mesh, const SharedQuads& quads,
+  const std::vector<Index>& chosen, const std::vector<std::int32_t>& codes,
+  const ClassifiedBoundary& classified, const Classification& classification, std::size_t first,
+  std::vector<MidpointOnCAD>& hits)
+{
+  if (!quads.any)
+  {
+    return;
+  }
+  std::vector<std::size_t> asking;
+  std::vector<BoundaryEdge> queries;
+  for (std::size_t i = 0; i < chosen.size(); ++i)
+  {
+    const auto& corners = quads.corners[chosen[i]];
+    const std::int32_t code = codes[chosen[i]];
+    if (code > 1)
+    {
+      std::array<Point3, 4> points;
+      std::array<EntityId, 4> entities;
+      for (int k = 0; k < 4; ++k)
+      {
+        points[k] = mesh.points[corners[k]];
+        entities[k] = classification.entities[corners[k]];
+      }
+      asking.push_back(first + i);
+      queries.push_back(middleOfQuad(points, entities, code - 3));
+    }
+  }
+  const auto answers = projectEdges(
+    exchange, classified.projector, std::move(queries), { "projecting", "new vertices" });
+  for (std::size_t i = 0; i < asking.size(); ++i)
+  {
+    if (answers.values[i].entity)
+    {
+      hits.push_back({ asking[i], answers.values[i] });
+    }
+  }
 }
 
 void classifyMidpoints(

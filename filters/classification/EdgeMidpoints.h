@@ -10,6 +10,7 @@
 #include <cadrefine/classification/BoundaryProjector.h>
 #include <cadrefine/classification/Classification.h>
 #include <cadrefine/mesh/EdgeTable.h>
+#include <cadrefine/mesh/QuadTable.h>
 #include <cadrefine/refinement/LongestEdgeMarking.h>
 #include <cadrefine/refinement/Split.h>
 
@@ -28,13 +29,29 @@ struct MarkedEdges
   bool offCreases = false; ///< See BoundaryProjector::offCrease.
 };
 
+/// The quadrilaterals of a piece.
+struct SharedQuads
+{
+  bool any = false; ///< On some rank.
+  QuadTable table;
+  std::vector<std::array<Index, 4>> corners; ///< Of each: the ends of its two edges in the table.
+  SharedItems shared;
+};
+
+/// Collective; work of buildQuadTable, messages of findSharedSimplices.
+SharedQuads findQuads(RankExchange& exchange, const DistributedMesh& mesh, const EdgeTable& table);
+
 /// With this mark for all edges. Collective; work of buildEdgeTable, messages of findSharedEdges.
 MarkedEdges findEdges(RankExchange& exchange, const DistributedMesh& mesh, unsigned char mark);
 
-/// Ids of the midpoints of edges, given their ends, from the order of the ids of these: larger than
-/// all ids so far. Collective (see numberAtVertices).
-std::vector<GlobalId> numberMidpoints(RankExchange& exchange, DistributedMesh& mesh,
+/// Ids of the midpoints of edges, given their ends, from the order of the ids of these: from
+/// `idBound` on, which is then larger. Collective (see numberAtVertices).
+std::vector<GlobalId> numberMidpoints(RankExchange& exchange, const SharedVertices& shared,
+  const std::vector<GlobalId>& ids, GlobalId& idBound,
   const std::vector<std::array<Index, 2>>& parentEdges);
+
+/// The facets that are quadrilaterals on the CAD, ascending.
+std::vector<Index> quadsOnCAD(const ClassifiedBoundary& classified);
 
 /// The classes of all edges of a piece (see classifyBoundary), also of those whose boundary facets
 /// are on other ranks, as numbers: 0 for an edge inside the mesh. Collective.
@@ -56,7 +73,8 @@ struct MidpointOnCAD
   ClosestPoint where;
 };
 
-/// Projects the midpoints of all boundary edges (see ClassifiedBoundary::midpoints). Collective;
+/// Projects the midpoints of all boundary edges and quadrilaterals on the CAD (see
+/// ClassifiedBoundary::midpoints). Collective;
 /// one projection for each that does not stay straight and is not in the cache, shared out evenly
 /// over ranks and threads.
 WorkBalance findMidpoints(RankExchange& exchange, const SimplexMesh& mesh,
@@ -68,6 +86,18 @@ std::vector<MidpointOnCAD> projectMidpoints(RankExchange& exchange, const Simple
   const MarkedEdges& edges, const std::vector<std::int64_t>& codes,
   const ClassifiedBoundary& classified, const Classification& classification,
   RunStatistics& statistics);
+
+/// For each quadrilateral 0 inside the mesh, 1 on its boundary off the CAD, and otherwise 3 and its
+/// CAD face (2: not known), also where its facet is on another rank. Collective.
+std::vector<std::int32_t> quadCodes(RankExchange& exchange, const EdgeTable& table,
+  const SharedQuads& quads, const ClassifiedBoundary& classified);
+
+/// Appends where the middles of these quadrilaterals belong, which have places from `first` on.
+/// Collective; one projection for each on the CAD, shared out likewise.
+void projectQuads(RankExchange& exchange, const SimplexMesh& mesh, const SharedQuads& quads,
+  const std::vector<Index>& chosen, const std::vector<std::int32_t>& codes,
+  const ClassifiedBoundary& classified, const Classification& classification, std::size_t first,
+  std::vector<MidpointOnCAD>& hits);
 
 /// Appends the midpoints at their distance from the CAD, so that there are `count` entries.
 void classifyMidpoints(

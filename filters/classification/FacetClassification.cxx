@@ -23,7 +23,7 @@ bool keepsItsShape(
   const ProjectionTask& task, const std::vector<ClosestPoint>& hits, const Facet& facet)
 {
   const auto& points = task.points();
-  const int corners = task.boundary.facetCorners();
+  const int corners = facet.corners();
   double longest = 0;
   double farthest = 0;
   for (int k = 0; k < corners; ++k)
@@ -52,11 +52,10 @@ std::vector<FacetRecord> makeRecords(
     hits.begin(), hits.end(), entities.begin(), [](const ClosestPoint& hit) { return hit.entity; });
   const auto recordOf = [&](const Facet& facet)
   {
-    FacetRecord record = makeRecord(
-      task.projector, classifiedFacet(task.mesh.mesh(), entities, facet, task.boundary.kind));
+    FacetRecord record =
+      makeRecord(task.projector, classifiedFacet(task.mesh.mesh(), entities, facet));
     record.onCAD = record.onCAD && keepsItsShape(task, hits, facet);
-    const auto end = facet.vertices.begin() + task.boundary.facetCorners();
-    record.free = std::any_of(facet.vertices.begin(), end,
+    record.free = std::any_of(facet.begin(), facet.end(),
       [&](Index vertex) { return !task.options.inRegion(task.points()[vertex]); });
     return record;
   };
@@ -95,9 +94,13 @@ FaceSides findSides(const ProjectionTask& task, const std::vector<ClosestPoint>&
   std::vector<std::int64_t> votes(2 * faces, 0);
   for (std::size_t f = 0; f < records.size(); ++f)
   {
-    for (int k = 0; k < 3 && records[f].onCAD; ++k)
+    if (!records[f].onCAD)
     {
-      const ClosestPoint& hit = hits[task.boundary.facets[f].vertices[k]];
+      continue;
+    }
+    for (const Index vertex : task.boundary.facets[f])
+    {
+      const ClosestPoint& hit = hits[vertex];
       if (hit.entity.dimension != 2)
       {
         continue;
@@ -136,7 +139,8 @@ std::vector<FaceMatch> findFaces(
     }
     CornerHits query;
     query.exact = 1;
-    for (int k = 0; k < 3; ++k)
+    query.corners = task.boundary.facets[f].corners();
+    for (int k = 0; k < query.corners; ++k)
     {
       const Index vertex = task.boundary.facets[f].vertices[k];
       query.points[k] = task.points()[vertex];
@@ -193,9 +197,10 @@ void askNeighbours(const ProjectionTask& task, const std::vector<FaceMatch>& mat
     if (records[f].onCAD && !matches[f].certain)
     {
       std::vector<FacetRecord> neighbours;
-      for (const Index edge : task.boundary.facetEdges[f])
+      for (int k = 0; k < task.boundary.facets[f].edges(); ++k)
       {
-        neighbours.insert(neighbours.end(), ofEdges[edge].begin(), ofEdges[edge].end());
+        const auto& ofEdge = ofEdges[task.boundary.facetEdges[f][k]];
+        neighbours.insert(neighbours.end(), ofEdge.begin(), ofEdge.end());
       }
       records[f].face = majority(records[f], neighbours);
     }

@@ -107,9 +107,12 @@ void addFaces(const ProjectionTask& task, const std::vector<ClosestPoint>& hits,
   for (std::size_t f = 0; f < facets.records.size(); ++f)
   {
     const FacetRecord& record = facets.records[f];
-    for (int k = 0; k < task.boundary.facetCorners() && record.onCAD; ++k)
+    if (!record.onCAD)
     {
-      const Index vertex = task.boundary.facets[f].vertices[k];
+      continue;
+    }
+    for (const Index vertex : task.boundary.facets[f])
+    {
       if (record.face < 0)
       {
         meeting.undecided[vertex] = task.triangles();

@@ -42,7 +42,7 @@ std::vector<int> commonHolders(const SharedVertices& vertices, const std::vector
   const std::array<Index, N>& simplex)
 {
   std::vector<int> common;
-  for (std::size_t i = 0; i < N; ++i)
+  for (std::size_t i = 0; i < N && simplex[i] >= 0; ++i)
   {
     const Index slot = slots[static_cast<std::size_t>(simplex[i])];
     if (slot < 0)
@@ -70,7 +70,7 @@ std::array<GlobalId, N> keyOf(const std::vector<GlobalId>& ids, const std::array
   std::array<GlobalId, N> key;
   for (std::size_t i = 0; i < N; ++i)
   {
-    key[i] = ids[static_cast<std::size_t>(simplex[i])];
+    key[i] = simplex[i] < 0 ? -1 : ids[static_cast<std::size_t>(simplex[i])];
   }
   std::sort(key.begin(), key.end());
   return key;
@@ -119,7 +119,7 @@ std::string reasonAgainst(const Candidates<N>& candidates)
     std::string text = "A piece lists the edge or facet between the vertices with global ids";
     for (const GlobalId id : twins->key)
     {
-      text += " " + std::to_string(id);
+      text += id < 0 ? "" : " " + std::to_string(id);
     }
     return text + " twice.";
   }
@@ -187,6 +187,12 @@ template SharedItems findSharedSimplices<3>(RankExchange&, const SharedVertices&
   const std::vector<GlobalId>&, const std::vector<std::array<Index, 3>>&);
 template SharedItems findSharedSimplices<4>(RankExchange&, const SharedVertices&,
   const std::vector<GlobalId>&, const std::vector<std::array<Index, 4>>&);
+template SharedItems findSharedSimplices<5>(RankExchange&, const SharedVertices&,
+  const std::vector<GlobalId>&, const std::vector<std::array<Index, 5>>&);
+template SharedItems findSharedSimplices<6>(RankExchange&, const SharedVertices&,
+  const std::vector<GlobalId>&, const std::vector<std::array<Index, 6>>&);
+template SharedItems findSharedSimplices<8>(RankExchange&, const SharedVertices&,
+  const std::vector<GlobalId>&, const std::vector<std::array<Index, 8>>&);
 
 SharedVertices sharedWithMidpoints(
   const SharedVertices& vertices, const SharedEdges& edges, const std::vector<Index>& midpointOf)

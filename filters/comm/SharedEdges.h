@@ -13,8 +13,8 @@ namespace cadrefine
 /// Edges held by several ranks; see SharedItems. An item is a place in the list of edges.
 using SharedEdges = SharedItems;
 
-/// Finds the simplices, given by N local vertices each (edges: 2, facets: 3, tetrahedra: 4), that
-/// other ranks hold too. Collective.
+/// Finds the edges, facets or cells, given by N local vertices each (where some have fewer, -1
+/// follows), that other ranks hold too. Collective.
 ///
 /// @param exchange the ranks.
 /// @param vertices the local vertices that several ranks hold.
@@ -38,6 +38,12 @@ extern template SharedItems findSharedSimplices<3>(RankExchange&, const SharedVe
   const std::vector<GlobalId>&, const std::vector<std::array<Index, 3>>&);
 extern template SharedItems findSharedSimplices<4>(RankExchange&, const SharedVertices&,
   const std::vector<GlobalId>&, const std::vector<std::array<Index, 4>>&);
+extern template SharedItems findSharedSimplices<5>(RankExchange&, const SharedVertices&,
+  const std::vector<GlobalId>&, const std::vector<std::array<Index, 5>>&);
+extern template SharedItems findSharedSimplices<6>(RankExchange&, const SharedVertices&,
+  const std::vector<GlobalId>&, const std::vector<std::array<Index, 6>>&);
+extern template SharedItems findSharedSimplices<8>(RankExchange&, const SharedVertices&,
+  const std::vector<GlobalId>&, const std::vector<std::array<Index, 8>>&);
 
 /// The shared points among the vertices and the midpoints of edges: the shared vertices, and the
 /// midpoints of shared edges. `midpointOf` gives the number of the midpoint of each edge, larger

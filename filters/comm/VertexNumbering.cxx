@@ -279,5 +279,7 @@ template Numbering numberAtVertices<1>(RankExchange&, const SharedVertices&,
   const std::vector<GlobalId>&, const std::vector<VertexKey<1>>&);
 template Numbering numberAtVertices<3>(RankExchange&, const SharedVertices&,
   const std::vector<GlobalId>&, const std::vector<VertexKey<3>>&);
+template Numbering numberAtVertices<7>(RankExchange&, const SharedVertices&,
+  const std::vector<GlobalId>&, const std::vector<VertexKey<7>>&);
 
 } // namespace cadrefine

@@ -12,8 +12,9 @@
 namespace cadrefine
 {
 
-/// Something that is known by a vertex and K ids more: an edge (K = 1) or a cell (K = 3) by its
-/// vertex with the smallest id and the others, ascending, -1 standing for none.
+/// Something that is known by a vertex and K ids more: an edge (K = 1) or a cell (K = 3, or 7
+/// of a hexahedron) by its vertex with the smallest id and the others, ascending, -1 standing for
+/// none.
 template<std::size_t K>
 struct VertexKey
 {
@@ -38,5 +39,7 @@ extern template Numbering numberAtVertices<1>(RankExchange&, const SharedVertice
   const std::vector<GlobalId>&, const std::vector<VertexKey<1>>&);
 extern template Numbering numberAtVertices<3>(RankExchange&, const SharedVertices&,
   const std::vector<GlobalId>&, const std::vector<VertexKey<3>>&);
+extern template Numbering numberAtVertices<7>(RankExchange&, const SharedVertices&,
+  const std::vector<GlobalId>&, const std::vector<VertexKey<7>>&);
 
 } // namespace cadrefine

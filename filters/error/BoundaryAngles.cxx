@@ -33,7 +33,7 @@ double angleAt(const Meeting& meeting)
            : 0;
 }
 
-/// A flat triangle has no direction, and does not count.
+/// A degenerate facet has no direction, and does not count.
 Meeting meetingWith(const Vector3& intoFacet)
 {
   const Vector3 direction = normalized(intoFacet);
@@ -49,7 +49,8 @@ void visitSides(
   const DistributedBoundary& boundary = classified.boundary;
   for (std::size_t f = 0; f < boundary.facets.size(); ++f)
   {
-    const auto& v = boundary.facets[f].vertices;
+    const Facet& facet = boundary.facets[f];
+    const auto& v = facet.vertices;
     if (!classified.classes.facets[f].onCAD)
     {
       continue;
@@ -60,10 +61,14 @@ void visitSides(
       visit(v[1], points[v[0]] - points[v[1]]);
       continue;
     }
-    const Vector3 normal = twofoldAreaVector(points[v[0]], points[v[1]], points[v[2]]);
-    for (int k = 0; k < 3; ++k)
+    std::array<Point3, 4> p;
+    const int corners = facet.corners();
+    std::transform(
+      facet.begin(), facet.end(), p.begin(), [&](Index vertex) { return points[vertex]; });
+    const Vector3 normal = twofoldAreaVector(p, corners);
+    for (int k = 0; k < corners; ++k)
     {
-      visit(boundary.facetEdges[f][k], cross(normal, points[v[(k + 1) % 3]] - points[v[k]]));
+      visit(boundary.facetEdges[f][k], cross(normal, p[(k + 1) % corners] - p[k]));
     }
   }
 }
@@ -108,7 +113,7 @@ std::vector<double> neighbourAngles(RankExchange& exchange, const DistributedMes
     if (classified.classes.facets[f].onCAD)
     {
       const auto& sides = triangles ? boundary.facetEdges[f] : boundary.facets[f].vertices;
-      for (int k = 0; k < boundary.facetCorners(); ++k)
+      for (int k = 0; k < boundary.facets[f].corners(); ++k)
       {
         if (isSmoothAt(sides[k]))
         {

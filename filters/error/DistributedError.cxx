@@ -20,8 +20,8 @@ ErrorFacet makeErrorFacet(const SimplexMesh& mesh, const DistributedBoundary& bo
   const BoundaryClasses& classes, const Classification& classification, std::size_t f)
 {
   ErrorFacet facet;
-  facet.corners = classifiedFacet(mesh, classification.entities, boundary.facets[f], boundary.kind);
-  for (int k = 0; k < 3; ++k)
+  facet.corners = classifiedFacet(mesh, classification.entities, boundary.facets[f]);
+  for (int k = 0; k < 4; ++k)
   {
     const Index edge = boundary.facetEdges[f][k];
     facet.edges[k] = edge < 0 ? EdgeClass{} : classes.ofEdges[edge];
@@ -36,11 +36,10 @@ CurvedErrorFacet makeCurvedFacet(const DistributedMesh& mesh, const DistributedB
   CurvedErrorFacet facet{ makeErrorFacet(mesh.mesh(), boundary, classes, classification, f), {},
     {} };
   const MidNodes& midNodes = *mesh.converted.midNodes;
-  const int corners = boundary.facetCorners();
-  for (int k = 0; k < (corners == 3 ? 3 : 1); ++k)
+  const Facet& of = boundary.facets[f];
+  for (int k = 0; k < of.edges(); ++k)
   {
-    const auto& vertices = boundary.facets[f].vertices;
-    const Index edge = midNodes.table.find(vertices[k], vertices[(k + 1) % corners]);
+    const Index edge = midNodes.table.find(of.vertices[k], of.vertices[(k + 1) % of.corners()]);
     const std::size_t point = mesh.mesh().points.size() + edge;
     facet.nodes[k] = midNodes.points[edge];
     facet.entities[k] = classification.entities[point];
@@ -98,13 +97,18 @@ ClassifiedSurface surfaceOf(RankExchange& exchange, const SimplexMesh& mesh,
       { { numbered(ends[e][0]), numbered(ends[e][1]) }, classified.classes.ofEdges[e] });
   }
   surface.facets.reserve(facets.size());
+  Index quads = 0;
   for (const std::size_t f : facets)
   {
+    const Facet& of = boundary.facets[f];
     SurfaceFacet& facet = surface.facets.emplace_back();
-    std::transform(boundary.facets[f].vertices.begin(),
-      boundary.facets[f].vertices.begin() + boundary.facetCorners(), facet.corners.begin(),
-      numbered);
+    std::transform(of.begin(), of.end(), facet.corners.begin(), numbered);
     facet.edges = boundary.facetEdges[f];
+    if (of.corners() == 4)
+    {
+      facet.face = classified.classes.facets[f].face;
+      facet.quad = quads++;
+    }
   }
   const auto findPlace = [&](std::size_t p)
   {
@@ -120,6 +124,25 @@ ClassifiedSurface surfaceOf(RankExchange& exchange, const SimplexMesh& mesh,
   agreeOnFailure(
     exchange, [&] { forEachIndex(parallelFor, surface.points.size(), coarseGrain, findPlace); });
   return surface;
+}
+
+/// Those of all edges of the boundary, and of those of these facets that are quadrilaterals.
+std::vector<ClosestPoint> midpointsOf(
+  const ClassifiedBoundary& classified, const std::vector<std::size_t>& facets)
+{
+  const auto& all = *classified.midpoints;
+  const std::size_t edges = classified.boundary.edges.edges().size();
+  std::vector<ClosestPoint> chosen(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(edges));
+  const std::vector<Index> quads = quadsOnCAD(classified);
+  for (const std::size_t f : facets)
+  {
+    if (classified.boundary.facets[f].corners() == 4)
+    {
+      const auto quad = std::lower_bound(quads.begin(), quads.end(), static_cast<Index>(f));
+      chosen.push_back(all[edges + (quad - quads.begin())]);
+    }
+  }
+  return chosen;
 }
 
 /// How many runs keep the memory in bounds, on the rank with the most facets.
@@ -147,7 +170,7 @@ std::vector<FacetError> measureStraight(RankExchange& exchange, const SimplexMes
       .values;
   };
   return geometricErrors(surfaceOf(exchange, mesh, classified, classification, facets),
-    *classified.midpoints, depth, runsFor(exchange, facets.size(), depth), project);
+    midpointsOf(classified, facets), depth, runsFor(exchange, facets.size(), depth), project);
 }
 
 /// The same, of facets that are in the cache.
@@ -242,7 +265,7 @@ MeshError measureError(RankExchange& exchange, const DistributedMesh& mesh,
   const auto angles = neighbourAngles(exchange, mesh, classified, classification);
 
   MeshError result;
-  result.dimension = boundary.facetCorners();
+  result.dimension = boundary.facetDimension() + 1;
   result.ofCells.resize(mesh.converted.cellIds[piece.dimension].size());
   std::vector<double> addends;
   for (std::size_t i = 0; i < facets.size(); ++i)

@@ -195,24 +195,22 @@ vtkSmartPointer<vtkAbstractArray> interpolate(vtkAbstractArray* array,
 }
 
 /// The cell that each child is a part of, cells of dimension 0 first.
-std::vector<Index> parentCells(const ChildRanges& firstChildren)
+std::vector<Index> parentCells(const RefinementTrace& trace)
 {
   std::size_t children = 0;
-  for (const auto& firsts : firstChildren)
+  for (const auto& firsts : trace.firstChildren)
   {
     children += firsts.back();
   }
   std::vector<Index> parents;
   resizeLong(parents, children);
-  auto next = parents.begin();
-  Index cell = 0;
-  for (const auto& firsts : firstChildren)
+  auto first = parents.begin();
+  Index firstCell = 0;
+  for (int d = 0; d < 4; ++d)
   {
-    for (std::size_t c = 0; c + 1 < firsts.size(); ++c)
-    {
-      next = std::fill_n(next, firsts[c + 1] - firsts[c], cell);
-      ++cell;
-    }
+    trace.visitChildren(d, [&](Index cell, Index child) { first[child] = firstCell + cell; });
+    first += trace.firstChildren[d].back();
+    firstCell += static_cast<Index>(trace.firstChildren[d].size()) - 1;
   }
   return parents;
 }
@@ -295,8 +293,8 @@ MeshArrays refineArrays(
   carryOver(coarse.ofVertices, fine.ofVertices,
     [&](vtkAbstractArray* array)
     { return interpolate(array, trace.parentEdges, trace.ofVertices); });
-  const auto parents = coarse.ofCells->GetNumberOfArrays() > 0 ? parentCells(trace.firstChildren)
-                                                               : std::vector<Index>{};
+  const auto parents =
+    coarse.ofCells->GetNumberOfArrays() > 0 ? parentCells(trace) : std::vector<Index>{};
   carryOver(coarse.ofCells, fine.ofCells,
     [&](vtkAbstractArray* array)
     {

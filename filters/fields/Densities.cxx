@@ -2,6 +2,8 @@
 
 #include "mesh/PointSetConversion.h"
 
+#include <cadrefine/mesh/CellJacobian.h>
+#include <cadrefine/mesh/CellState.h>
 #include <cadrefine/mesh/Overlap.h>
 
 #include <algorithm>
@@ -13,49 +15,51 @@ namespace cadrefine
 namespace
 {
 
-template<std::size_t Corners>
-double sizeOf(const std::array<Index, Corners>& cell, const std::vector<Point3>& points)
+template<class Shape>
+double sizeOf(Shape, const std::array<Point3, Shape::corners>& corners)
 {
-  SimplexPoints<Corners> corners;
-  for (std::size_t k = 0; k < Corners; ++k)
+  if constexpr (isSimplex(Shape{}))
   {
-    corners[k] = points[cell[k]];
+    return measure(corners);
   }
-  return measure(corners);
+  else if constexpr (Shape::dimension == 2)
+  {
+    return area(corners);
+  }
+  else
+  {
+    return std::abs(volume(corners));
+  }
 }
 
-/// Rows of cells of which each comes from one: `sources`, without those of lower dimension.
-template<std::size_t Corners>
-WeightedRows rowsOf(const SimplexMesh& mesh, const Simplices<Corners>& cells,
-  const std::vector<Point3>& before, const std::vector<Index>& sources, Index firstSource)
-{
-  WeightedRows rows;
-  const auto first = static_cast<Index>(firstCellOfDimension(mesh, mesh.dimension));
-  for (std::size_t c = 0; c < cells.size(); ++c)
-  {
-    const double was = sizeOf(cells[c], before);
-    const double is = sizeOf(cells[c], mesh.points);
-    if (was != is && is > 0)
-    {
-      rows.add(firstSource + sources[c], was / is);
-      rows.endRow(first + static_cast<Index>(c));
-    }
-  }
-  return rows;
-}
-
+/// Rows of cells of the mesh's own dimension of which each comes from one: `sources`, without those
+/// of lower dimension.
 WeightedRows rowsOf(const SimplexMesh& mesh, const std::vector<Point3>& before,
   const std::vector<Index>& sources, Index firstSource)
 {
-  switch (mesh.dimension)
+  WeightedRows rows;
+  if (mesh.dimension < 2)
   {
-    case 3:
-      return rowsOf(mesh, mesh.tetrahedra, before, sources, firstSource);
-    case 2:
-      return rowsOf(mesh, mesh.triangles, before, sources, firstSource);
-    default:
-      return {};
+    return rows;
   }
+  const auto first = static_cast<Index>(firstCellOfDimension(mesh, mesh.dimension));
+  Index number = 0;
+  visitOwnShapes(mesh,
+    [&](auto shape, const auto& cells)
+    {
+      for (const auto& cell : cells)
+      {
+        const double was = sizeOf(shape, cornersOf(cell, before));
+        const double is = sizeOf(shape, cornersOf(cell, mesh.points));
+        if (was != is && is > 0)
+        {
+          rows.add(firstSource + sources[number], was / is);
+          rows.endRow(first + number);
+        }
+        ++number;
+      }
+    });
+  return rows;
 }
 
 template<std::size_t Count>
@@ -119,19 +123,35 @@ WeightedRows densitiesOfMoved(const SimplexMesh& mesh, const std::vector<Point3>
   return rowsOf(mesh, before, sources, first);
 }
 
+/// New vertices that are elsewhere than halfway between two others.
+void placeByRows(const WeightedRows& rows, std::size_t oldCount, std::vector<Point3>& points)
+{
+  for (std::size_t r = 0; r < rows.size(); ++r)
+  {
+    const Index target = rows.targets[r];
+    Point3 sum{};
+    for (Index k = rows.firsts[r]; k < rows.firsts[r + 1]; ++k)
+    {
+      sum = sum + rows.weights[k] * points[rows.sources[k]];
+    }
+    if (target >= static_cast<Index>(oldCount))
+    {
+      points[target] = sum;
+    }
+  }
+}
+
 WeightedRows densitiesOfRefined(
   const SimplexMesh& mesh, const RefinementTrace& trace, std::vector<Point3> before)
 {
+  const std::size_t oldCount = before.size();
   for (const auto& [a, b] : trace.parentEdges)
   {
     before.push_back(0.5 * (before[a] + before[b]));
   }
-  std::vector<Index> parents;
-  const std::vector<Index>& firsts = trace.firstChildren[mesh.dimension];
-  for (std::size_t c = 0; c + 1 < firsts.size(); ++c)
-  {
-    parents.insert(parents.end(), firsts[c + 1] - firsts[c], static_cast<Index>(c));
-  }
+  placeByRows(trace.ofVertices, oldCount, before);
+  std::vector<Index> parents(trace.firstChildren[mesh.dimension].back());
+  trace.visitChildren(mesh.dimension, [&](Index cell, Index child) { parents[child] = cell; });
   Index firstParent = 0;
   for (int d = 0; d < mesh.dimension; ++d)
   {

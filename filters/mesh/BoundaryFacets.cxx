@@ -13,87 +13,81 @@ namespace cadrefine
 namespace
 {
 
-/// The cells of the mesh, their sides, and the listed cells of one dimension less, given the number
-/// of a side's corners.
-template<std::size_t N>
-struct Sides;
-
-template<>
-struct Sides<3>
+/// visit(shape, cells) of the listed cells: those of one dimension less than the mesh's own.
+template<class Visit>
+void visitListed(const SimplexMesh& mesh, const Visit& visit)
 {
-  static constexpr auto& ofCell = tetrahedronFaces;
-  static const Simplices<4>& cells(const SimplexMesh& mesh) { return mesh.tetrahedra; }
-  static const Simplices<3>& listed(const SimplexMesh& mesh) { return mesh.triangles; }
-};
+  visitShapes(mesh, mesh.dimension - 1, visit);
+}
 
-template<>
-struct Sides<2>
-{
-  static constexpr auto& ofCell = triangleEdges;
-  static const Simplices<3>& cells(const SimplexMesh& mesh) { return mesh.triangles; }
-  static const Simplices<2>& listed(const SimplexMesh& mesh) { return mesh.segments; }
-};
-
-template<std::size_t N>
-using Corners = std::array<Index, N>;
-template<std::size_t N>
-using Ids = std::array<GlobalId, N>;
+/// Corners of a side, and -1 where it has fewer than four; their ids likewise.
+using Corners = std::array<Index, 4>;
+using Ids = std::array<GlobalId, 4>;
 
 /// A listed cell, on this rank or another, and the cells of this rank that it is a side of.
-template<std::size_t N>
 struct Listed
 {
-  Ids<N> key; ///< Ids of the corners, ascending.
-  Corners<N> corners;
+  Ids key; ///< Ids of the corners, ascending.
+  Corners corners;
   int met = 0;
   GlobalId smallest = std::numeric_limits<GlobalId>::max(); ///< Id of a cell that meets it.
   Index cell = -1;                                          ///< That cell.
 };
 
 template<std::size_t N>
-Ids<N> idsOf(const SimplexMesh& mesh, const Corners<N>& corners)
+Corners cornersOf(const std::array<Index, N>& cell)
 {
-  Ids<N> ids;
-  std::transform(corners.begin(), corners.end(), ids.begin(), [&](Index v) { return mesh.ids[v]; });
+  Corners corners{ -1, -1, -1, -1 };
+  std::copy(cell.begin(), cell.end(), corners.begin());
+  return corners;
+}
+
+Ids idsOf(const SimplexMesh& mesh, const Corners& corners)
+{
+  Ids ids;
+  std::transform(
+    corners.begin(), corners.end(), ids.begin(), [&](Index v) { return v < 0 ? -1 : mesh.ids[v]; });
   return ids;
 }
 
-template<std::size_t N>
-Ids<N> keyOf(const SimplexMesh& mesh, const Corners<N>& corners)
+Ids keyOf(const SimplexMesh& mesh, const Corners& corners)
 {
-  Ids<N> ids = idsOf(mesh, corners);
+  Ids ids = idsOf(mesh, corners);
   std::sort(ids.begin(), ids.end());
   return ids;
 }
 
 /// The ids of this rank's listed cells that each neighbour may have too.
-template<std::size_t N>
-std::vector<std::vector<Ids<N>>> idsForNeighbours(const DistributedMesh& mesh)
+std::vector<std::vector<Ids>> idsForNeighbours(const DistributedMesh& mesh)
 {
   const SharedVertices& shared = mesh.shared;
-  std::vector<std::vector<Ids<N>>> outgoing(shared.neighbours.size());
-  for (const Corners<N>& corners : Sides<N>::listed(mesh.mesh()))
-  {
-    for (const int rank : shared.holdersOf(corners[0]))
+  std::vector<std::vector<Ids>> outgoing(shared.neighbours.size());
+  visitListed(mesh.mesh(),
+    [&](auto, const auto& cells)
     {
-      const auto isHeld = [&](Index vertex)
+      for (const auto& cell : cells)
       {
-        const auto holders = shared.holdersOf(vertex);
-        return std::binary_search(holders.begin(), holders.end(), rank);
-      };
-      if (rank != shared.rank && std::all_of(corners.begin(), corners.end(), isHeld))
-      {
-        const auto n = std::lower_bound(shared.neighbours.begin(), shared.neighbours.end(), rank);
-        outgoing[n - shared.neighbours.begin()].push_back(idsOf(mesh.mesh(), corners));
+        for (const int rank : shared.holdersOf(cell[0]))
+        {
+          const auto isHeld = [&](Index vertex)
+          {
+            const auto holders = shared.holdersOf(vertex);
+            return std::binary_search(holders.begin(), holders.end(), rank);
+          };
+          if (rank != shared.rank && std::all_of(cell.begin(), cell.end(), isHeld))
+          {
+            const auto n =
+              std::lower_bound(shared.neighbours.begin(), shared.neighbours.end(), rank);
+            outgoing[n - shared.neighbours.begin()].push_back(idsOf(mesh.mesh(), cornersOf(cell)));
+          }
+        }
       }
-    }
-  }
+    });
   return outgoing;
 }
 
 /// The listed cells of this rank, and those of others whose corners it has, by keys.
-template<std::size_t N>
-std::vector<Listed<N>> gatherListed(RankExchange& exchange, const DistributedMesh& distributed)
+std::vector<Listed> gatherListed(RankExchange& exchange, const DistributedMesh& distributed)
 {
   const SimplexMesh& mesh = distributed.mesh();
   std::vector<std::pair<GlobalId, Index>> vertexOf;
@@ -102,104 +96,96 @@ std::vector<Listed<N>> gatherListed(RankExchange& exchange, const DistributedMes
     vertexOf.emplace_back(mesh.ids[vertex], vertex);
   }
   std::sort(vertexOf.begin(), vertexOf.end());
-  const auto find = [&](GlobalId id) {
-    return std::lower_bound(vertexOf.begin(), vertexOf.end(), std::pair{ id, Index{ 0 } })->second;
+  const auto find = [&](GlobalId id)
+  {
+    return id < 0 ? -1
+                  : std::lower_bound(vertexOf.begin(), vertexOf.end(), std::pair{ id, Index{ 0 } })
+                      ->second;
   };
-  std::vector<Listed<N>> all;
-  for (const Corners<N>& corners : Sides<N>::listed(mesh))
-  {
+  std::vector<Listed> all;
+  const auto add = [&](const Corners& corners) {
     all.push_back({ keyOf(mesh, corners), corners });
-  }
+  };
+  visitListed(mesh,
+    [&](auto, const auto& cells) {
+      std::for_each(cells.begin(), cells.end(), [&](const auto& cell) { add(cornersOf(cell)); });
+    });
   for (const auto& ofNeighbour :
-    exchange.exchange(distributed.shared.neighbours, idsForNeighbours<N>(distributed)))
+    exchange.exchange(distributed.shared.neighbours, idsForNeighbours(distributed)))
   {
-    for (const Ids<N>& ids : ofNeighbour)
+    for (const Ids& ids : ofNeighbour)
     {
-      Corners<N> corners;
+      Corners corners;
       std::transform(ids.begin(), ids.end(), corners.begin(), find);
-      all.push_back({ keyOf(mesh, corners), corners });
+      add(corners);
     }
   }
   std::sort(all.begin(), all.end(),
-    [&](const Listed<N>& a, const Listed<N>& b) {
+    [&](const Listed& a, const Listed& b) {
       return std::pair(a.key, idsOf(mesh, a.corners)) < std::pair(b.key, idsOf(mesh, b.corners));
     });
   all.erase(std::unique(all.begin(), all.end(),
-              [](const Listed<N>& a, const Listed<N>& b) { return a.key == b.key; }),
+              [](const Listed& a, const Listed& b) { return a.key == b.key; }),
     all.end());
   return all;
 }
 
 /// Which one has this key, of those that are by keys; none: their number.
-template<std::size_t N>
-std::size_t findListed(const std::vector<Listed<N>>& all, const Ids<N>& key)
+std::size_t findListed(const std::vector<Listed>& all, const Ids& key)
 {
   const auto found = std::lower_bound(all.begin(), all.end(), key,
-    [](const Listed<N>& listed, const Ids<N>& wanted) { return listed.key < wanted; });
+    [](const Listed& listed, const Ids& wanted) { return listed.key < wanted; });
   return found != all.end() && found->key == key ? found - all.begin() : all.size();
 }
 
 /// Finds which cells of this rank meet the listed ones.
-template<std::size_t N>
-void meetListed(const DistributedMesh& distributed, std::vector<Listed<N>>& all)
+void meetListed(const DistributedMesh& distributed, std::vector<Listed>& all)
 {
   const SimplexMesh& mesh = distributed.mesh();
   std::vector<unsigned char> onListed(mesh.points.size(), 0);
-  for (const Listed<N>& listed : all)
+  for (const Listed& listed : all)
   {
     for (const Index corner : listed.corners)
     {
-      onListed[corner] = 1;
-    }
-  }
-  const auto& cells = Sides<N>::cells(mesh);
-  for (std::size_t c = 0; c < cells.size(); ++c)
-  {
-    for (const auto& side : Sides<N>::ofCell)
-    {
-      Corners<N> corners;
-      std::transform(std::begin(side), std::end(side), corners.begin(),
-        [&](int corner) { return cells[c][corner]; });
-      const bool near = std::all_of(
-        corners.begin(), corners.end(), [&](Index vertex) { return onListed[vertex] != 0; });
-      const std::size_t found = near ? findListed(all, keyOf(mesh, corners)) : all.size();
-      if (found < all.size())
+      if (corner >= 0)
       {
-        Listed<N>& listed = all[found];
-        const GlobalId id = distributed.converted.cellIds[mesh.dimension][c];
-        ++listed.met;
-        listed.cell = id < listed.smallest ? static_cast<Index>(c) : listed.cell;
-        listed.smallest = std::min(listed.smallest, id);
+        onListed[corner] = 1;
       }
     }
   }
+  forEachSide(mesh,
+    [&](const Facet& side)
+    {
+      const bool near =
+        std::all_of(side.begin(), side.end(), [&](Index vertex) { return onListed[vertex] != 0; });
+      const std::size_t found = near ? findListed(all, keyOf(mesh, side.vertices)) : all.size();
+      if (found < all.size())
+      {
+        Listed& listed = all[found];
+        const GlobalId id = distributed.converted.cellIds[mesh.dimension][side.cell];
+        ++listed.met;
+        listed.cell = id < listed.smallest ? side.cell : listed.cell;
+        listed.smallest = std::min(listed.smallest, id);
+      }
+    });
 }
 
-template<std::size_t N>
-Facet facetOf(const Listed<N>& listed)
+Facet facetOf(const Listed& listed)
 {
-  Facet facet;
-  facet.vertices.fill(-1);
-  std::copy(listed.corners.begin(), listed.corners.end(), facet.vertices.begin());
-  facet.cell = listed.cell;
-  return facet;
+  return { listed.corners, listed.cell };
 }
 
 /// Removes the facets that another rank meets too, but for listed ones whose cell has the smaller
 /// id.
-template<std::size_t N>
 void settleShared(RankExchange& exchange, const DistributedMesh& mesh, bool anyListed,
-  const std::vector<Listed<N>>& all, std::vector<Facet>& facets)
+  const std::vector<Listed>& all, std::vector<Facet>& facets)
 {
   const auto idOf = [&](const Facet& facet)
   { return mesh.converted.cellIds[mesh.mesh().dimension][facet.cell]; };
-  std::vector<Corners<N>> corners(facets.size());
-  for (std::size_t f = 0; f < facets.size(); ++f)
-  {
-    std::copy_n(facets[f].vertices.begin(), N, corners[f].begin());
-  }
-  const SharedItems shared =
-    findSharedSimplices<N>(exchange, mesh.shared, mesh.mesh().ids, corners);
+  std::vector<Corners> corners(facets.size());
+  std::transform(facets.begin(), facets.end(), corners.begin(),
+    [](const Facet& facet) { return facet.vertices; });
+  const SharedItems shared = findSharedSimplices(exchange, mesh.shared, mesh.mesh().ids, corners);
   std::vector<GlobalId> smallest;
   if (anyListed)
   {
@@ -224,20 +210,21 @@ void settleShared(RankExchange& exchange, const DistributedMesh& mesh, bool anyL
   facets.insert(facets.end(), interior.begin(), interior.end());
 }
 
-template<std::size_t N>
-std::vector<Facet> findFacets(
+} // namespace
+
+std::vector<Facet> findBoundaryFacets(
   RankExchange& exchange, const DistributedMesh& mesh, const std::vector<unsigned char>& among)
 {
   std::vector<Facet> facets = findOuterFacets(mesh.mesh(), among, forOnThreads(exchange));
-  const bool anyListed = exchange.any(!Sides<N>::listed(mesh.mesh()).empty());
-  std::vector<Listed<N>> all;
+  const bool anyListed = exchange.any(mesh.mesh().cellCount(mesh.mesh().dimension - 1) > 0);
+  std::vector<Listed> all;
   if (anyListed)
   {
-    all = gatherListed<N>(exchange, mesh);
+    all = gatherListed(exchange, mesh);
     meetListed(mesh, all);
   }
   settleShared(exchange, mesh, anyListed, all, facets);
-  for (const Listed<N>& listed : all)
+  for (const Listed& listed : all)
   {
     if (listed.met > 1)
     {
@@ -245,15 +232,6 @@ std::vector<Facet> findFacets(
     }
   }
   return facets;
-}
-
-} // namespace
-
-std::vector<Facet> findBoundaryFacets(
-  RankExchange& exchange, const DistributedMesh& mesh, const std::vector<unsigned char>& among)
-{
-  return mesh.mesh().dimension == 3 ? findFacets<3>(exchange, mesh, among)
-                                    : findFacets<2>(exchange, mesh, among);
 }
 
 } // namespace cadrefine

@@ -24,31 +24,54 @@ namespace cadrefine
 namespace
 {
 
-/// A cell type that CADRefine takes, or with a dimension of -1 one that it does not.
+constexpr int shapeCount = 8;
+
+/// A cell type that CADRefine takes, or with a shape of -1 one that it does not.
 struct CellKind
 {
+  int shape = -1; ///< Place in the order in which visitShapes visits them.
   int dimension = -1;
+  vtkIdType corners = 0;
   bool secondOrder = false;
+  bool inRows = false; ///< Of each four corners the last two are the other way round.
 };
+
+template<class Shape>
+constexpr CellKind kind(int shape, bool secondOrder = false)
+{
+  return { shape, Shape::dimension, static_cast<vtkIdType>(Shape::corners), secondOrder };
+}
 
 CellKind kindOf(int cellType)
 {
   switch (cellType)
   {
     case VTK_VERTEX:
-      return { 0, false };
+      return kind<shapes::Vertex>(0);
     case VTK_LINE:
-      return { 1, false };
+      return kind<shapes::Segment>(1);
     case VTK_TRIANGLE:
-      return { 2, false };
+      return kind<shapes::Triangle>(2);
+    case VTK_QUAD:
+      return kind<shapes::Quadrilateral>(3);
     case VTK_TETRA:
-      return { 3, false };
+      return kind<shapes::Tetrahedron>(4);
+    case VTK_PYRAMID:
+      return kind<shapes::Pyramid>(5);
+    case VTK_WEDGE:
+      return kind<shapes::Wedge>(6);
+    case VTK_HEXAHEDRON:
+      return kind<shapes::Hexahedron>(7);
+    case VTK_PIXEL:
+      return { 3, 2, 4, false, true };
+    case VTK_VOXEL:
+      return { 7, 3, 8, false, true };
     case VTK_QUADRATIC_EDGE:
-      return { 1, true };
+      return kind<shapes::Segment>(1, true);
     case VTK_QUADRATIC_TRIANGLE:
-      return { 2, true };
+      return kind<shapes::Triangle>(2, true);
     case VTK_QUADRATIC_TETRA:
-      return { 3, true };
+      return kind<shapes::Tetrahedron>(4, true);
     default:
       return {};
   }
@@ -80,9 +103,7 @@ bool isGhost(vtkUnsignedCharArray* ghosts, vtkIdType cell)
 /// Corners and mid nodes.
 vtkIdType pointsOf(const CellKind& kind)
 {
-  constexpr vtkIdType firstOrder[4] = { 1, 2, 3, 4 };
-  constexpr vtkIdType secondOrder[4] = { 0, 3, 6, 10 };
-  return kind.secondOrder ? secondOrder[kind.dimension] : firstOrder[kind.dimension];
+  return kind.corners + (kind.secondOrder ? static_cast<vtkIdType>(nodesOf(kind.dimension)) : 0);
 }
 
 /// Whether the cell names as many points as it must, and such as there are.
@@ -110,11 +131,12 @@ void checkCell(int type, const CellKind& kind, CellOrder order, vtkIdType cell)
 {
   const auto holds = [&]
   { return "the mesh holds a " + nameOf(type) + " (cell " + std::to_string(cell) + "); "; };
-  if (kind.dimension < 0)
+  if (kind.shape < 0)
   {
     throw Error(holds() +
-                "CADRefine takes triangles and tetrahedra (the filters Tetrahedralize and "
-                "Triangulate make them)");
+                "CADRefine takes linear tetrahedra, pyramids, wedges, hexahedra, triangles and "
+                "quadrilaterals (the filters Tetrahedralize and Triangulate make simplices of "
+                "other cells)");
   }
   if (kind.secondOrder && order == CellOrder::First)
   {
@@ -159,10 +181,10 @@ void forEachCell(vtkPointSet* input, vtkIdType begin, vtkIdType end, const Use& 
   }
 }
 
-/// Numbers by dimension: of cells, and of those of second order among them.
+/// Numbers of cells by shape, and by dimension of those of second order among them.
 struct CellCounts
 {
-  std::array<std::size_t, 4> all{};
+  std::array<std::size_t, shapeCount> all{};
   std::array<std::size_t, 4> secondOrder{};
 };
 
@@ -191,7 +213,7 @@ public:
         forPart(part,
           [&](vtkIdType, const CellKind& kind, const auto*)
           {
-            ++mine.all[kind.dimension];
+            ++mine.all[kind.shape];
             mine.secondOrder[kind.dimension] += kind.secondOrder;
           });
       });
@@ -239,9 +261,12 @@ private:
     CellCounts sum;
     for (; part != end; ++part)
     {
+      for (int shape = 0; shape < shapeCount; ++shape)
+      {
+        sum.all[shape] += std::exchange(part->all[shape], sum.all[shape]);
+      }
       for (int d = 0; d < 4; ++d)
       {
-        sum.all[d] += std::exchange(part->all[d], sum.all[d]);
         sum.secondOrder[d] += std::exchange(part->secondOrder[d], sum.secondOrder[d]);
       }
     }
@@ -250,15 +275,20 @@ private:
 
   void makeRoom(const CellCounts& counts)
   {
+    std::size_t shape = 0;
     for (int d = 0; d < 4; ++d)
     {
-      resizeLong(cellOf_[d], counts.all[d], parallelFor_);
+      std::size_t ofDimension = 0;
+      visitShapes(mesh_, d,
+        [&](auto, auto& cells)
+        {
+          resizeLong(cells, counts.all[shape], parallelFor_);
+          firstOfShape_[shape] = ofDimension;
+          ofDimension += counts.all[shape++];
+        });
+      resizeLong(cellOf_[d], ofDimension, parallelFor_);
       resizeLong(nodes_[d], nodesOf(d) * counts.secondOrder[d], parallelFor_);
     }
-    resizeLong(mesh_.vertices, counts.all[0], parallelFor_);
-    resizeLong(mesh_.segments, counts.all[1], parallelFor_);
-    resizeLong(mesh_.triangles, counts.all[2], parallelFor_);
-    resizeLong(mesh_.tetrahedra, counts.all[3], parallelFor_);
   }
 
   template<class Point, std::size_t Corners>
@@ -276,19 +306,22 @@ private:
     {
       writeNodes(d, points, nodes_[d].data() + nodesOf(d) * next.secondOrder[d]++);
     }
-    const std::size_t place = next.all[d]++;
-    cellOf_[d][place] = number;
-    switch (d)
-    {
-      case 0:
-        return writeCorners(points, mesh_.vertices[place]);
-      case 1:
-        return writeCorners(points, mesh_.segments[place]);
-      case 2:
-        return writeCorners(points, mesh_.triangles[place]);
-      default:
-        return writeCorners(points, mesh_.tetrahedra[place]);
-    }
+    const std::size_t place = next.all[kind.shape]++;
+    cellOf_[d][firstOfShape_[kind.shape] + place] = number;
+    int shape = 0;
+    visitShapes(mesh_,
+      [&](auto, auto& cells)
+      {
+        if (shape++ == kind.shape)
+        {
+          auto& cell = cells[place];
+          writeCorners(points, cell);
+          for (std::size_t k = 2; kind.inRows && k < cell.size(); k += 4)
+          {
+            std::swap(cell[k], cell[k + 1]);
+          }
+        }
+      });
   }
 
   vtkPointSet* input_;
@@ -296,6 +329,7 @@ private:
   SimplexMesh& mesh_;
   std::array<std::vector<vtkIdType>, 4>& cellOf_;
   NodesOfCells nodes_;
+  std::array<std::size_t, shapeCount> firstOfShape_{}; ///< Its place in cellOf_.
   ParallelFor parallelFor_;
 };
 

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <tuple>
 
 namespace cadrefine
 {
@@ -112,20 +113,36 @@ std::vector<Index> candidates(RankExchange& exchange, const SimplexMesh& mesh)
   return result;
 }
 
-/// Appends the keys of cells: the vertex with the smallest id, and the ids of the others.
-template<std::size_t Corners>
-void appendKeys(
-  const SimplexMesh& mesh, const Simplices<Corners>& cells, std::vector<VertexKey<3>>& keys)
+/// The key of a cell: the vertex with the smallest id, and the ids of the others.
+template<std::size_t K>
+VertexKey<K> keyOf(const SimplexMesh& mesh, Index* first, Index* last)
 {
-  for (auto cell : cells)
-  {
-    std::sort(
-      cell.begin(), cell.end(), [&](Index a, Index b) { return mesh.ids[a] < mesh.ids[b]; });
-    VertexKey<3> key{ cell[0], { -1, -1, -1 } };
-    std::transform(cell.begin() + 1, cell.end(), key.rest.begin(),
-      [&](Index vertex) { return mesh.ids[vertex]; });
-    keys.push_back(key);
-  }
+  std::sort(first, last, [&](Index a, Index b) { return mesh.ids[a] < mesh.ids[b]; });
+  VertexKey<K> key{ *first, {} };
+  key.rest.fill(-1);
+  std::transform(first + 1, last, key.rest.begin(), [&](Index vertex) { return mesh.ids[vertex]; });
+  return key;
+}
+
+/// Numbers of all cells, those of dimension 0 first, of which each has at most K + 1 corners.
+template<std::size_t K>
+std::vector<GlobalId> numbersOfCells(RankExchange& exchange, const DistributedMesh& mesh)
+{
+  const SimplexMesh& piece = mesh.mesh();
+  std::vector<VertexKey<K>> keys;
+  reserveLong(keys, piece.cellCount());
+  visitShapes(piece,
+    [&](auto, const auto& cells)
+    {
+      for (auto cell : cells)
+      {
+        if constexpr (std::tuple_size_v<decltype(cell)> <= K + 1)
+        {
+          keys.push_back(keyOf<K>(piece, cell.data(), cell.data() + cell.size()));
+        }
+      }
+    });
+  return numberAtVertices(exchange, mesh.shared, piece.ids, keys).numbers;
 }
 
 bool haveIds(const ConvertedMesh& converted)
@@ -139,13 +156,9 @@ bool haveIds(const ConvertedMesh& converted)
 void numberCells(RankExchange& exchange, DistributedMesh& mesh)
 {
   const SimplexMesh& cells = mesh.mesh();
-  std::vector<VertexKey<3>> keys;
-  reserveLong(keys, cells.cellCount());
-  appendKeys(cells, cells.vertices, keys);
-  appendKeys(cells, cells.segments, keys);
-  appendKeys(cells, cells.triangles, keys);
-  appendKeys(cells, cells.tetrahedra, keys);
-  const auto numbers = numberAtVertices(exchange, mesh.shared, cells.ids, keys).numbers;
+  const bool mixed = exchange.any(cells.hasOtherThanSimplices());
+  const auto numbers =
+    mixed ? numbersOfCells<7>(exchange, mesh) : numbersOfCells<3>(exchange, mesh);
   for (int d = 0; d < 4; ++d)
   {
     mesh.converted.cellIds[d].assign(numbers.begin() + firstCellOfDimension(cells, d),
@@ -153,19 +166,17 @@ void numberCells(RankExchange& exchange, DistributedMesh& mesh)
   }
 }
 
-template<std::size_t Corners>
-std::vector<GlobalId> numberSimplices(
-  RankExchange& exchange, const DistributedMesh& mesh, const Simplices<Corners>& cells)
+std::vector<GlobalId> numberFacets(
+  RankExchange& exchange, const DistributedMesh& mesh, const std::vector<Facet>& facets)
 {
   std::vector<VertexKey<3>> keys;
-  appendKeys(mesh.mesh(), cells, keys);
+  for (Facet facet : facets)
+  {
+    keys.push_back(
+      keyOf<3>(mesh.mesh(), facet.vertices.data(), facet.vertices.data() + facet.corners()));
+  }
   return numberAtVertices(exchange, mesh.shared, mesh.mesh().ids, keys).numbers;
 }
-
-template std::vector<GlobalId> numberSimplices(
-  RankExchange&, const DistributedMesh&, const Simplices<2>&);
-template std::vector<GlobalId> numberSimplices(
-  RankExchange&, const DistributedMesh&, const Simplices<3>&);
 
 SharedVertices findShared(RankExchange& exchange, const SimplexMesh& mesh)
 {

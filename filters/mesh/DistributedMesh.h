@@ -6,7 +6,7 @@
 #include "comm/SharedVertices.h"
 #include "mesh/PointSetConversion.h"
 
-#include <cadrefine/mesh/SimplexMesh.h>
+#include <cadrefine/mesh/Facets.h>
 
 namespace cadrefine
 {
@@ -36,16 +36,10 @@ DistributedMesh makeDistributedMesh(
 /// wherever they are. Collective; see numberAtVertices.
 void numberCells(RankExchange& exchange, DistributedMesh& mesh);
 
-/// Numbers of cells, or of sides of cells, by the ids of their vertices: from 0 on without a gap
-/// over all ranks, the same for the same vertices. Collective; see numberAtVertices.
-template<std::size_t Corners>
-std::vector<GlobalId> numberSimplices(
-  RankExchange& exchange, const DistributedMesh& mesh, const Simplices<Corners>& cells);
-
-extern template std::vector<GlobalId> numberSimplices(
-  RankExchange&, const DistributedMesh&, const Simplices<2>&);
-extern template std::vector<GlobalId> numberSimplices(
-  RankExchange&, const DistributedMesh&, const Simplices<3>&);
+/// Numbers of facets by the ids of their vertices: from 0 on without a gap over all ranks, the same
+/// for the same vertices. Collective; see numberAtVertices.
+std::vector<GlobalId> numberFacets(
+  RankExchange& exchange, const DistributedMesh& mesh, const std::vector<Facet>& facets);
 
 /// The shared points of a mesh whose edges are shared like this: those of its vertices, and of the
 /// mid nodes that have numbers after them. No communication.

@@ -8,9 +8,9 @@
 namespace cadrefine
 {
 
-/// Unit normal of the coordinate plane in which all triangles lie, turned the way most of them
-/// turn; zero where there is no such plane. Collective; two reductions of three numbers, work
-/// linear in the number of triangles.
+/// Unit normal of the coordinate plane in which all triangles and quadrilaterals lie, turned the
+/// way most of them turn; zero where there is no such plane. Collective; two reductions of three
+/// numbers, work linear in their number.
 Vector3 planeNormal(RankExchange& exchange, const SimplexMesh& mesh);
 
 } // namespace cadrefine

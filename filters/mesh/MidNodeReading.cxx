@@ -24,11 +24,7 @@ public:
   {
     EdgeTable table = buildEdgeTable(result_.mesh);
     pointOf_.assign(table.edges.size(), -1);
-    auto node = nodes[1].begin();
-    for (const Index edge : table.ofSegments)
-    {
-      take(edge, *node++);
-    }
+    takeAll(table.ofSegments, nodes[1]);
     takeAll(table.ofTriangles, nodes[2]);
     takeAll(table.ofTetrahedra, nodes[3]);
     MidNodes& result = result_.midNodes.emplace();

@@ -185,11 +185,11 @@ std::vector<Index> twinsInPiece(
   return twins;
 }
 
+/// `numbers` are those of the cells in the data set.
 template<std::size_t Corners>
-void checkCells(
-  RankExchange& exchange, const DistributedMesh& mesh, const Simplices<Corners>& cells)
+void checkCells(RankExchange& exchange, const DistributedMesh& mesh,
+  const Simplices<Corners>& cells, const vtkIdType* numbers)
 {
-  const auto& numbers = mesh.converted.cellOf[mesh.mesh().dimension];
   const auto twins = twinsInPiece(mesh.mesh().points.size(), cells, forOnThreads(exchange));
   exchange.agree(twins.empty()
                    ? ""
@@ -214,20 +214,26 @@ void checkCells(
   }
 }
 
-/// The corners of a cell of this rank with this id; empty where there is none.
-template<std::size_t Corners>
-std::string cornersOf(const SimplexMesh& mesh, const Simplices<Corners>& cells,
-  const std::vector<GlobalId>& ids, GlobalId id)
+/// The corners of the cells of this dimension of this rank with this id.
+std::string cornersOf(
+  const SimplexMesh& mesh, int dimension, const std::vector<GlobalId>& ids, GlobalId id)
 {
-  const auto found = std::find(ids.begin(), ids.end(), id);
   std::string text;
-  if (found != ids.end())
-  {
-    for (const Index vertex : cells[found - ids.begin()])
+  auto next = ids.begin();
+  visitShapes(mesh, dimension,
+    [&](auto, const auto& cells)
     {
-      text += " " + textOf(mesh.points[vertex]);
-    }
-  }
+      const auto end = next + static_cast<std::ptrdiff_t>(cells.size());
+      const auto found = std::find(next, end, id);
+      if (found != end)
+      {
+        for (const Index vertex : cells[found - next])
+        {
+          text += " " + textOf(mesh.points[vertex]);
+        }
+      }
+      next = end;
+    });
   return text;
 }
 
@@ -240,13 +246,19 @@ void checkPieces(RankExchange& exchange, const DistributedMesh& mesh)
     checkInterface(exchange, mesh);
     checkIds(exchange, mesh);
   }
-  if (mesh.mesh().dimension == 3)
+  const SimplexMesh& piece = mesh.mesh();
+  const vtkIdType* numbers = mesh.converted.cellOf[piece.dimension].data();
+  if (piece.dimension > 1)
   {
-    checkCells(exchange, mesh, mesh.mesh().tetrahedra);
-  }
-  else if (mesh.mesh().dimension == 2)
-  {
-    checkCells(exchange, mesh, mesh.mesh().triangles);
+    visitOwnShapes(piece,
+      [&](auto, const auto& cells)
+      {
+        if (exchange.any(!cells.empty()))
+        {
+          checkCells(exchange, mesh, cells, numbers);
+        }
+        numbers += cells.size();
+      });
   }
 }
 
@@ -259,10 +271,11 @@ void complainOfRepeatedCells(RankExchange& exchange, const SimplexMesh& mesh,
     all.insert(all.end(), ids.begin(), ids.end());
   }
   const GlobalId id = smallestTwice(exchange, all);
-  const std::string corners = cornersOf(mesh, mesh.vertices, cellIds[0], id) +
-                              cornersOf(mesh, mesh.segments, cellIds[1], id) +
-                              cornersOf(mesh, mesh.triangles, cellIds[2], id) +
-                              cornersOf(mesh, mesh.tetrahedra, cellIds[3], id);
+  std::string corners;
+  for (int d = 0; d < 4; ++d)
+  {
+    corners += cornersOf(mesh, d, cellIds[d], id);
+  }
   exchange.agree(corners.empty()
                    ? ""
                    : "the mesh has duplicate cells: two cells have the same points, or "

@@ -91,10 +91,7 @@ void forEachCorner(Simplices<Corners>& cells, const ParallelFor& parallelFor, co
 template<class Use>
 void forEachCorner(SimplexMesh& mesh, const ParallelFor& parallelFor, const Use& use)
 {
-  forEachCorner(mesh.vertices, parallelFor, use);
-  forEachCorner(mesh.segments, parallelFor, use);
-  forEachCorner(mesh.triangles, parallelFor, use);
-  forEachCorner(mesh.tetrahedra, parallelFor, use);
+  visitShapes(mesh, [&](auto, auto& cells) { forEachCorner(cells, parallelFor, use); });
 }
 
 /// Flags that threads may set at once.
@@ -168,9 +165,10 @@ std::vector<Index> numberVertices(const std::vector<GlobalId>& ids, const Flags&
   return vertexOf;
 }
 
+/// `cellOf` has the numbers of these cells in the data set.
 template<std::size_t Corners>
-void checkCells(const Simplices<Corners>& cells, const std::vector<vtkIdType>& cellOf,
-  const ParallelFor& parallelFor)
+void checkCells(
+  const Simplices<Corners>& cells, const vtkIdType* cellOf, const ParallelFor& parallelFor)
 {
   const auto check = [&](std::size_t c)
   {
@@ -254,9 +252,35 @@ void makeVertices(const std::vector<Point3>& points, const PointIds& ids, Conver
     numberVertices(ids.ids, findUsed(result.mesh, points.size(), parallelFor));
   takeVertices(points, ids, vertexOf, result);
   forEachCorner(result.mesh, parallelFor, [&](Index& corner) { corner = vertexOf[corner]; });
-  checkCells(result.mesh.segments, result.cellOf[1], parallelFor);
-  checkCells(result.mesh.triangles, result.cellOf[2], parallelFor);
-  checkCells(result.mesh.tetrahedra, result.cellOf[3], parallelFor);
+  for (int d = 1; d < 4; ++d)
+  {
+    const vtkIdType* cellOf = result.cellOf[d].data();
+    visitShapes(result.mesh, d,
+      [&](auto, const auto& cells)
+      {
+        checkCells(cells, cellOf, parallelFor);
+        cellOf += cells.size();
+      });
+  }
+}
+
+/// Makes the wedges turn counter-clockwise, where most of all ranks turn the other way. Wedges
+/// among them that do turn counter-clockwise are then inverted cells.
+void turnWedges(RankExchange& exchange, SimplexMesh& mesh)
+{
+  std::int64_t turns = 0;
+  for (const auto& wedge : mesh.wedges)
+  {
+    const auto at = [&](int corner) { return mesh.points[wedge[corner]]; };
+    const Vector3 up = at(3) + at(4) + at(5) - (at(0) + at(1) + at(2));
+    const double turn = dot(cross(at(1) - at(0), at(2) - at(0)), up);
+    turns += (turn > 0) - (turn < 0);
+  }
+  mesh.wedgesAsDocumented = exchange.sum(turns) < 0;
+  if (mesh.wedgesAsDocumented)
+  {
+    std::transform(mesh.wedges.begin(), mesh.wedges.end(), mesh.wedges.begin(), turned);
+  }
 }
 
 /// The ids of these cells of the data set.
@@ -317,11 +341,14 @@ ConvertedMesh convert(RankExchange& exchange, vtkPointSet* input, CellOrder orde
   }
   if (result.mesh.dimension == 1)
   {
-    throw Error("the mesh has cells of lines alone; CADRefine takes triangles and tetrahedra");
+    throw Error(
+      "the mesh has cells of lines alone; CADRefine refines triangles, quadrilaterals and "
+      "cells of volume");
   }
   const std::vector<Point3> points = readPoints(input);
   const auto ids = pointIds(exchange, input, points, parallelFor);
   agreeOnFailure(exchange, [&] { makeVertices(points, ids, result, parallelFor); });
+  turnWedges(exchange, result.mesh);
   if (order == CellOrder::FirstOrSecond && isOfSecondOrder(exchange, result, nodes))
   {
     agreeOnFailure(exchange,

@@ -25,7 +25,7 @@ struct ConvertedMesh
 {
   SimplexMesh mesh;
   std::vector<vtkIdType> pointOf; ///< Of vertices, and mid nodes after them.
-  /// By the dimension of the cells; cells of each dimension in the order of the data set.
+  /// By the dimension of the cells, of which each shape is in the order of the data set.
   std::array<std::vector<vtkIdType>, 4> cellOf;
   /// Global ids of the cells, likewise; none, on all ranks, if the data set has none on one.
   std::array<std::vector<GlobalId>, 4> cellIds;
@@ -40,14 +40,20 @@ enum class CellOrder
   FirstOrSecond ///< Also those with mid nodes, if all cells of the mesh are.
 };
 
-/// Reads tetrahedra, triangles, lines and vertices from a vtkUnstructuredGrid or vtkPolyData on
-/// each rank. Cells that are marked as ghosts or hidden and points that no cell uses are left out,
-/// marks of points do not count; points with the same global id on a rank become one vertex.
-/// Vertices come in the order of the points. Ids come from the data set's global ids if every rank
-/// has them, and otherwise from coordinates (vertices) and vertices (cells): they then do not
-/// depend on the partition, and points that coincide are one vertex. Collective. Of cells of second
-/// order the corners make the mesh; of their other points one for each edge is taken, that of the
-/// first cell that has the edge.
+/// A wedge that turns the other way: counter-clockwise where it was clockwise.
+constexpr std::array<Index, 6> turned(const std::array<Index, 6>& wedge)
+{
+  return { wedge[3], wedge[4], wedge[5], wedge[0], wedge[1], wedge[2] };
+}
+
+/// Reads cells of the shapes of SimplexMesh.h from a vtkUnstructuredGrid or vtkPolyData on each
+/// rank. Wedges may turn either way, but all the same. Cells that are marked as ghosts or hidden
+/// and points that no cell uses are left out, marks of points do not count; points with the same
+/// global id on a rank become one vertex. Vertices come in the order of the points. Ids come from
+/// the data set's global ids if every rank has them, and otherwise from coordinates (vertices) and
+/// vertices (cells): they then do not depend on the partition, and points that coincide are one
+/// vertex. Collective. Of cells of second order the corners make the mesh; of their other points
+/// one for each edge is taken, that of the first cell that has the edge.
 ///
 /// Without cells, every point becomes a cell of dimension 0. The mesh's dimension is that of its
 /// cells of highest dimension on any rank, and 0 for points alone.
@@ -61,8 +67,8 @@ enum class CellOrder
 ConvertedMesh convert(
   RankExchange& exchange, vtkPointSet* input, CellOrder order = CellOrder::First);
 
-/// An empty data set of the class of `input` with the mesh's points (double precision) and cells:
-/// vertices, lines, triangles, tetrahedra. No arrays. With mid nodes, cells are of second order,
+/// An empty data set of the class of `input` with the mesh's points (double precision) and cells,
+/// those of lower dimension first. No arrays. With mid nodes, cells are of second order,
 /// and the nodes' points follow those of the vertices; throws Error where `input` is vtkPolyData,
 /// which has no such cells.
 vtkSmartPointer<vtkPointSet> makePointSet(vtkPointSet* input, const SimplexMesh& mesh,

@@ -2,6 +2,7 @@
 
 #include <cadrefine/base/Error.h>
 #include <cadrefine/base/LargeMemory.h>
+#include <cadrefine/mesh/EdgeTable.h>
 
 #include <vtkCellArray.h>
 #include <vtkCellType.h>
@@ -15,6 +16,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <numeric>
 #include <utility>
 
 namespace cadrefine
@@ -29,7 +31,7 @@ void setLength(Array* array, std::size_t values)
   preferHugePages(array->GetVoidPointer(0), values * array->GetDataTypeSize());
 }
 
-/// Makes a data set's cells of lists of simplices, one after the other, on threads.
+/// Makes a data set's cells of lists of cells, one after the other, on threads.
 class CellWriter
 {
 public:
@@ -77,22 +79,37 @@ vtkSmartPointer<vtkPointSet> makePolyData(const SimplexMesh& mesh, const Paralle
   CellWriter writer(parallelFor);
   output->SetVerts(writer.write(mesh.vertices));
   output->SetLines(writer.write(mesh.segments));
-  output->SetPolys(writer.write(mesh.triangles));
+  output->SetPolys(writer.write(mesh.triangles, mesh.quadrilaterals));
   return output;
 }
 
-/// Each cell with the points of its mid nodes after its corners, in VTK's order: `order` gives the
-/// edge of each.
-template<std::size_t Corners, std::size_t Edges>
-Simplices<Corners + Edges> withNodes(const Simplices<Corners>& cells,
-  const std::vector<std::array<Index, Edges>>& edgesOf, const int (&order)[Edges], Index firstNode)
+/// The edges of a shape in the order in which VTK has their mid nodes.
+template<class Shape>
+std::vector<int> orderOfNodes(Shape)
 {
-  Simplices<Corners + Edges> result(cells.size());
+  std::vector<int> order(std::size(Shape::edges));
+  std::iota(order.begin(), order.end(), 0);
+  return order;
+}
+
+std::vector<int> orderOfNodes(shapes::Tetrahedron)
+{
+  return { 0, 3, 1, 2, 4, 5 };
+}
+
+/// Each cell with the points of its mid nodes after its corners.
+template<class Shape, std::size_t Corners>
+auto withNodes(
+  Shape shape, const Simplices<Corners>& cells, const EdgeTable& table, Index firstNode)
+{
+  const auto& edgesOf = table.*edgesOfCells(shape);
+  const std::vector<int> order = orderOfNodes(shape);
+  Simplices<Corners + std::size(Shape::edges)> result(cells.size());
   for (std::size_t c = 0; c < cells.size(); ++c)
   {
     const auto node = std::copy(cells[c].begin(), cells[c].end(), result[c].begin());
-    std::transform(std::begin(order), std::end(order), node,
-      [&](int edge) { return firstNode + edgesOf[c][edge]; });
+    std::transform(
+      order.begin(), order.end(), node, [&](int edge) { return firstNode + edgesOf[c][edge]; });
   }
   return result;
 }
@@ -101,38 +118,44 @@ vtkSmartPointer<vtkCellArray> makeCells(
   const SimplexMesh& mesh, const MidNodes& midNodes, const ParallelFor& parallelFor)
 {
   const auto firstNode = static_cast<Index>(mesh.points.size());
-  Simplices<3> segments(mesh.segments.size());
-  std::transform(mesh.segments.begin(), mesh.segments.end(), midNodes.table.ofSegments.begin(),
-    segments.begin(),
-    [&](const std::array<Index, 2>& ends, Index edge) {
-      return std::array<Index, 3>{ ends[0], ends[1], firstNode + edge };
-    });
+  const auto quadratic = [&](auto shape)
+  { return withNodes(shape, mesh.*decltype(shape)::cells, midNodes.table, firstNode); };
   return CellWriter(parallelFor)
-    .write(mesh.vertices, segments,
-      withNodes(mesh.triangles, midNodes.table.ofTriangles, { 0, 1, 2 }, firstNode),
-      withNodes(mesh.tetrahedra, midNodes.table.ofTetrahedra, { 0, 3, 1, 2, 4, 5 }, firstNode));
+    .write(mesh.vertices, quadratic(shapes::Segment{}), quadratic(shapes::Triangle{}),
+      quadratic(shapes::Tetrahedron{}));
 }
+
+vtkSmartPointer<vtkCellArray> makeCells(const SimplexMesh& mesh, const ParallelFor& parallelFor)
+{
+  Simplices<6> wedges = mesh.wedges;
+  if (mesh.wedgesAsDocumented)
+  {
+    std::transform(wedges.begin(), wedges.end(), wedges.begin(), turned);
+  }
+  return CellWriter(parallelFor)
+    .write(mesh.vertices, mesh.segments, mesh.triangles, mesh.quadrilaterals, mesh.tetrahedra,
+      mesh.pyramids, wedges, mesh.hexahedra);
+}
+
+/// VTK's types of the shapes, in the order in which visitShapes visits them.
+constexpr unsigned char firstOrder[] = { VTK_VERTEX, VTK_LINE, VTK_TRIANGLE, VTK_QUAD, VTK_TETRA,
+  VTK_PYRAMID, VTK_WEDGE, VTK_HEXAHEDRON };
+constexpr unsigned char secondOrder[] = { VTK_VERTEX, VTK_QUADRATIC_EDGE, VTK_QUADRATIC_TRIANGLE,
+  VTK_QUADRATIC_QUAD, VTK_QUADRATIC_TETRA, VTK_QUADRATIC_PYRAMID, VTK_QUADRATIC_WEDGE,
+  VTK_QUADRATIC_HEXAHEDRON };
 
 vtkSmartPointer<vtkPointSet> makeUnstructuredGrid(
   const SimplexMesh& mesh, const std::optional<MidNodes>& midNodes, const ParallelFor& parallelFor)
 {
   vtkNew<vtkUnsignedCharArray> types;
-  const auto count = static_cast<vtkIdType>(mesh.cellCount());
   setLength(types.Get(), mesh.cellCount());
-  constexpr unsigned char firstOrder[4] = { VTK_VERTEX, VTK_LINE, VTK_TRIANGLE, VTK_TETRA };
-  constexpr unsigned char secondOrder[4] = { VTK_VERTEX, VTK_QUADRATIC_EDGE, VTK_QUADRATIC_TRIANGLE,
-    VTK_QUADRATIC_TETRA };
-  for (int d = 0; d < 4; ++d)
-  {
-    const vtkIdType end = d < 3 ? firstCellOfDimension(mesh, d + 1) : count;
-    std::fill(types->GetPointer(firstCellOfDimension(mesh, d)), types->GetPointer(end),
-      midNodes ? secondOrder[d] : firstOrder[d]);
-  }
+  unsigned char* next = types->GetPointer(0);
+  const unsigned char* type = midNodes ? secondOrder : firstOrder;
+  visitShapes(
+    mesh, [&](auto, const auto& cells) { next = std::fill_n(next, cells.size(), *type++); });
   auto output = vtkSmartPointer<vtkUnstructuredGrid>::New();
   output->SetCells(
-    types, midNodes ? makeCells(mesh, *midNodes, parallelFor)
-                    : CellWriter(parallelFor)
-                        .write(mesh.vertices, mesh.segments, mesh.triangles, mesh.tetrahedra));
+    types, midNodes ? makeCells(mesh, *midNodes, parallelFor) : makeCells(mesh, parallelFor));
   return output;
 }
 
@@ -140,12 +163,10 @@ vtkSmartPointer<vtkPointSet> makeUnstructuredGrid(
 
 vtkIdType firstCellOfDimension(const SimplexMesh& mesh, int dimension)
 {
-  const std::size_t counts[3] = { mesh.vertices.size(), mesh.segments.size(),
-    mesh.triangles.size() };
   vtkIdType first = 0;
   for (int d = 0; d < dimension; ++d)
   {
-    first += static_cast<vtkIdType>(counts[d]);
+    first += static_cast<vtkIdType>(mesh.cellCount(d));
   }
   return first;
 }

@@ -3,6 +3,7 @@
 #include "comm/CollectiveErrors.h"
 #include "comm/Threads.h"
 #include "mesh/MeshPlane.h"
+#include "motion/LayerColumns.h"
 #include "motion/Untangling.h"
 
 #include <cadrefine/base/IndicesWhere.h>
@@ -38,9 +39,15 @@ struct Motion
   const std::vector<Point3> start; ///< Points of the unmoved mesh.
   Moves moves; ///< Targets: of all vertices; of those that have none, where they are.
   std::vector<unsigned char> slid; ///< Vertices on the CAD whose target has changed.
+  /// 1 for vertices of cells that are not simplices, which make no way; none: there are no such
+  /// cells.
+  std::vector<unsigned char> held;
+  LayerColumns columns;
+  std::vector<Index> aimed; ///< Vertices that are to reach the CAD; some more than once.
 
   SimplexMesh& mesh() const { return distributed.mesh(); }
   bool isStuck(Index vertex) const { return mesh().points[vertex] != moves.targets[vertex]; }
+  bool isHeld(std::size_t vertex) const { return !held.empty() && held[vertex]; }
   bool isInterior(std::size_t vertex) const
   {
     return !settings.fixed[vertex] && !classification.entities[vertex];
@@ -54,20 +61,52 @@ std::vector<Index> movingVertices(const Moves& moves)
     moves.fractions.size(), [&](std::size_t v) { return moves.fractions[v] > 0; });
 }
 
-/// A mesh of triangles in space has no invalid cells.
+/// A mesh of area in space has no invalid cells.
 bool isInvalid(const SimplexMesh& mesh, const Vector3& plane, std::size_t cell)
 {
-  if (mesh.dimension == 3)
-  {
-    return !stateOf(mesh.tetrahedra[cell], mesh.points).valid;
-  }
-  return plane != Vector3{} && !stateOf(mesh.triangles[cell], mesh.points, plane).valid;
+  bool invalid = false;
+  std::size_t first = 0;
+  visitOwnShapes(mesh,
+    [&](auto shape, const auto& cells)
+    {
+      constexpr bool isOfVolume = decltype(shape)::dimension == 3;
+      if (first <= cell && cell < first + cells.size() && (isOfVolume || plane != Vector3{}))
+      {
+        invalid = !stateAt(shape, cornersOf(cells[cell - first], mesh.points), plane).valid;
+      }
+      first += cells.size();
+    });
+  return invalid;
 }
 
 std::vector<Index> invalidCells(const SimplexMesh& mesh, const Vector3& plane)
 {
-  const std::size_t count = mesh.dimension == 3 ? mesh.tetrahedra.size() : mesh.triangles.size();
-  return indicesWhere(count, [&](std::size_t c) { return isInvalid(mesh, plane, c); });
+  return indicesWhere(
+    mesh.cellCount(mesh.dimension), [&](std::size_t c) { return isInvalid(mesh, plane, c); });
+}
+
+std::vector<unsigned char> findHeld(RankExchange& exchange, const DistributedMesh& mesh)
+{
+  const SimplexMesh& piece = mesh.mesh();
+  if (!exchange.any(piece.hasOtherThanSimplices()))
+  {
+    return {};
+  }
+  std::vector<unsigned char> held(piece.points.size(), 0);
+  visitOwnShapes(piece,
+    [&](auto shape, const auto& cells)
+    {
+      for (const auto& cell : cells)
+      {
+        for (const Index vertex : cell)
+        {
+          held[vertex] = held[vertex] || !isSimplex(shape);
+        }
+      }
+    });
+  combineShared(
+    exchange, mesh.shared, held, [](unsigned char a, unsigned char b) { return std::max(a, b); });
+  return held;
 }
 
 /// Halves the moves of these vertices until every cell of every rank accepts them, then makes them.
@@ -76,8 +115,13 @@ void settle(Motion& motion, const MoveGuard& guard, const std::vector<Index>& mo
   Moves& moves = motion.moves;
   while (motion.exchange.any(guard.halveUnaccepted(moves)))
   {
-    combineShared(motion.exchange, motion.distributed.shared, moves.fractions,
-      [](double a, double b) { return std::min(a, b); });
+    const auto smaller = [](double a, double b) { return std::min(a, b); };
+    combineShared(motion.exchange, motion.distributed.shared, moves.fractions, smaller);
+    if (motion.columns.any())
+    {
+      motion.columns.tie(motion.exchange, moves);
+      combineShared(motion.exchange, motion.distributed.shared, moves.fractions, smaller);
+    }
   }
   for (const Index vertex : moving)
   {
@@ -133,12 +177,40 @@ Region untangleRound(const Motion& motion, std::vector<unsigned char> flags,
   for (std::size_t v = 0; v < flags.size(); ++v)
   {
     const bool stays = wanted[v] != motion.moves.targets[v]; // stopped, and not to try again
-    flags[v] = flags[v] && !stays && (motion.isInterior(v) || (sliding && motion.canSlide(v)));
+    flags[v] = flags[v] && !stays && !motion.isHeld(v) &&
+               (motion.isInterior(v) || (sliding && motion.canSlide(v)));
   }
   const MovingVertices vertices{ std::move(flags), motion.classification.entities, wanted,
     motion.start, cells };
   return { cells, untangle(motion.exchange, motion.distributed, vertices, motion.plane,
                     motion.settings.projector, sweepsARound) };
+}
+
+/// Takes along the cells over the walls that move: appends their vertices to those that move, and
+/// those off the CAD to those that stay where they come to. Collective.
+void takeAlong(Motion& motion, std::vector<Index>& moving, std::vector<Index>& settled)
+{
+  if (!motion.columns.any())
+  {
+    return;
+  }
+  const std::vector<Index> vertices = motion.columns.follow(
+    motion.exchange, motion.moves, motion.settings.projector, motion.classification);
+  moving.insert(moving.end(), vertices.begin(), vertices.end());
+  for (const Index vertex : vertices)
+  {
+    const bool isOnCAD = static_cast<bool>(motion.classification.entities[vertex]);
+    motion.slid[vertex] = motion.slid[vertex] || isOnCAD;
+    (isOnCAD ? motion.aimed : settled).push_back(vertex);
+  }
+}
+
+void stayThere(Motion& motion, const std::vector<Index>& vertices)
+{
+  for (const Index vertex : vertices)
+  {
+    motion.moves.targets[vertex] = motion.mesh().points[vertex];
+  }
 }
 
 /// Moves vertices of the region to their places there, and `others` to their targets.
@@ -173,13 +245,14 @@ void moveTo(Motion& motion, const Region& region, const std::vector<Index>& othe
       moves.add(vertex, moves.targets[vertex]);
     }
   }
+  takeAlong(motion, moving, settled);
+  const SimplexMesh& mesh = motion.mesh();
   settle(motion,
-    MoveGuard(motion.mesh(), moves, motion.start, motion.plane, region.cells, motion.parallelFor),
+    motion.columns.any()
+      ? MoveGuard(mesh, moves, motion.start, motion.plane, motion.parallelFor)
+      : MoveGuard(mesh, moves, motion.start, motion.plane, region.cells, motion.parallelFor),
     moving);
-  for (const Index vertex : settled)
-  {
-    moves.targets[vertex] = points[vertex];
-  }
+  stayThere(motion, settled);
 }
 
 /// One more round: what is left goes on, and what is round it makes way.
@@ -231,7 +304,7 @@ void smooth(Motion& motion, const MoveGuard& guard)
 }
 
 /// Writes where vertices slid to, and how far those that were to move are from their targets.
-void record(const Motion& motion, const std::vector<Index>& aimed, Classification& classification)
+void record(const Motion& motion, Classification& classification)
 {
   const Moves& moves = motion.moves;
   for (std::size_t v = 0; v < motion.slid.size(); ++v)
@@ -242,7 +315,7 @@ void record(const Motion& motion, const std::vector<Index>& aimed, Classificatio
         motion.settings.projector.nearestOn(classification.entities[v], moves.targets[v]));
     }
   }
-  for (const Index vertex : aimed)
+  for (const Index vertex : motion.aimed)
   {
     classification.distances[vertex] =
       distance(motion.mesh().points[vertex], moves.targets[vertex]);
@@ -260,11 +333,17 @@ void moveOntoCAD(RankExchange& exchange, DistributedMesh& mesh, Moves moves,
   const std::vector<Index> aimed = movingVertices(moves);
   Left left{ aimed, settings.mendCells ? invalidCells(mesh.mesh(), plane) : std::vector<Index>{} };
   Motion motion{ exchange, mesh, classification, settings, forOnThreads(exchange), plane,
-    mesh.mesh().points, std::move(moves),
-    std::vector<unsigned char>(mesh.mesh().points.size(), 0) };
+    mesh.mesh().points, Moves(mesh.mesh()),
+    std::vector<unsigned char>(mesh.mesh().points.size(), 0), findHeld(exchange, mesh),
+    LayerColumns(exchange, mesh, moves, settings.fixed, plane), aimed };
+  motion.moves = std::move(moves);
 
+  std::vector<Index> moving = aimed;
+  std::vector<Index> settled;
+  takeAlong(motion, moving, settled);
   const MoveGuard guard(mesh.mesh(), motion.moves, motion.start, plane, motion.parallelFor);
-  settle(motion, guard, aimed);
+  settle(motion, guard, moving);
+  stayThere(motion, settled);
   std::int64_t count = dropDone(motion, left);
   int idle = 0;
   for (int round = 0; count > 0 && idle < patience && round < maximumRounds; ++round)
@@ -282,7 +361,7 @@ void moveOntoCAD(RankExchange& exchange, DistributedMesh& mesh, Moves moves,
     progress.say(1, "smoothing cells");
     smooth(motion, guard);
   }
-  record(motion, aimed, classification);
+  record(motion, classification);
 }
 
 } // namespace cadrefine

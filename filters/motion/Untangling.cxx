@@ -3,6 +3,7 @@
 #include "comm/Threads.h"
 
 #include <cadrefine/base/IndicesWhere.h>
+#include <cadrefine/motion/MoveGuard.h>
 #include <cadrefine/motion/PatchOptimiser.h>
 
 #include <algorithm>
@@ -46,7 +47,7 @@ LocalPatch makePatch(const SimplexMesh& mesh, const MovingVertices& vertices, co
   };
   const auto add = [&](const auto& cells, auto& ofPatch)
   {
-    for (const Index c : vertices.cells)
+    for (const Index c : cellsOfShape(vertices.cells, 0, cells.size()))
     {
       auto cell = cells[c];
       if (std::any_of(cell.begin(), cell.end(), [&](Index v) { return vertices.free[v] != 0; }))

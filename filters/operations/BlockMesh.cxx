@@ -121,7 +121,8 @@ void BlockMesh::addFacets(const Members& members)
   std::map<std::array<Index, 3>, LabelledSimplex<3>> facets;
   for (const Index f : members.facets)
   {
-    const auto corners = localCorners(boundary_.boundary.facets[f].vertices);
+    const auto& [a, b, c, none] = boundary_.boundary.facets[f].vertices;
+    const auto corners = localCorners(std::array<Index, 3>{ a, b, c });
     const bool onCAD = boundary_.classes.facets[f].onCAD != 0;
     facets[sorted(corners)] = { corners, onCAD ? 0 : wallLabel, -1 };
   }

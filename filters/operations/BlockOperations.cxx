@@ -337,7 +337,7 @@ OperationTrace operateOnBlocks(RankExchange& exchange, DistributedMesh& mesh,
   trace.operations = exchange.sum(trace.operations);
   SimplexMesh made = maker.make(trace.cells);
   numberNewVertices(exchange, maker.blocks(), task.blocks.sizes.size(), mesh, made.ids);
-  mesh.converted.cellIds = numberChildren(exchange, mesh, trace.cells.firstChildren);
+  mesh.converted.cellIds = numberChildren(exchange, mesh, trace.cells);
   const std::size_t oldCount = mesh.mesh().points.size();
   agreeOnFailure(exchange,
     [&] { moveParameters(mesh.mesh().points, made.points, boundary.projector, classification); });

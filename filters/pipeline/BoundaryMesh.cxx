@@ -18,10 +18,10 @@ namespace cadrefine
 namespace
 {
 
-/// Facets with so many corners each, and what they lie on.
+/// Facets of this dimension, and what they lie on.
 struct ClassifiedFacets
 {
-  int corners = 3;
+  int dimension = 2;
   std::vector<Facet> facets;
   std::vector<EntityId> entities;
 };
@@ -32,12 +32,30 @@ std::vector<Index> verticesOf(const ClassifiedFacets& chosen, std::size_t vertex
   std::vector<unsigned char> used(vertexCount, 0);
   for (const Facet& facet : chosen.facets)
   {
-    for (int k = 0; k < chosen.corners; ++k)
+    for (const Index vertex : facet)
     {
-      used[facet.vertices[k]] = 1;
+      used[vertex] = 1;
     }
   }
   return indicesWhere(vertexCount, [&](std::size_t v) { return used[v] != 0; });
+}
+
+/// Appends a facet to the cells of its shape.
+void addCell(SimplexMesh& mesh, const Facet& facet)
+{
+  visitShapes(mesh, facet.corners() > 2 ? 2 : 1,
+    [&](auto, auto& cells)
+    {
+      auto& corners = cells.emplace_back();
+      if (corners.size() == static_cast<std::size_t>(facet.corners()))
+      {
+        std::copy(facet.begin(), facet.end(), corners.begin());
+      }
+      else
+      {
+        cells.pop_back();
+      }
+    });
 }
 
 SimplexMesh facetsAsCells(
@@ -51,18 +69,12 @@ SimplexMesh facetsAsCells(
     result.points.push_back(mesh.points[vertex]);
     result.ids.push_back(mesh.ids[vertex]);
   }
-  result.dimension = chosen.corners - 1;
-  for (const Facet& facet : chosen.facets)
+  result.dimension = chosen.dimension;
+  for (Facet facet : chosen.facets)
   {
-    const auto& [a, b, c] = facet.vertices;
-    if (result.dimension == 2)
-    {
-      result.triangles.push_back({ placeOf[a], placeOf[b], placeOf[c] });
-    }
-    else
-    {
-      result.segments.push_back({ placeOf[a], placeOf[b] });
-    }
+    std::transform(
+      facet.begin(), facet.end(), facet.vertices.begin(), [&](Index v) { return placeOf[v]; });
+    addCell(result, facet);
   }
   return result;
 }
@@ -85,7 +97,7 @@ ClassifiedFacets facetsAmong(
   const DistributedBoundary& boundary = state.boundary->boundary;
   if (faces.empty())
   {
-    return { boundary.facetCorners(), boundary.facets, entities };
+    return { boundary.facetDimension(), boundary.facets, entities };
   }
   const EntitySelection selection = selectFaces(context, state, faces);
   const std::vector<Index> chosen = indicesWhere(entities.size(),
@@ -94,14 +106,14 @@ ClassifiedFacets facetsAmong(
   {
     throw Error("none of the boundary's facets lies on the chosen faces (Faces)");
   }
-  return { boundary.facetCorners(), taken(boundary.facets, chosen), taken(entities, chosen) };
+  return { boundary.facetDimension(), taken(boundary.facets, chosen), taken(entities, chosen) };
 }
 
 void checkForBoundary(const SimplexMesh& mesh)
 {
   if (mesh.dimension == 0)
   {
-    throw Error("the mesh has no triangles or tetrahedra; points alone have no boundary");
+    throw Error("the mesh has no cells of area or volume; points alone have no boundary");
   }
 }
 
@@ -123,22 +135,27 @@ struct Sides
 
 /// Facets know their entities, listed cells are to have those of their facets, whichever rank these
 /// are on. Collective.
-template<std::size_t N>
 Sides compareWithListed(RankExchange& exchange, const DistributedMesh& mesh,
-  const std::vector<Facet>& facets, const std::vector<EntityId>& ofFacets,
-  const Simplices<N>& listed)
+  const DistributedBoundary& boundary, const std::vector<EntityId>& ofFacets)
 {
-  Simplices<N> keys(facets.size() + listed.size());
-  for (std::size_t f = 0; f < facets.size(); ++f)
+  std::vector<std::array<Index, 4>> keys;
+  for (const Facet& facet : boundary.facets)
   {
-    std::copy_n(facets[f].vertices.begin(), N, keys[f].begin());
+    keys.push_back(facet.vertices);
   }
-  std::copy(listed.begin(), listed.end(), keys.begin() + facets.size());
+  visitShapes(mesh.mesh(), boundary.facetDimension(),
+    [&](auto, const auto& cells)
+    {
+      for (const auto& cell : cells)
+      {
+        std::copy(cell.begin(), cell.end(), keys.emplace_back(Facet().vertices).begin());
+      }
+    });
   for (auto& key : keys)
   {
-    std::sort(key.begin(), key.end());
+    std::sort(key.begin(), std::find(key.begin(), key.end(), -1));
   }
-  Simplices<N> distinct = keys;
+  auto distinct = keys;
   std::sort(distinct.begin(), distinct.end());
   distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
   std::vector<EntityId> entities(distinct.size());
@@ -147,10 +164,9 @@ Sides compareWithListed(RankExchange& exchange, const DistributedMesh& mesh,
   for (std::size_t k = 0; k < keys.size(); ++k)
   {
     placeOf[k] = std::lower_bound(distinct.begin(), distinct.end(), keys[k]) - distinct.begin();
-    k < facets.size() ? void(entities[placeOf[k]] = ofFacets[k]) : void(isListed[placeOf[k]] = 1);
+    k < ofFacets.size() ? void(entities[placeOf[k]] = ofFacets[k]) : void(isListed[placeOf[k]] = 1);
   }
-  const SharedItems shared =
-    findSharedSimplices<N>(exchange, mesh.shared, mesh.mesh().ids, distinct);
+  const SharedItems shared = findSharedSimplices(exchange, mesh.shared, mesh.mesh().ids, distinct);
   const auto larger = [](auto a, auto b) { return std::max(a, b); };
   combineShared(exchange, shared, entities, larger);
   combineShared(exchange, shared, isListed, larger);
@@ -158,9 +174,8 @@ Sides compareWithListed(RankExchange& exchange, const DistributedMesh& mesh,
 }
 
 /// Ids after those of all cells of the mesh.
-template<std::size_t N>
 std::vector<GlobalId> newIds(
-  RankExchange& exchange, const DistributedMesh& mesh, const Simplices<N>& cells)
+  RankExchange& exchange, const DistributedMesh& mesh, const std::vector<Facet>& facets)
 {
   GlobalId first = 0;
   for (const auto& ids : mesh.converted.cellIds)
@@ -169,93 +184,124 @@ std::vector<GlobalId> newIds(
       [](GlobalId bound, GlobalId id) { return std::max(bound, id + 1); });
   }
   first = exchange.max(first);
-  std::vector<GlobalId> ids = numberSimplices(exchange, mesh, cells);
+  std::vector<GlobalId> ids = numberFacets(exchange, mesh, facets);
   std::transform(ids.begin(), ids.end(), ids.begin(), [&](GlobalId id) { return first + id; });
   return ids;
 }
 
-template<class Value>
-void append(std::vector<Value>& to, const std::vector<Value>& values)
+/// Begins at its smallest id, as VTK has the sides of cells when it draws them: both are drawn
+/// alike, then, and colours are those of the cells.
+Facet fromSmallestId(Facet facet, const std::vector<GlobalId>& ids)
 {
-  to.insert(to.end(), values.begin(), values.end());
+  Index* first = facet.vertices.data();
+  Index* last = first + facet.corners();
+  std::rotate(
+    first, std::min_element(first, last, [&](Index a, Index b) { return ids[a] < ids[b]; }), last);
+  return facet;
 }
 
-/// The edges of a cell, as an EdgeTable lists them.
-std::array<Index, 3> edgesOf(const EdgeTable& table, const std::array<Index, 3>& triangle)
+/// Appends facets to the cells of their shape, and the edges of these to the table of mid nodes.
+template<class Shape>
+void addFacets(Shape shape, ConvertedMesh& converted, const std::vector<Facet>& facets)
 {
-  std::array<Index, 3> edges;
-  std::transform(std::begin(triangleEdges), std::end(triangleEdges), edges.begin(),
-    [&](const auto& ends) { return table.find(triangle[ends[0]], triangle[ends[1]]); });
-  return edges;
-}
-
-Index edgesOf(const EdgeTable& table, const std::array<Index, 2>& segment)
-{
-  return table.find(segment[0], segment[1]);
-}
-
-/// Where cells `count` to `count + added` of what is made have none in what it is made from.
-ArraySelection selectionWithout(vtkIdType count, vtkIdType added, vtkIdType cellCount)
-{
-  std::vector<vtkIdType> cells(cellCount + added, noTuple);
-  std::iota(cells.begin(), cells.begin() + count, 0);
-  std::iota(cells.begin() + count + added, cells.end(), count);
-  return { {}, std::move(cells) };
-}
-
-/// See makeDataSetWithBoundary. Added facets begin at their smallest id, as VTK has the sides of
-/// cells when it draws them: both are drawn alike, then, and colours are those of the cells.
-///
-/// `listed`: the mesh's cells of the facets' dimension; `edges`: theirs in the table of the mid
-/// nodes.
-template<std::size_t N, class Edges>
-MeshWithBoundary makeWithFacets(const PipelineContext& context, MeshState& state,
-  const std::vector<EntityId>& ofFacets, Simplices<N>& listed, std::vector<Edges> EdgeTable::*edges)
-{
-  ConvertedMesh& converted = state.mesh.converted;
-  const std::vector<Facet>& facets = state.boundary->boundary.facets;
-  const Sides sides = compareWithListed(context.exchange, state.mesh, facets, ofFacets, listed);
-  const std::vector<Index> unlisted =
-    indicesWhere(facets.size(), [&](std::size_t f) { return sides.listed[f] == 0; });
-  Simplices<N> added(unlisted.size());
-  for (std::size_t i = 0; i < unlisted.size(); ++i)
+  for (const Facet& facet : facets)
   {
-    const auto corners = facets[unlisted[i]].vertices.begin();
-    const auto first = std::min_element(corners, corners + N,
-      [&](Index a, Index b) { return converted.mesh.ids[a] < converted.mesh.ids[b]; });
-    std::rotate_copy(corners, first, corners + N, added[i].begin());
+    auto& cell = (converted.mesh.*Shape::cells).emplace_back();
+    std::copy(facet.begin(), facet.end(), cell.begin());
+    if (converted.midNodes)
+    {
+      EdgeTable& table = converted.midNodes->table;
+      auto& edges = (table.*edgesOfCells(shape)).emplace_back();
+      std::transform(std::begin(Shape::edges), std::end(Shape::edges), edges.begin(),
+        [&](const auto& ends) { return table.find(cell[ends[0]], cell[ends[1]]); });
+    }
   }
-  constexpr int dimension = static_cast<int>(N) - 1;
-  const std::size_t listedCount = listed.size();
-  const vtkIdType firstListed = firstCellOfDimension(converted.mesh, dimension);
-  MeshWithBoundary result;
-  result.selection = selectionWithout(firstListed + static_cast<vtkIdType>(listedCount),
-    static_cast<vtkIdType>(added.size()), static_cast<vtkIdType>(converted.mesh.cellCount()));
+}
 
-  std::vector<EntityId> entities(converted.mesh.cellCount() + added.size());
-  const auto next = std::copy(sides.entities.begin() + static_cast<std::ptrdiff_t>(facets.size()),
-    sides.entities.end(), entities.begin() + firstListed);
-  std::transform(unlisted.begin(), unlisted.end(), next, [&](Index f) { return ofFacets[f]; });
-  MeshArrays arrays = select(state.arrays, result.selection);
-  writeAttributes(context.model, entities, arrays.ofCells);
-
-  append(converted.cellIds[dimension], newIds(context.exchange, state.mesh, added));
-  append(listed, added);
+template<class Shape>
+void removeLast(Shape shape, ConvertedMesh& converted, std::size_t count)
+{
+  auto& cells = converted.mesh.*Shape::cells;
+  cells.resize(cells.size() - count);
   if (converted.midNodes)
   {
-    EdgeTable& table = converted.midNodes->table;
-    std::transform(added.begin(), added.end(), std::back_inserter(table.*edges),
-      [&](const auto& cell) { return edgesOf(table, cell); });
+    (converted.midNodes->table.*edgesOfCells(shape)).resize(cells.size());
   }
+}
+
+/// See makeDataSetWithBoundary. `Shapes` are those of facets.
+template<class... Shapes>
+MeshWithBoundary makeWithFacets(const PipelineContext& context, MeshState& state,
+  const std::vector<EntityId>& ofFacets, Shapes... shapes)
+{
+  ConvertedMesh& converted = state.mesh.converted;
+  const DistributedBoundary& boundary = state.boundary->boundary;
+  const Sides sides = compareWithListed(context.exchange, state.mesh, boundary, ofFacets);
+  const int dimension = boundary.facetDimension();
+  std::vector<Facet> added;
+  std::vector<EntityId> ofAdded;
+  const auto choose = [&](auto shape)
+  {
+    const std::size_t begun = added.size();
+    for (std::size_t f = 0; f < ofFacets.size(); ++f)
+    {
+      const Facet& facet = boundary.facets[f];
+      if (!sides.listed[f] && static_cast<std::size_t>(facet.corners()) == decltype(shape)::corners)
+      {
+        added.push_back(fromSmallestId(facet, converted.mesh.ids));
+        ofAdded.push_back(ofFacets[f]);
+      }
+    }
+    return added.size() - begun;
+  };
+  const std::size_t counts[] = { choose(shapes)... };
+  const auto idsOfAdded = newIds(context.exchange, state.mesh, added);
+
+  const vtkIdType first = firstCellOfDimension(converted.mesh, dimension);
+  const auto idsBefore = converted.cellIds[dimension];
+  std::vector<GlobalId> ids;
+  std::vector<EntityId> entities(first);
+  std::vector<vtkIdType> selection(first);
+  std::iota(selection.begin(), selection.end(), 0);
+  std::size_t listed = 0;
+  std::size_t place = 0; // among the added ones
+  const auto insert = [&](auto shape, std::size_t count)
+  {
+    const std::size_t end = listed + (converted.mesh.*decltype(shape)::cells).size();
+    for (; listed < end; ++listed)
+    {
+      entities.push_back(sides.entities[ofFacets.size() + listed]);
+      selection.push_back(first + static_cast<vtkIdType>(listed));
+      ids.push_back(idsBefore[listed]);
+    }
+    const auto begin = static_cast<std::ptrdiff_t>(place);
+    place += count;
+    const auto last = static_cast<std::ptrdiff_t>(place);
+    entities.insert(entities.end(), ofAdded.begin() + begin, ofAdded.begin() + last);
+    selection.insert(selection.end(), count, noTuple);
+    ids.insert(ids.end(), idsOfAdded.begin() + begin, idsOfAdded.begin() + last);
+    addFacets(shape, converted, { added.begin() + begin, added.begin() + last });
+  };
+  const std::size_t* count = counts;
+  (insert(shapes, *count++), ...);
+  entities.resize(converted.mesh.cellCount());
+  for (vtkIdType cell = first + static_cast<vtkIdType>(listed); selection.size() < entities.size();
+       ++cell)
+  {
+    selection.push_back(cell);
+  }
+
+  MeshWithBoundary result;
+  result.selection.cells = std::move(selection);
+  MeshArrays arrays = select(state.arrays, result.selection);
+  writeAttributes(context.model, entities, arrays.ofCells);
+  converted.cellIds[dimension] = std::move(ids);
   std::swap(state.arrays, arrays);
   result.mesh = makeDataSet(state);
   std::swap(state.arrays, arrays);
-  converted.cellIds[dimension].resize(listedCount);
-  listed.resize(listedCount);
-  if (converted.midNodes)
-  {
-    (converted.midNodes->table.*edges).resize(listedCount);
-  }
+  converted.cellIds[dimension] = idsBefore;
+  count = counts;
+  (removeLast(shapes, converted, *count++), ...);
   return result;
 }
 
@@ -314,8 +360,7 @@ MeshState boundaryMesh(
 
 MeshWithBoundary makeDataSetWithBoundary(const PipelineContext& context, MeshState& state)
 {
-  SimplexMesh& mesh = state.mesh.mesh();
-  checkForBoundary(mesh);
+  checkForBoundary(state.mesh.mesh());
   const std::vector<EntityId> ofFacets = entitiesOfFacets(context, state);
   const DistributedBoundary& boundary = state.boundary->boundary;
   if (boundary.ofSurface)
@@ -323,8 +368,8 @@ MeshWithBoundary makeDataSetWithBoundary(const PipelineContext& context, MeshSta
     return makeWithFaces(context, state, ofFacets);
   }
   return boundary.kind == BoundaryKind::Triangles
-           ? makeWithFacets(context, state, ofFacets, mesh.triangles, &EdgeTable::ofTriangles)
-           : makeWithFacets(context, state, ofFacets, mesh.segments, &EdgeTable::ofSegments);
+           ? makeWithFacets(context, state, ofFacets, shapes::Triangle{}, shapes::Quadrilateral{})
+           : makeWithFacets(context, state, ofFacets, shapes::Segment{});
 }
 
 } // namespace cadrefine

@@ -190,7 +190,7 @@ private:
     {
       marks[cell] = 1;
     }
-    RefinementPlan plan = planLongestEdge(exchange_, state_.mesh, marks, nullptr);
+    RefinementPlan plan = planLongestEdge(exchange_, state_.mesh, marks, nullptr, true);
     if (left.verticesOff == 0 && reachesWalls(plan))
     {
       return false;
@@ -263,7 +263,8 @@ private:
     const std::vector<Point3>& now = state_.mesh.mesh().points;
     const Vector3 side =
       plane_ != Vector3{} ? plane_ : twofoldAreaVector(now[cell[0]], now[cell[1]], now[cell[2]]);
-    return stateOf(cell, points, side).quality < options_.minimumQuality;
+    return stateAt(shapes::Triangle{}, cornersOf(cell, points), side).quality <
+           options_.minimumQuality;
   }
 
   std::vector<Index> badCells(const std::vector<Point3>& points) const
@@ -341,7 +342,9 @@ private:
 void improveCells(
   const PipelineContext& context, MeshState& state, const CellImprovementOptions& options)
 {
-  if (state.mesh.mesh().dimension >= 2 && state.classification)
+  const SimplexMesh& mesh = state.mesh.mesh();
+  if (mesh.dimension >= 2 && state.classification &&
+      !context.exchange.any(mesh.hasOtherThanSimplices()))
   {
     CellImprovement(context, state, options).run();
   }

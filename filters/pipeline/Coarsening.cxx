@@ -184,6 +184,11 @@ private:
 std::int64_t coarsenMesh(
   const PipelineContext& context, MeshState& state, const CoarseningOptions& options)
 {
+  if (context.exchange.any(state.mesh.mesh().hasOtherThanSimplices()))
+  {
+    throw Error("only triangles and tetrahedra are coarsened, and the mesh has other cells; the "
+                "filters Triangulate and Tetrahedralize make simplices of them");
+  }
   return Coarsening(context, state, options).run();
 }
 

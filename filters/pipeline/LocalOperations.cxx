@@ -19,9 +19,7 @@ constexpr const char* blockArray = "cadrefine:block";
 
 CellRange cellsOf(const SimplexMesh& mesh, int dimension)
 {
-  const std::array<std::size_t, 4> counts{ mesh.vertices.size(), mesh.segments.size(),
-    mesh.triangles.size(), mesh.tetrahedra.size() };
-  return { firstCellOfDimension(mesh, dimension), counts[dimension] };
+  return { firstCellOfDimension(mesh, dimension), mesh.cellCount(dimension) };
 }
 
 /// Brings each block to one rank. The blocks after that.

@@ -77,8 +77,7 @@ std::vector<EntityId> entitiesOfFacets(const PipelineContext& context, MeshState
     const FacetRecord& record = classified.classes.facets[f];
     if (record.onCAD && triangles)
     {
-      entities[f] =
-        faceOf(classified.projector, centroidOf(mesh, boundary.facets[f], 3), record.face);
+      entities[f] = faceOf(classified.projector, centroidOf(mesh, boundary.facets[f]), record.face);
     }
     else if (record.onCAD)
     {
@@ -94,7 +93,7 @@ EntitySelection selectFaces(
   const PipelineContext& context, MeshState& state, const std::vector<std::string>& faces)
 {
   const DistributedBoundary& boundary = boundaryOf(context, state).boundary;
-  return selectEntities(context.model, boundary.facetCorners() - 1, faces, "Faces");
+  return selectEntities(context.model, boundary.facetDimension(), faces, "Faces");
 }
 
 std::vector<unsigned char> facetsOn(

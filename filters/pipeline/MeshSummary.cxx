@@ -4,8 +4,7 @@
 #include "mesh/MeshPlane.h"
 
 #include <cadrefine/base/Error.h>
-#include <cadrefine/mesh/Orientation.h>
-#include <cadrefine/mesh/Quality.h>
+#include <cadrefine/mesh/CellState.h>
 
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
@@ -20,38 +19,31 @@ namespace cadrefine
 namespace
 {
 
-void add(CellQualities& qualities, double ratio, bool valid)
-{
-  qualities.meanRatios.push_back(ratio);
-  qualities.valid.push_back(valid);
-}
-
 CellQualities measureCells(RankExchange& exchange, const SimplexMesh& mesh)
 {
   CellQualities result;
-  const auto& p = mesh.points;
-  if (mesh.dimension == 3)
+  if (mesh.dimension < 2)
   {
-    for (const auto& [a, b, c, d] : mesh.tetrahedra)
-    {
-      add(result, meanRatio(p[a], p[b], p[c], p[d]), orientation(p[a], p[b], p[c], p[d]) > 0);
-    }
     return result;
   }
-  const Vector3 normal = planeNormal(exchange, mesh);
-  for (const auto& [a, b, c] : mesh.triangles)
-  {
-    const double ratio = meanRatio(p[a], p[b], p[c]);
-    const Vector3 side = normal == Vector3{} ? twofoldAreaVector(p[a], p[b], p[c]) : normal;
-    const int turn = turnOf(p[a], p[b], p[c], side);
-    add(result, turn < 0 ? -ratio : ratio, turn > 0);
-  }
+  const Vector3 plane = mesh.dimension == 2 ? planeNormal(exchange, mesh) : Vector3{};
+  visitOwnShapes(mesh,
+    [&](auto shape, const auto& cells)
+    {
+      for (const auto& cell : cells)
+      {
+        const auto points = cornersOf(cell, mesh.points);
+        const CellState state = stateAt(shape, points, sideOf(shape, points, plane));
+        result.qualities.push_back(state.quality);
+        result.valid.push_back(state.valid);
+      }
+    });
   return result;
 }
 
 QualitySummary summaryOf(const CellQualities& qualities)
 {
-  const auto& ratios = qualities.meanRatios;
+  const auto& ratios = qualities.qualities;
   QualitySummary summary;
   summary.invalidCells = std::count(qualities.valid.begin(), qualities.valid.end(), 0);
   summary.smallestRatio = std::accumulate(ratios.begin(), ratios.end(), summary.smallestRatio,
@@ -72,7 +64,7 @@ CellQualities measureQuality(RankExchange& exchange, const DistributedMesh& mesh
   const SimplexMesh& piece = mesh.mesh();
   CellQualities result = measureCells(exchange, piece);
   QualitySummary mine =
-    piece.dimension == 3 ? summariseTetrahedra(piece, forOnThreads(exchange)) : summaryOf(result);
+    piece.dimension == 3 ? summariseCells(piece, forOnThreads(exchange)) : summaryOf(result);
   if (mesh.converted.midNodes)
   {
     const Vector3 plane = piece.dimension == 2 ? planeNormal(exchange, piece) : Vector3{};
@@ -86,7 +78,7 @@ CellQualities measureQuality(RankExchange& exchange, const DistributedMesh& mesh
 QualitySummary summariseQuality(RankExchange& exchange, const DistributedMesh& mesh)
 {
   return mesh.mesh().dimension == 3 && !mesh.converted.midNodes
-           ? overRanks(exchange, summariseTetrahedra(mesh.mesh(), forOnThreads(exchange)))
+           ? overRanks(exchange, summariseCells(mesh.mesh(), forOnThreads(exchange)))
            : measureQuality(exchange, mesh).summary;
 }
 

@@ -18,15 +18,16 @@ namespace cadrefine
 /// Validity and quality of each cell of the mesh's own dimension.
 struct CellQualities
 {
-  std::vector<double> meanRatios;   ///< Negative where inverted.
+  std::vector<double> qualities;    ///< See CellState.
   std::vector<unsigned char> valid; ///< 0: inverted or degenerate.
   QualitySummary summary;           ///< Over all ranks.
 };
 
 /// Tetrahedra are valid if their volume is positive in VTK's order of vertices. Triangles are valid
 /// if their area is positive and, where all lie in a coordinate plane, they turn the way most do.
-/// Both are decided exactly (see orientation); the mean ratio is a measure in floating point. Cells
-/// of second order are valid by isValid of CurvedCells; the mean ratio is that of their corners.
+/// Both are decided exactly (see orientation); the mean ratio is a measure in floating point. Other
+/// cells: see CellState. Cells of second order are valid by isValid of CurvedCells; the mean ratio
+/// is that of their corners.
 /// Collective; two reductions.
 CellQualities measureQuality(RankExchange& exchange, const DistributedMesh& mesh);
 

@@ -110,11 +110,17 @@ private:
   {
     if (state_.mesh.mesh().dimension == 0)
     {
-      throw Error("the mesh has no triangles or tetrahedra to refine");
+      throw Error("the mesh has no cells of area or volume to refine");
     }
     if (options_.quadraticCells)
     {
       checkForQuadraticCells(state_.prototype);
+    }
+    if (options_.quadraticCells && exchange_.any(state_.mesh.mesh().hasOtherThanSimplices()))
+    {
+      throw Error(
+        "quadratic cells (Quadratic Cells) are made of triangles and tetrahedra only, and "
+        "the mesh has other cells; switch Quadratic Cells off");
     }
   }
 
@@ -151,7 +157,9 @@ private:
     const auto marks = marksOfCells();
     const std::int64_t marked = exchange_.sum(std::count(marks.begin(), marks.end(), 1));
     context_.statistics.set("marked cells", static_cast<double>(marked));
-    return { planLongestEdge(exchange_, state_.mesh, marks, toCut ? &*toCut : nullptr), marked };
+    return { planLongestEdge(
+               exchange_, state_.mesh, marks, toCut ? &*toCut : nullptr, options_.keepLayers),
+      marked };
   }
 
   /// 1 for cells with a facet whose CAD entity `isWanted`, given those of the facets.

@@ -23,6 +23,8 @@ struct RefinementOptions
   bool onlyAtFaces = false; ///< No cells are marked but those with a facet on these faces.
   /// Bisect further until the facets on the CAD of each marked cell are cut.
   bool cutFacets = false;
+  /// See markLongestEdges.
+  bool keepLayers = true;
   bool projectNewVertices = true;
   /// See improveCells; none: no local operations.
   std::optional<double> minimumQuality;

@@ -61,16 +61,11 @@ std::vector<Entry> firstOf(RankExchange& exchange, std::vector<Entry> mine, std:
 
 double measureOf(const SimplexMesh& mesh, const Facet& facet)
 {
-  const auto& p = mesh.points;
-  const auto [a, b, c] = facet.vertices;
-  return c < 0 ? distance(p[a], p[b]) : 0.5 * norm(twofoldAreaVector(p[a], p[b], p[c]));
-}
-
-Point3 centroidOf(const SimplexMesh& mesh, const Facet& facet)
-{
-  const auto& p = mesh.points;
-  const auto [a, b, c] = facet.vertices;
-  return c < 0 ? 0.5 * (p[a] + p[b]) : (1.0 / 3) * (p[a] + p[b] + p[c]);
+  std::array<Point3, 4> p{};
+  std::transform(
+    facet.begin(), facet.end(), p.begin(), [&](Index vertex) { return mesh.points[vertex]; });
+  return facet.corners() == 2 ? distance(p[0], p[1])
+                              : 0.5 * norm(twofoldAreaVector(p, facet.corners()));
 }
 
 class FitSearch

@@ -80,9 +80,9 @@ std::vector<unsigned char> findVerticesOnCAD(
   std::vector<unsigned char> onCAD(task.points().size(), 0);
   for (std::size_t f = 0; f < records.size(); ++f)
   {
-    for (int k = 0; records[f].onCAD && k < task.boundary.facetCorners(); ++k)
+    for (const Index vertex : task.boundary.facets[f])
     {
-      onCAD[task.boundary.facets[f].vertices[k]] = 1;
+      onCAD[vertex] = onCAD[vertex] || records[f].onCAD;
     }
   }
   combineShared(task.exchange, task.mesh.shared, onCAD,
@@ -100,8 +100,7 @@ void leaveOut(const ProjectionTask& task, const EntitySelection& chosen,
     {
       return;
     }
-    const Point3 centroid =
-      centroidOf(task.mesh.mesh(), task.boundary.facets[f], task.boundary.facetCorners());
+    const Point3 centroid = centroidOf(task.mesh.mesh(), task.boundary.facets[f]);
     const EntityId entity = task.triangles()
                               ? faceOf(task.projector, centroid, records[f].face)
                               : edgeOf(task.model(), task.projector.nearest(centroid,

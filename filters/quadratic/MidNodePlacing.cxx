@@ -17,7 +17,8 @@ namespace
 /// Makes the mesh one of second order, given its edges.
 void makeMidNodes(RankExchange& exchange, DistributedMesh& mesh, MarkedEdges edges)
 {
-  auto ids = numberMidpoints(exchange, mesh, edges.table.edges);
+  auto ids =
+    numberMidpoints(exchange, mesh.shared, mesh.mesh().ids, mesh.vertexIdBound, edges.table.edges);
   MidNodes& nodes = mesh.converted.midNodes.emplace();
   nodes.ids = std::move(ids);
   nodes.table = std::move(edges.table);

@@ -9,11 +9,13 @@
 #include "refinement/FacetMarking.h"
 
 #include <cadrefine/base/Error.h>
+#include <cadrefine/base/IndicesWhere.h>
 #include <cadrefine/base/LargeMemory.h>
 
 #include <algorithm>
 #include <iterator>
 #include <numeric>
+#include <string>
 #include <utility>
 
 namespace cadrefine
@@ -36,9 +38,23 @@ std::vector<Index> combineMarks(RankExchange& exchange, RefinementPlan& plan)
   return fresh;
 }
 
-/// `onBoundary` of the vertices that were, and of the new ones.
+/// The quadrilaterals that are cut in four.
+std::vector<Index> cutQuads(const RefinementPlan& plan)
+{
+  const auto& edgesOf = plan.quads.table.edges;
+  return indicesWhere(edgesOf.size(),
+    [&](std::size_t q)
+    {
+      return std::all_of(
+        edgesOf[q].begin(), edgesOf[q].end(), [&](Index edge) { return plan.marks[edge] != 0; });
+    });
+}
+
+/// `onBoundary` of the vertices that were, and of the new ones on edges and in these
+/// quadrilaterals.
 std::vector<unsigned char> onRefinedBoundary(const RefinementPlan& plan,
-  const std::vector<std::int64_t>& codes, const std::vector<unsigned char>& onBoundary)
+  const std::vector<std::int64_t>& codes, const std::vector<Index>& quads,
+  const std::vector<std::int32_t>& codesOfQuads, const std::vector<unsigned char>& onBoundary)
 {
   auto result = onBoundary;
   result.reserve(onBoundary.size() + codes.size());
@@ -49,13 +65,123 @@ std::vector<unsigned char> onRefinedBoundary(const RefinementPlan& plan,
       result.push_back(codes[e] != 0);
     }
   }
+  std::transform(quads.begin(), quads.end(), std::back_inserter(result),
+    [&](Index quad) { return codesOfQuads[quad] != 0; });
   return result;
+}
+
+/// The new vertices of a mesh, with their ids, and which vertices are then shared.
+struct NewVerticesOfMesh
+{
+  Midpoints midpoints;
+  std::vector<GlobalId> ids;
+  SharedVertices shared;
+};
+
+/// Appends the ids of new vertices in the middle of corners of cells, by the ids of these.
+void numberInCells(RankExchange& exchange, DistributedMesh& mesh, NewVerticesOfMesh& made)
+{
+  const auto& idsOfCells = mesh.converted.cellIds[mesh.mesh().dimension];
+  std::vector<GlobalId> cells;
+  for (const Index cell : made.midpoints.cells)
+  {
+    cells.push_back(idsOfCells[cell]);
+  }
+  const Numbering numbering =
+    denseOffsets(exchange, cells, std::vector<std::int64_t>(cells.size(), 1));
+  for (const GlobalId number : numbering.numbers)
+  {
+    made.ids.push_back(mesh.vertexIdBound + number);
+  }
+  mesh.vertexIdBound += numbering.count;
+}
+
+/// Those on edges, then those in quadrilaterals, whose ids follow from those on edges, and so on.
+NewVerticesOfMesh makeNewVertices(
+  RankExchange& exchange, DistributedMesh& mesh, const RefinementPlan& plan)
+{
+  NewVerticesOfMesh made;
+  made.midpoints =
+    makeMidpoints(mesh.mesh(), plan.table, plan.quads.table, plan.marks, plan.uniform);
+  const auto& parents = made.midpoints.parentEdges;
+  if (!plan.quads.any)
+  {
+    made.ids = numberMidpoints(exchange, mesh.shared, mesh.mesh().ids, mesh.vertexIdBound, parents);
+    made.shared = sharedWithMidpoints(mesh.shared, plan.sharedEdges, made.midpoints.ofEdge);
+    return made;
+  }
+  std::vector<GlobalId> ids = mesh.mesh().ids;
+  const auto number = [&](std::size_t count)
+  {
+    const auto first = parents.begin() + static_cast<std::ptrdiff_t>(made.ids.size());
+    const auto numbers = numberMidpoints(exchange, made.shared, ids, mesh.vertexIdBound,
+      { first, first + static_cast<std::ptrdiff_t>(count) });
+    ids.insert(ids.end(), numbers.begin(), numbers.end());
+    made.ids.insert(made.ids.end(), numbers.begin(), numbers.end());
+  };
+  made.shared = mesh.shared;
+  number(made.midpoints.edges.size());
+  made.shared = sharedWithMidpoints(made.shared, plan.sharedEdges, made.midpoints.ofEdge);
+  number(made.midpoints.quads.size());
+  made.shared = sharedWithMidpoints(made.shared, plan.quads.shared, made.midpoints.ofQuad);
+  number(made.midpoints.hexahedra.size());
+  numberInCells(exchange, mesh, made);
+  return made;
+}
+
+/// Edges that stand over each other count as the longest of them, on whatever rank. Collective.
+void orderStacks(RankExchange& exchange, const SimplexMesh& mesh, RefinementPlan& plan)
+{
+  if (!exchange.any(!mesh.wedges.empty()))
+  {
+    return;
+  }
+  EdgeStacks stacks(plan.table, mesh.ids);
+  bool changed = stacks.spread();
+  do
+  {
+    combineShared(exchange, plan.sharedEdges, stacks.ranks(),
+      [](const StackRank& a, const StackRank& b) { return std::max(a, b); });
+    changed = exchange.any(stacks.spread());
+  } while (changed);
+  stacks.writeTo(plan.table);
+}
+
+/// Marks all edges of cells that would be cut badly. Returns whether there are any. Collective.
+bool markBadlyCut(RankExchange& exchange, const DistributedMesh& mesh, RefinementPlan& plan)
+{
+  const SimplexMesh& piece = mesh.mesh();
+  const std::vector<Index> bad = cellsCutBadly(piece, plan.table, plan.quads.table, plan.marks);
+  std::string problem;
+  std::size_t first = 0;
+  visitOwnShapes(piece,
+    [&](auto shape, const auto& cells)
+    {
+      for (const Index cell : cellsOfShape(bad, first, cells.size()))
+      {
+        const auto& edges = (plan.table.*edgesOfCells(shape))[cell];
+        if (std::all_of(edges.begin(), edges.end(), [&](Index e) { return plan.marks[e] != 0; }))
+        {
+          problem = "the cell with the id " +
+                    std::to_string(mesh.converted.cellIds[piece.dimension][first + cell]) +
+                    " is too distorted to be cut into valid cells; leave it out of the marked "
+                    "cells, or improve the mesh there";
+        }
+        for (const Index edge : edges)
+        {
+          plan.marks[edge] = 1;
+        }
+      }
+      first += cells.size();
+    });
+  exchange.agree(problem);
+  return exchange.any(!bad.empty());
 }
 
 } // namespace
 
 std::array<std::vector<GlobalId>, 4> numberChildren(
-  RankExchange& exchange, const DistributedMesh& mesh, const ChildRanges& firstChildren)
+  RankExchange& exchange, const DistributedMesh& mesh, const RefinementTrace& trace)
 {
   const auto& parentIds = mesh.converted.cellIds;
   const std::size_t cells = std::accumulate(parentIds.begin(), parentIds.end(), std::size_t{ 0 },
@@ -66,7 +192,7 @@ std::array<std::vector<GlobalId>, 4> numberChildren(
   reserveLong(weights, cells);
   for (int d = 0; d < 4; ++d)
   {
-    const auto& firsts = firstChildren[d];
+    const auto& firsts = trace.firstChildren[d];
     parents.insert(parents.end(), parentIds[d].begin(), parentIds[d].end());
     for (std::size_t c = 0; c < parentIds[d].size(); ++c)
     {
@@ -86,13 +212,12 @@ std::array<std::vector<GlobalId>, 4> numberChildren(
   auto parent = firstIds.begin();
   for (int d = 0; d < 4; ++d)
   {
-    const auto& firsts = firstChildren[d];
+    const auto& firsts = trace.firstChildren[d];
     resizeLong(ids[d], firsts.back());
-    for (std::size_t c = 0; c + 1 < firsts.size(); ++c)
-    {
-      std::iota(ids[d].begin() + firsts[c], ids[d].begin() + firsts[c + 1], *parent);
-      ++parent;
-    }
+    Index place = 0;
+    trace.visitChildren(
+      d, [&](Index cell, Index child) { ids[d][child] = parent[cell] + (place++ - firsts[cell]); });
+    parent += static_cast<std::ptrdiff_t>(firsts.size()) - 1;
   }
   return ids;
 }
@@ -116,57 +241,71 @@ Moves movesOntoCAD(
 
 RefinementPlan planUniform(RankExchange& exchange, const DistributedMesh& mesh)
 {
-  return { findEdges(exchange, mesh, 1), true };
+  RefinementPlan plan{ findEdges(exchange, mesh, 1), {}, true };
+  plan.quads = findQuads(exchange, mesh, plan.table);
+  return plan;
 }
 
 RefinementPlan planLongestEdge(RankExchange& exchange, const DistributedMesh& mesh,
-  const std::vector<unsigned char>& cellMarks, const FacetsToCut* toCut)
+  const std::vector<unsigned char>& cellMarks, const FacetsToCut* toCut, bool keepLayers)
 {
-  RefinementPlan plan{ findEdges(exchange, mesh, 0), false };
-  markLongestEdges(mesh.mesh(), plan.table, cellMarks, plan.marks);
+  RefinementPlan plan{ findEdges(exchange, mesh, 0) };
+  plan.quads = findQuads(exchange, mesh, plan.table);
+  if (keepLayers)
+  {
+    orderStacks(exchange, mesh.mesh(), plan);
+  }
+  markLongestEdges(mesh.mesh(), plan.table, cellMarks, keepLayers, plan.marks);
   if (toCut)
   {
     markFacets(toCut->boundary, toCut->classification, plan.table, cellMarks, plan.marks);
   }
-  combineMarks(exchange, plan);
-  MarkClosure closure(plan.table, plan.marks);
-  bool changed = exchange.any(closure.closeAll());
-  while (changed)
+  do
   {
-    changed = exchange.any(closure.closeFrom(combineMarks(exchange, plan)));
-  }
+    combineMarks(exchange, plan);
+    MarkClosure closure(plan.table, mesh.mesh().dimension, keepLayers, plan.marks);
+    bool changed = exchange.any(closure.closeAll());
+    while (changed)
+    {
+      changed = exchange.any(closure.closeFrom(combineMarks(exchange, plan)));
+    }
+  } while (plan.quads.any && markBadlyCut(exchange, mesh, plan));
   return plan;
 }
 
 ChildRanges countChildren(const SimplexMesh& mesh, const RefinementPlan& plan)
 {
   return plan.uniform ? countUniformChildren(mesh)
-                      : countMarkedChildren(mesh, plan.table, plan.marks);
+                      : countMarkedChildren(mesh, plan.table, plan.quads.table, plan.marks);
 }
 
 RefinementTrace refine(RankExchange& exchange, DistributedMesh& mesh, const RefinementPlan& plan,
   RunStatistics& statistics)
 {
-  const Midpoints midpoints = makeMidpoints(mesh.mesh(), plan.table, plan.marks);
-  std::vector<GlobalId> ids;
+  NewVerticesOfMesh made;
   {
     const RunStatistics::Stopwatch watch(statistics, "seconds numbering");
-    ids = numberMidpoints(exchange, mesh, midpoints.parentEdges);
+    made = makeNewVertices(exchange, mesh, plan);
   }
   SplitMesh split;
   {
     exchange.progress().say(0.5, "splitting cells");
     const RunStatistics::Stopwatch watch(statistics, "seconds cutting");
-    split = plan.uniform ? splitUniformly(mesh.mesh(), plan.table, midpoints, ids)
-                         : splitMarked(mesh.mesh(), plan.table, plan.marks, midpoints, ids);
+    split = plan.uniform
+              ? splitUniformly(mesh.mesh(), plan.table, plan.quads.table, made.midpoints, made.ids)
+              : splitMarked(
+                  mesh.mesh(), plan.table, plan.quads.table, plan.marks, made.midpoints, made.ids);
   }
   const RunStatistics::Stopwatch watch(statistics, "seconds numbering");
-  mesh.converted.cellIds = numberChildren(exchange, mesh, split.firstChildren);
+  RefinementTrace trace{ std::move(split.parentEdges), std::move(split.firstChildren),
+    std::move(split.children) };
+  trace.ofVertices = std::move(split.ofVertices);
+  mesh.converted.cellIds = numberChildren(exchange, mesh, trace);
   mesh.mesh() = std::move(split.mesh);
   mesh.converted.pointOf.clear();
   mesh.converted.cellOf = {};
-  mesh.shared = sharedWithMidpoints(mesh.shared, plan.sharedEdges, midpoints.ofEdge);
-  return { std::move(split.parentEdges), std::move(split.firstChildren), 0 };
+  mesh.shared = std::move(made.shared);
+  return trace;
 }
 
 RefinementTrace refineOntoCAD(RankExchange& exchange, DistributedMesh& mesh,
@@ -177,12 +316,18 @@ RefinementTrace refineOntoCAD(RankExchange& exchange, DistributedMesh& mesh,
   steps.begin(0.2, 0.5, "seconds projection");
   const BoundaryProjector& projector = classified.projector;
   const auto codes = edgeCodes(exchange, plan, classified);
-  const auto hits =
+  auto hits =
     projectMidpoints(exchange, mesh.mesh(), plan, codes, classified, classification, statistics);
-  auto onBoundary = onRefinedBoundary(plan, codes, classified.boundary.onBoundary);
+  const auto codesOfQuads = quadCodes(exchange, plan.table, plan.quads, classified);
+  const std::vector<Index> quads = cutQuads(plan);
+  projectQuads(exchange, mesh.mesh(), plan.quads, quads, codesOfQuads, classified, classification,
+    static_cast<std::size_t>(std::count(plan.marks.begin(), plan.marks.end(), 1)), hits);
+  auto onBoundary =
+    onRefinedBoundary(plan, codes, quads, codesOfQuads, classified.boundary.onBoundary);
   const std::size_t oldCount = mesh.mesh().points.size();
   steps.end();
   RefinementTrace trace = refine(exchange, mesh, plan, statistics);
+  onBoundary.resize(mesh.mesh().points.size(), 0); // others are inside cells
   steps.begin(0.7, 1, "seconds moves");
   trace.projectedPoints = countHits(exchange, mesh.shared, oldCount, hits);
   if (newVertices == NewVertices::StayStraight)

@@ -18,6 +18,7 @@ namespace cadrefine
 /// Which edges of a piece are cut.
 struct RefinementPlan : MarkedEdges
 {
+  SharedQuads quads = {}; ///< Those that are cut.
   bool uniform = false;
 };
 
@@ -32,11 +33,13 @@ struct FacetsToCut
 };
 
 /// Marks the longest edges of the marked cells (one entry for each cell of the mesh's own
-/// dimension), with `toCut` also those of markFacets, and others until no vertex hangs on any rank.
-/// A cell is bisected at the longest of its marked edges first. Collective; one message to each
-/// neighbour, of a byte a shared edge, for every time that marks cross between ranks.
+/// dimension; see markLongestEdges), with `toCut` also those of markFacets, and others until no
+/// vertex hangs on any rank. A simplex is bisected at the longest of its marked edges first. Where
+/// cells would be cut badly (see cellsCutBadly) all of their edges are marked; throws Error where
+/// that does not help. Collective; one message to each neighbour, of a byte a shared edge, for
+/// every time that marks cross between ranks.
 RefinementPlan planLongestEdge(RankExchange& exchange, const DistributedMesh& mesh,
-  const std::vector<unsigned char>& cellMarks, const FacetsToCut* toCut);
+  const std::vector<unsigned char>& cellMarks, const FacetsToCut* toCut, bool keepLayers);
 
 /// How many cells `refine` makes of each cell.
 ChildRanges countChildren(const SimplexMesh& mesh, const RefinementPlan& plan);
@@ -51,7 +54,7 @@ RefinementTrace refine(RankExchange& exchange, DistributedMesh& mesh, const Refi
 /// Ids of the children, which may be none: parents in the order of their ids, the children of each
 /// in a row. Collective (see denseOffsets).
 std::array<std::vector<GlobalId>, 4> numberChildren(
-  RankExchange& exchange, const DistributedMesh& mesh, const ChildRanges& firstChildren);
+  RankExchange& exchange, const DistributedMesh& mesh, const RefinementTrace& trace);
 
 /// What is done with the new vertices of classified edges.
 enum class NewVertices

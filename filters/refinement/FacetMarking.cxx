@@ -71,12 +71,10 @@ private:
   /// The corner of a facet that is not one of another facet of its cell.
   Index ownCorner(std::size_t f, std::size_t other) const
   {
-    const auto corners = boundary_.facetCorners();
-    const auto& mine = boundary_.facets[f].vertices;
-    const auto& its = boundary_.facets[other].vertices;
-    return *std::find_if(mine.begin(), mine.begin() + corners,
-      [&](Index v)
-      { return std::find(its.begin(), its.begin() + corners, v) == its.begin() + corners; });
+    const Facet& mine = boundary_.facets[f];
+    const Facet& its = boundary_.facets[other];
+    return *std::find_if(mine.begin(), mine.end(),
+      [&](Index v) { return std::find(its.begin(), its.end(), v) == its.end(); });
   }
 
   bool meetSmoothly(std::size_t f, std::size_t other) const
@@ -99,7 +97,11 @@ private:
   {
     if (meetSmoothly(f, other))
     {
-      marks_[table_.find(ownCorner(f, other), ownCorner(other, f))] = 1;
+      const Index edge = table_.find(ownCorner(f, other), ownCorner(other, f));
+      if (edge >= 0) // of a simplex
+      {
+        marks_[edge] = 1;
+      }
     }
   }
 

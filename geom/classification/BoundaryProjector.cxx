@@ -20,6 +20,14 @@ bool isBetter(const ClosestPoint& a, const ClosestPoint& b)
   return a.distance != b.distance ? a.distance < b.distance : a.entity < b.entity;
 }
 
+/// That of the facet, but for quadrilaterals, which need not be flat.
+Vector3 normalAtCorner(const ClassifiedFacet& facet, int k, const Vector3& ofFacet)
+{
+  const auto& p = facet.points;
+  return facet.corners == 4 ? normalized(twofoldAreaVector(p[(k + 3) % 4], p[k], p[(k + 1) % 4]))
+                            : ofFacet;
+}
+
 } // namespace
 
 BoundaryProjector::BoundaryProjector(const CADModel& model, BoundaryKind kind)
@@ -83,18 +91,19 @@ bool BoundaryProjector::isOnCAD(const ClassifiedFacet& facet) const
     const ClosestPoint where = nearest(0.5 * (p[0] + p[1]), unlimited);
     return fitsTangent(model_, where, normalized(p[1] - p[0]));
   }
-  const Vector3 normal = normalized(twofoldAreaVector(p[0], p[1], p[2]));
-  for (int k = 0; k < 3; ++k)
+  const Vector3 normal = normalized(twofoldAreaVector(p, facet.corners));
+  for (int k = 0; k < facet.corners; ++k)
   {
     if (facet.entities[k].dimension == 2 &&
-        fitsEitherWay(model_.normalNear(facet.entities[k].index, p[k]), normal))
+        fitsEitherWay(
+          model_.normalNear(facet.entities[k].index, p[k]), normalAtCorner(facet, k, normal)))
     {
       return true;
     }
   }
-  const Point3 centroid = (1.0 / 3.0) * (p[0] + p[1] + p[2]);
+  const Point3 centroid = centroidOf(p, facet.corners);
   // Between the edges of a narrow face, other faces may be nearer to the centroid than it is.
-  const auto common = commonFaces(model_.nurbs(), facet.entities);
+  const auto common = commonFaces(model_.nurbs(), facet.entities, facet.corners);
   if (std::any_of(common.begin(), common.end(),
         [&](std::int32_t face)
         { return fitsEitherWay(model_.normalNear(face, centroid), normal); }))
@@ -107,8 +116,8 @@ bool BoundaryProjector::isOnCAD(const ClassifiedFacet& facet) const
 
 std::int32_t BoundaryProjector::faceOf(const ClassifiedFacet& facet) const
 {
-  const auto faces = commonFaces(model_.nurbs(), facet.entities);
-  return faces.size() == 1 ? faces[0] : faces_.nearestOf(faces, facet.points);
+  const auto faces = commonFaces(model_.nurbs(), facet.entities, facet.corners);
+  return faces.size() == 1 ? faces[0] : faces_.nearestOf(faces, facet.points, facet.corners);
 }
 
 std::int32_t BoundaryProjector::commonCrease(

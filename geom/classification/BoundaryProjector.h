@@ -14,19 +14,21 @@
 namespace cadrefine
 {
 
-/// What the CAD is compared with: the boundary facets of a mesh of tetrahedra or of triangles in
-/// space (triangles, against CAD faces), or those of a planar mesh (segments, against CAD edges).
+/// What the CAD is compared with: the boundary facets of a mesh of volume, or the cells of a mesh
+/// of area in space (triangles and quadrilaterals, against CAD faces), or the boundary facets of a
+/// planar mesh (segments, against CAD edges).
 enum class BoundaryKind
 {
   Triangles,
   Segments
 };
 
-/// A facet with the CAD entities that its corners lie on. Segments use two corners.
+/// A facet with the CAD entities that its corners lie on.
 struct ClassifiedFacet
 {
-  std::array<Point3, 3> points;
-  std::array<EntityId, 3> entities;
+  std::array<Point3, 4> points{};
+  std::array<EntityId, 4> entities{};
+  int corners = 3; ///< Of triangles; 4 of quadrilaterals, 2 of segments.
 };
 
 /// How the midpoint of a mesh edge is to be placed.
@@ -42,6 +44,8 @@ struct EdgeClass
   std::int32_t edge = -1;
 };
 
+/// An edge whose midpoint is to be placed. The middle of a quadrilateral is that of an edge between
+/// the middles of two of its edges, with its CAD face for the entity of both ends.
 struct BoundaryEdge
 {
   EdgeClass edgeClass;

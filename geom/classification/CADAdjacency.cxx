@@ -128,14 +128,18 @@ std::vector<std::int32_t> commonEntities(
 }
 
 std::vector<std::int32_t> commonFaces(
-  const NurbsModel& model, const std::array<EntityId, 3>& entities)
+  const NurbsModel& model, const std::array<EntityId, 4>& entities, int count)
 {
-  const auto ofTwo = commonEntities(model, entities[0], entities[1], 2);
-  const auto ofThird = entitiesAround(model, entities[2], 2);
-  std::vector<std::int32_t> faces;
-  std::set_intersection(
-    ofTwo.begin(), ofTwo.end(), ofThird.begin(), ofThird.end(), std::back_inserter(faces));
-  return faces;
+  auto common = commonEntities(model, entities[0], entities[1], 2);
+  for (int k = 2; k < count; ++k)
+  {
+    const auto more = entitiesAround(model, entities[k], 2);
+    std::vector<std::int32_t> both;
+    std::set_intersection(
+      common.begin(), common.end(), more.begin(), more.end(), std::back_inserter(both));
+    common = std::move(both);
+  }
+  return common;
 }
 
 ClosestPoint onSharedEdge(const CADModel& model, const Point3& point, const ClosestPoint& where)

@@ -21,9 +21,9 @@ std::vector<std::int32_t> entitiesAround(const NurbsModel& model, EntityId entit
 std::vector<std::int32_t> commonEntities(
   const NurbsModel& model, EntityId a, EntityId b, int dimension);
 
-/// Faces whose closure holds all three, ascending.
+/// Faces whose closure holds the first `count` of these, three or four, ascending.
 std::vector<std::int32_t> commonFaces(
-  const NurbsModel& model, const std::array<EntityId, 3>& entities);
+  const NurbsModel& model, const std::array<EntityId, 4>& entities, int count);
 
 /// Where a mesh takes `point` whose nearest point is `where`. On the border of a face, off the edge
 /// that the border stands for: to the nearest point of that edge, which the faces beside it share.

@@ -26,11 +26,6 @@ std::int8_t sideOf(std::int64_t alike, std::int64_t opposite, std::int8_t otherw
                                                    : otherwise;
 }
 
-Point3 centroidOf(const std::array<Point3, 3>& p)
-{
-  return (1.0 / 3.0) * (p[0] + p[1] + p[2]);
-}
-
 } // namespace
 
 FaceSides decideSides(
@@ -65,7 +60,7 @@ bool FaceFinder::fitsAt(const ClosestPoint& where, const Vector3& normal) const
 
 std::int32_t FaceFinder::faceByCorners(const CornerHits& facet, const Vector3& normal) const
 {
-  for (int k = 0; k < 3; ++k)
+  for (int k = 0; k < facet.corners; ++k)
   {
     const ClosestPoint& hit = facet.hits[k];
     if (facet.amongItsOwn[k] && hit.entity.dimension == 2 && fitsAt(hit, normal))
@@ -109,18 +104,20 @@ std::int32_t FaceFinder::nearestFitting(
 FaceMatch FaceFinder::find(const CornerHits& facet) const
 {
   const auto& p = facet.points;
-  const Vector3 twofoldArea = twofoldAreaVector(p[0], p[1], p[2]);
+  const Vector3 twofoldArea = twofoldAreaVector(p, facet.corners);
   const Vector3 normal = normalized(twofoldArea);
   const std::int32_t ofCorners = faceByCorners(facet, normal);
   if (ofCorners >= 0)
   {
     return { ofCorners, 1 };
   }
-  const Point3 centroid = centroidOf(p);
+  const Point3 centroid = centroidOf(p, facet.corners);
   if (facet.exact)
   {
-    const auto common = commonFaces(
-      model_.nurbs(), { facet.hits[0].entity, facet.hits[1].entity, facet.hits[2].entity });
+    std::array<EntityId, 4> entities;
+    std::transform(facet.hits.begin(), facet.hits.end(), entities.begin(),
+      [](const ClosestPoint& hit) { return hit.entity; });
+    const auto common = commonFaces(model_.nurbs(), entities, facet.corners);
     const std::int32_t ofAll = nearestFitting(common, centroid, normal);
     if (ofAll >= 0)
     {
@@ -141,9 +138,9 @@ FaceMatch FaceFinder::find(const CornerHits& facet) const
     const Vector3 height = std::sqrt(norm(twofoldArea)) * normal;
     nearby.push_back(nearest(centroid + height).entity);
     nearby.push_back(nearest(centroid - height).entity);
-    for (const ClosestPoint& hit : facet.hits)
+    for (int k = 0; k < facet.corners; ++k)
     {
-      nearby.push_back(hit.entity);
+      nearby.push_back(facet.hits[k].entity);
     }
   }
   const std::int32_t face = nearestFitting(facesAround(nearby), centroid, normal);
@@ -164,10 +161,10 @@ std::vector<std::int32_t> FaceFinder::facesAround(const std::vector<EntityId>& e
 }
 
 std::int32_t FaceFinder::nearestOf(
-  const std::vector<std::int32_t>& faces, const std::array<Point3, 3>& points) const
+  const std::vector<std::int32_t>& faces, const std::array<Point3, 4>& points, int corners) const
 {
   return nearestFitting(
-    faces, centroidOf(points), normalized(twofoldAreaVector(points[0], points[1], points[2])));
+    faces, centroidOf(points, corners), normalized(twofoldAreaVector(points, corners)));
 }
 
 } // namespace cadrefine

@@ -22,13 +22,14 @@ using FaceSides = std::vector<std::int8_t>;
 FaceSides decideSides(
   const std::vector<std::int64_t>& alike, const std::vector<std::int64_t>& opposite);
 
-/// The corners of a triangle of the boundary and their nearest points on the model.
+/// The corners of a facet of the boundary and their nearest points on the model.
 struct CornerHits
 {
-  std::array<Point3, 3> points;
-  std::array<ClosestPoint, 3> hits;
+  std::array<Point3, 4> points{};
+  std::array<ClosestPoint, 4> hits{};
+  int corners = 3;
   /// All vertices that share an edge with this corner have their nearest point on the same face.
-  std::array<unsigned char, 3> amongItsOwn{};
+  std::array<unsigned char, 4> amongItsOwn{};
   /// All corners lie on the CAD already (see exactDistance).
   unsigned char exact = 0;
 };
@@ -41,14 +42,14 @@ struct FaceMatch
   unsigned char certain = 0;
 };
 
-/// Finds the CAD faces of triangles. All answers are pure functions of the arguments and the model.
+/// Finds the CAD faces of facets. All answers are pure functions of the arguments and the model.
 class FaceFinder
 {
 public:
   /// `sides` has one entry for each face of the model.
   FaceFinder(const CADModel& model, FaceSides sides) : model_(model), sides_(std::move(sides)) {}
 
-  /// The face nearest to the centroid of those whose normal there fits the triangle's: to 60
+  /// The face nearest to the centroid of those whose normal there fits the facet's: to 60
   /// degrees, and pointing the way that `sides` tells. So the two sides of a thin part are not
   /// confused. Of facets whose corners lie on the CAD already, one that all corners lie on,
   /// if it fits. No query where a corner and all vertices around it lie nearest to one face;
@@ -61,7 +62,7 @@ public:
 
   /// Of these faces the nearest whose normal fits, or -1.
   std::int32_t nearestOf(
-    const std::vector<std::int32_t>& faces, const std::array<Point3, 3>& points) const;
+    const std::vector<std::int32_t>& faces, const std::array<Point3, 4>& points, int corners) const;
 
 private:
   bool fits(std::int32_t face, const Vector3& normalOfFace, const Vector3& normal) const;

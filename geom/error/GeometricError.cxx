@@ -12,28 +12,32 @@ namespace cadrefine
 namespace
 {
 
-int cornersOf(BoundaryKind kind)
+int cornersOf(BoundaryKind kind, const SurfaceFacet& facet)
 {
-  return kind == BoundaryKind::Segments ? 2 : 3;
+  return kind == BoundaryKind::Segments ? 2 : facet.quad < 0 ? 3 : 4;
 }
 
-int edgesOf(BoundaryKind kind)
+int edgesOf(BoundaryKind kind, const SurfaceFacet& facet)
 {
-  return kind == BoundaryKind::Segments ? 1 : 3;
+  return kind == BoundaryKind::Segments ? 1 : cornersOf(kind, facet);
 }
 
-/// The vertices that refinement would make in the middle of the edges.
+/// The vertices that refinement would make in the middle of the edges and quadrilaterals.
 std::vector<SurfacePoint> newPoints(
   const ClassifiedSurface& surface, const std::vector<ClosestPoint>& midpoints)
 {
   std::vector<SurfacePoint> points;
   points.reserve(midpoints.size());
-  for (std::size_t e = 0; e < midpoints.size(); ++e)
+  for (std::size_t e = 0; e < surface.edges.size(); ++e)
   {
     const auto [a, b] = surface.edges[e].ends;
     const ClosestPoint& where = midpoints[e];
     const Point3 middle = 0.5 * (surface.points[a].point + surface.points[b].point);
     points.push_back({ where.entity ? where.point : middle, where.entity });
+  }
+  for (std::size_t m = surface.edges.size(); m < midpoints.size(); ++m)
+  {
+    points.push_back({ midpoints[m].point, midpoints[m].entity });
   }
   return points;
 }
@@ -45,23 +49,49 @@ double areaBetween(const SurfacePoint& a, const SurfacePoint& b, const SurfacePo
                     twofoldAreaVector(a.point, m.point, a.place));
 }
 
-/// The volume of the polyhedron between the triangle and its children.
-double volumeBetween(const std::array<SurfacePoint, 3>& c, const std::array<SurfacePoint, 3>& m)
+/// Six times the volume between the origin and a triangle, or a bilinear quadrilateral: the mean of
+/// both ways to cut that in two triangles.
+double sixfoldVolumeOver(const Point3& origin, const Point3& x, const Point3& y, const Point3& z)
 {
+  return dot(x - origin, cross(y - origin, z - origin));
+}
+
+double sixfoldVolumeOver(
+  const Point3& origin, const Point3& x, const Point3& y, const Point3& z, const Point3& w)
+{
+  return 0.5 * (sixfoldVolumeOver(origin, x, y, z) + sixfoldVolumeOver(origin, x, z, w) +
+                 sixfoldVolumeOver(origin, x, y, w) + sixfoldVolumeOver(origin, y, z, w));
+}
+
+/// The corners of a facet and the middles of its edges, and of a quadrilateral its own.
+struct FacetPoints
+{
+  int corners = 3;
+  std::array<SurfacePoint, 4> c;
+  std::array<SurfacePoint, 4> m;
+  Point3 middle{};
+};
+
+/// The volume of the polyhedron between the facet and its children.
+double volumeBetween(const FacetPoints& facet)
+{
+  const auto& [corners, c, m, middle] = facet;
   const Point3& origin = c[0].point;
-  const auto over = [&](const Point3& x, const Point3& y, const Point3& z)
-  { return dot(x - origin, cross(y - origin, z - origin)); };
-  double volume = over(m[0].point, m[1].point, m[2].point);
-  for (int k = 0; k < 3; ++k)
+  const auto over = [&](const auto&... points) { return sixfoldVolumeOver(origin, points...); };
+  // A flat triangle itself passes through the origin.
+  double volume = corners == 4 ? -over(c[0].point, c[1].point, c[2].point, c[3].point)
+                               : over(m[0].point, m[1].point, m[2].point);
+  for (int k = 0; k < corners; ++k)
   {
-    const int next = (k + 1) % 3;
-    const int previous = (k + 2) % 3;
-    volume += over(c[k].place, m[k].point, m[previous].point); // the child at corner k
-    volume += over(c[k].point, c[next].point, m[k].point);     // the side over edge k
+    const int next = (k + 1) % corners;
+    const int previous = (k + corners - 1) % corners;
+    volume += corners == 4 ? over(c[k].place, m[k].point, middle, m[previous].point)
+                           : over(c[k].place, m[k].point, m[previous].point);
+    volume += over(c[k].point, c[next].point, m[k].point); // the side over edge k
     volume += over(c[k].point, m[k].point, c[k].place);
     volume += over(c[next].point, c[next].place, m[k].point);
   }
-  return std::abs(volume) / 6; // the flat triangle itself passes through the origin
+  return std::abs(volume) / 6;
 }
 
 /// Of one level.
@@ -69,22 +99,33 @@ FacetError errorOf(const ClassifiedSurface& surface, const std::vector<ClosestPo
   const std::vector<SurfacePoint>& middles, const SurfaceFacet& facet)
 {
   FacetError error;
-  std::array<SurfacePoint, 3> c;
-  for (int k = 0; k < cornersOf(surface.kind); ++k)
+  FacetPoints points;
+  points.corners = cornersOf(surface.kind, facet);
+  auto& [corners, c, m, middle] = points;
+  for (int k = 0; k < corners; ++k)
   {
     c[k] = surface.points[facet.corners[k]];
     error.largestDistance = std::max(error.largestDistance, distance(c[k].point, c[k].place));
   }
-  std::array<SurfacePoint, 3> m;
-  for (int k = 0; k < edgesOf(surface.kind); ++k)
+  const auto meet = [&](std::size_t e)
+  {
+    const ClosestPoint& where = midpoints[e];
+    error.chordError = std::max(error.chordError, where.entity ? where.distance : 0);
+  };
+  for (int k = 0; k < edgesOf(surface.kind, facet); ++k)
   {
     m[k] = middles[facet.edges[k]];
-    const ClosestPoint& where = midpoints[facet.edges[k]];
-    error.chordError = std::max(error.chordError, where.entity ? where.distance : 0);
+    meet(facet.edges[k]);
+  }
+  if (facet.quad >= 0)
+  {
+    const std::size_t e = surface.edges.size() + facet.quad;
+    middle = middles[e].point;
+    meet(e);
   }
   error.largestDistance = std::max(error.largestDistance, error.chordError);
   error.measure =
-    surface.kind == BoundaryKind::Segments ? areaBetween(c[0], c[1], m[0]) : volumeBetween(c, m);
+    surface.kind == BoundaryKind::Segments ? areaBetween(c[0], c[1], m[0]) : volumeBetween(points);
   error.lastLevel = error.measure;
   return error;
 }
@@ -95,9 +136,10 @@ Index halfAt(const ClassifiedSurface& surface, Index e, Index end)
   return 2 * e + (surface.edges[e].ends[0] == end ? 0 : 1);
 }
 
-/// The children of all facets, those of each in a row: at its corners, then in its middle. Points:
-/// the places of the surface's, then `middles`. Edges: the halves of the surface's, then three in
-/// each triangle, of which edge k cuts corner k off.
+/// The children of all facets, those of each in a row: at its corners, then in a triangle's middle.
+/// Points: the places of the surface's, then `middles`. Edges: the halves of the surface's, then
+/// three in each triangle, of which edge k cuts corner k off, and four in each quadrilateral, of
+/// which edge k ends in the middle of edge k.
 ClassifiedSurface subdivide(
   const ClassifiedSurface& surface, const std::vector<SurfacePoint>& middles)
 {
@@ -113,6 +155,7 @@ ClassifiedSurface subdivide(
   }
   children.points.insert(children.points.end(), middles.begin(), middles.end());
   children.edges.reserve(firstInner + (areTriangles ? 3 * surface.facets.size() : 0));
+  Index quads = 0;
   for (std::size_t e = 0; e < surface.edges.size(); ++e)
   {
     const auto& [ends, edgeClass] = surface.edges[e];
@@ -121,8 +164,9 @@ ClassifiedSurface subdivide(
     children.edges.push_back({ { middle, ends[1] }, edgeClass });
   }
   children.facets.reserve((areTriangles ? 4 : 2) * surface.facets.size());
-  for (const auto& [corners, edges] : surface.facets)
+  for (const SurfaceFacet& facet : surface.facets)
   {
+    const auto& [corners, edges, face, quad] = facet;
     if (!areTriangles)
     {
       const Index middle = firstMiddle + edges[0];
@@ -133,6 +177,21 @@ ClassifiedSurface subdivide(
       continue;
     }
     const auto inner = static_cast<Index>(children.edges.size());
+    if (quad >= 0)
+    {
+      const Index centre = firstMiddle + static_cast<Index>(surface.edges.size()) + quad;
+      for (int k = 0; k < 4; ++k)
+      {
+        const int previous = (k + 3) % 4;
+        const Index m = firstMiddle + edges[k];
+        children.edges.push_back({ { m, centre }, { EdgeClass::Smooth, -1 } });
+        children.facets.push_back({ { corners[k], m, centre, firstMiddle + edges[previous] },
+          { halfAt(surface, edges[k], corners[k]), inner + k, inner + previous,
+            halfAt(surface, edges[previous], corners[k]) },
+          face, quads++ });
+      }
+      continue;
+    }
     for (int k = 0; k < 3; ++k)
     {
       const int previous = (k + 2) % 3;
@@ -229,7 +288,30 @@ std::vector<BoundaryEdge> ClassifiedSurface::allEdges() const
   {
     all.push_back(edge(e));
   }
+  for (const SurfaceFacet& facet : facets)
+  {
+    if (facet.quad >= 0)
+    {
+      std::array<Point3, 4> corners;
+      std::array<EntityId, 4> entities;
+      for (int k = 0; k < 4; ++k)
+      {
+        corners[k] = points[facet.corners[k]].point;
+        entities[k] = points[facet.corners[k]].entity;
+      }
+      all.push_back(middleOfQuad(corners, entities, facet.face));
+    }
+  }
   return all;
+}
+
+BoundaryEdge middleOfQuad(
+  const std::array<Point3, 4>& points, const std::array<EntityId, 4>& entities, std::int32_t face)
+{
+  const EntityId onFace{ 2, face };
+  return { { EdgeClass::Smooth, -1 },
+    { 0.5 * (points[0] + points[1]), 0.5 * (points[2] + points[3]) },
+    { face >= 0 ? onFace : entities[0], face >= 0 ? onFace : entities[2] } };
 }
 
 double extrapolatedMeasure(const FacetError& error)
@@ -250,13 +332,19 @@ std::vector<FacetError> geometricErrors(const ClassifiedSurface& surface,
     ClassifiedSurface part;
     part.kind = surface.kind;
     const std::size_t end = surface.facets.size() * (i + 1) / parts;
+    std::vector<ClosestPoint> middlesOfQuads;
     for (std::size_t f = errors.size(); f < end; ++f)
     {
       SurfaceFacet facet = surface.facets[f];
-      std::transform(facet.corners.begin(), facet.corners.begin() + cornersOf(surface.kind),
+      std::transform(facet.corners.begin(), facet.corners.begin() + cornersOf(surface.kind, facet),
         facet.corners.begin(), std::ref(points));
-      std::transform(facet.edges.begin(), facet.edges.begin() + edgesOf(surface.kind),
+      std::transform(facet.edges.begin(), facet.edges.begin() + edgesOf(surface.kind, facet),
         facet.edges.begin(), std::ref(edges));
+      if (facet.quad >= 0)
+      {
+        middlesOfQuads.push_back(midpoints[surface.edges.size() + facet.quad]);
+        facet.quad = static_cast<Index>(middlesOfQuads.size() - 1);
+      }
       part.facets.push_back(facet);
     }
     std::vector<ClosestPoint> midpointsOfPart;
@@ -266,6 +354,7 @@ std::vector<FacetError> geometricErrors(const ClassifiedSurface& surface,
       part.edges.push_back({ { points(ends[0]), points(ends[1]) }, edgeClass });
       midpointsOfPart.push_back(midpoints[e]);
     }
+    midpointsOfPart.insert(midpointsOfPart.end(), middlesOfQuads.begin(), middlesOfQuads.end());
     for (const Index p : points.order())
     {
       part.points.push_back(surface.points[p]);

@@ -13,8 +13,10 @@ namespace cadrefine
 /// Error of one facet.
 struct FacetError
 {
-  double measure = 0;         ///< Area (segments) or volume (triangles) between facet and CAD.
-  double chordError = 0;      ///< Largest distance from the middle of the facet's edges to the CAD.
+  double measure = 0; ///< Area (segments) or volume (triangles) between facet and CAD.
+  /// Largest distance from the middle of the facet's edges (of a quadrilateral also its own) to the
+  /// CAD.
+  double chordError = 0;
   double largestDistance = 0; ///< The same over the edges of its children too.
   double lastLevel = 0;       ///< What the last level of the recursion has added to `measure`.
 };
@@ -41,8 +43,10 @@ struct SurfaceEdge
 /// Edge k joins corners k and k + 1. A segment has two corners and one edge.
 struct SurfaceFacet
 {
-  std::array<Index, 3> corners{};
-  std::array<Index, 3> edges{};
+  std::array<Index, 4> corners{};
+  std::array<Index, 4> edges{};
+  std::int32_t face = -1; ///< Of a quadrilateral its CAD face, or -1.
+  Index quad = -1;        ///< Its number among the quadrilaterals; -1: it is none.
 };
 
 /// Facets on the CAD, with the points and edges that they share.
@@ -54,8 +58,14 @@ struct ClassifiedSurface
   std::vector<SurfaceFacet> facets;
 
   BoundaryEdge edge(std::size_t e) const;
+  /// Whose midpoints are wanted: all edges, and one for each quadrilateral.
   std::vector<BoundaryEdge> allEdges() const;
 };
+
+/// What places the middle of a quadrilateral on this CAD face, or near these corners' where that is
+/// -1, given its corners.
+BoundaryEdge middleOfQuad(
+  const std::array<Point3, 4>& points, const std::array<EntityId, 4>& entities, std::int32_t face);
 
 /// Finds the midpoints of edges (see BoundaryProjector::projectMidpoint), in their order.
 using ProjectMidpoints = std::function<std::vector<ClosestPoint>(std::vector<BoundaryEdge>)>;
@@ -66,7 +76,8 @@ using ProjectMidpoints = std::function<std::vector<ClosestPoint>(std::vector<Bou
 /// three edge midpoints are projected by the class of their edge; the volume between the flat facet
 /// and its four children is that of a closed polyhedron (facet, children, and a triangle over each
 /// edge), by the divergence theorem; and so on on the four. Absolute values are added up over the
-/// levels.
+/// levels. A quadrilateral is the bilinear surface between its corners, and its four children meet
+/// in the projection of its middle, onto its CAD face.
 ///
 /// Where a corner has not reached the CAD, its place there stands for it among the children, and
 /// the sides of the polyhedron (in 2D the polygon over the edge) join the two.
@@ -75,10 +86,11 @@ using ProjectMidpoints = std::function<std::vector<ClosestPoint>(std::vector<Bou
 /// overlap between them. On smooth CAD the sum converges to the exact measure like 4^-depth, from
 /// below: 3/4 of it at depth 1, 15/16 at depth 2.
 ///
-/// `midpoints` are those of the surface's edges. The facets are measured in `parts` runs, one after
-/// the other, of which each projects depth - 1 times. Work: 2 + 4 + ... + 2^(depth-1) projections
-/// an edge, in 3D also 3, 6 + 12, ... a facet: half of what facets would need that shared nothing.
-/// Memory: some 400 bytes for each facet of a part and each of its 4^(depth-1) descendants.
+/// `midpoints` are those of ClassifiedSurface::allEdges. The facets are measured in `parts` runs,
+/// one after the other, of which each projects depth - 1 times. Work: 2 + 4 + ... + 2^(depth-1)
+/// projections an edge, in 3D also 3, 6 + 12, ... a facet: half of what facets would need that
+/// shared nothing. Memory: some 400 bytes for each facet of a part and each of its 4^(depth-1)
+/// descendants.
 std::vector<FacetError> geometricErrors(const ClassifiedSurface& surface,
   const std::vector<ClosestPoint>& midpoints, int depth, std::size_t parts,
   const ProjectMidpoints& project);
@@ -88,8 +100,8 @@ std::vector<FacetError> geometricErrors(const ClassifiedSurface& surface,
 struct ErrorFacet
 {
   ClassifiedFacet corners;
-  std::array<EdgeClass, 3> edges;
-  std::array<bool, 3> offCAD{}; ///< Corners that are classified, but have not reached the CAD.
+  std::array<EdgeClass, 4> edges;
+  std::array<bool, 4> offCAD{}; ///< Corners that are classified, but have not reached the CAD.
 };
 
 } // namespace cadrefine

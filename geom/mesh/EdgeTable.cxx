@@ -45,14 +45,37 @@ void forEachSide(
   }
 }
 
+/// visit(shape, cells) of the shapes that have edges, those of the highest dimension first.
+template<class Visit>
+void visitWithEdges(const SimplexMesh& mesh, const Visit& visit)
+{
+  for (int d = 3; d > 0; --d)
+  {
+    visitShapes(mesh, d,
+      [&](auto shape, const auto& cells)
+      {
+        if constexpr (decltype(shape)::dimension > 0)
+        {
+          visit(shape, cells);
+        }
+      });
+  }
+}
+
 template<class Use>
 void forEachSide(const SimplexMesh& mesh, const Use& use)
 {
-  constexpr int segmentEdges[1][2] = { { 0, 1 } };
   std::size_t place = 0;
-  forEachSide(mesh.tetrahedra, tetrahedronEdges, place, use);
-  forEachSide(mesh.triangles, triangleEdges, place, use);
-  forEachSide(mesh.segments, segmentEdges, place, use);
+  visitWithEdges(mesh,
+    [&](auto shape, const auto& cells) { forEachSide(cells, decltype(shape)::edges, place, use); });
+}
+
+std::size_t countSides(const SimplexMesh& mesh)
+{
+  std::size_t sides = 0;
+  visitWithEdges(mesh, [&](auto shape, const auto& cells)
+    { sides += std::size(decltype(shape)::edges) * cells.size(); });
+  return sides;
 }
 
 /// A side in the bucket of its end of lower rank.
@@ -69,30 +92,44 @@ class SidePlaces
 {
 public:
   SidePlaces(const SimplexMesh& mesh, EdgeTable& table)
-    : table_(table), triangles_(6 * mesh.tetrahedra.size()),
-      segments_(triangles_ + 3 * mesh.triangles.size())
   {
-    resizeLong(table.ofTetrahedra, mesh.tetrahedra.size());
-    resizeLong(table.ofTriangles, mesh.triangles.size());
+    std::size_t place = 0;
+    visitWithEdges(mesh,
+      [&](auto shape, const auto& cells)
+      {
+        auto& edges = table.*edgesOfCells(shape);
+        resizeLong(edges, cells.size());
+        place += std::size(decltype(shape)::edges) * cells.size();
+        if (!cells.empty())
+        {
+          runs_.push_back({ place, edges.front().data() });
+        }
+      });
     // Nearly as many edges as there are, by Euler: a ball has one for each vertex and tetrahedron,
-    // and one for two boundary triangles; a disc one for each vertex and triangle.
-    reserveLong(table.edges,
-      mesh.points.size() + mesh.tetrahedra.size() + mesh.triangles.size() + mesh.segments.size());
-    table.ofSegments.resize(mesh.segments.size());
+    // and one for two boundary triangles; a disc one for each vertex and triangle. Hexahedra have
+    // some three for each vertex.
+    reserveLong(table.edges, mesh.points.size() + mesh.cellCount());
   }
 
   Index& operator[](std::size_t place)
   {
-    return place < triangles_ ? table_.ofTetrahedra[place / 6][place % 6]
-           : place < segments_
-             ? table_.ofTriangles[(place - triangles_) / 3][(place - triangles_) % 3]
-             : table_.ofSegments[place - segments_];
+    std::size_t first = 0;
+    const Run* run = runs_.data();
+    for (; place >= run->end; ++run)
+    {
+      first = run->end;
+    }
+    return run->edges[place - first];
   }
 
 private:
-  EdgeTable& table_;
-  std::size_t triangles_; ///< Place of the first side of a triangle.
-  std::size_t segments_;
+  /// The edges of the cells of one shape.
+  struct Run
+  {
+    std::size_t end; ///< Place after the last one.
+    Index* edges;
+  };
+  std::vector<Run> runs_;
 };
 
 /// Numbers the edges of each bucket of sides in turn, in the order of their other ends.
@@ -194,8 +231,7 @@ Index EdgeTable::find(Index a, Index b) const
 
 EdgeTable buildEdgeTable(const SimplexMesh& mesh)
 {
-  requireAtMost(6 * mesh.tetrahedra.size() + 3 * mesh.triangles.size() + mesh.segments.size(),
-    "edges of cells", Side::most);
+  requireAtMost(countSides(mesh), "edges of cells", Side::most);
   EdgeTable table;
   const std::vector<Index> order = orderByIds(mesh.ids);
   table.rankOfVertex.resize(order.size());

@@ -39,10 +39,18 @@ struct EdgeTable
   /// End vertices, the one with the smaller global id first; in ascending order of (smaller id,
   /// larger id).
   std::vector<std::array<Index, 2>> edges;
+  /// Of edges that stand over each other in wedges (see joinStacks) that of the longest.
   std::vector<double> squaredLengths;
+  /// Of the edges that stand over each other the ids of the ends of the longest; none: no edges do.
+  std::vector<std::array<GlobalId, 2>> idsInStack;
+  /// Of the cells of each shape, in the order of its edges.
   std::vector<std::array<Index, 6>> ofTetrahedra;
+  std::vector<std::array<Index, 8>> ofPyramids;
+  std::vector<std::array<Index, 9>> ofWedges;
+  std::vector<std::array<Index, 12>> ofHexahedra;
   std::vector<std::array<Index, 3>> ofTriangles;
-  std::vector<Index> ofSegments;
+  std::vector<std::array<Index, 4>> ofQuadrilaterals;
+  std::vector<std::array<Index, 1>> ofSegments;
   /// Place of each vertex in the order of the ids.
   std::vector<Index> rankOfVertex;
   /// The edges whose smaller end has rank r: firstOfRank[r] up to firstOfRank[r + 1].
@@ -52,6 +60,36 @@ struct EdgeTable
   Index find(Index a, Index b) const;
 };
 
+/// Where a table has the edges of the cells of a shape.
+constexpr auto edgesOfCells(shapes::Tetrahedron)
+{
+  return &EdgeTable::ofTetrahedra;
+}
+constexpr auto edgesOfCells(shapes::Pyramid)
+{
+  return &EdgeTable::ofPyramids;
+}
+constexpr auto edgesOfCells(shapes::Wedge)
+{
+  return &EdgeTable::ofWedges;
+}
+constexpr auto edgesOfCells(shapes::Hexahedron)
+{
+  return &EdgeTable::ofHexahedra;
+}
+constexpr auto edgesOfCells(shapes::Triangle)
+{
+  return &EdgeTable::ofTriangles;
+}
+constexpr auto edgesOfCells(shapes::Quadrilateral)
+{
+  return &EdgeTable::ofQuadrilaterals;
+}
+constexpr auto edgesOfCells(shapes::Segment)
+{
+  return &EdgeTable::ofSegments;
+}
+
 /// Sorts the sides of all cells by one end, and the edges there by the other: work and memory
 /// linear in the number of cells but for a logarithm of the edges at a vertex. Throws Error where
 /// there are more than 2^32 - 1 sides (715 million tetrahedra) or 2^31 - 1 edges.
@@ -59,16 +97,26 @@ EdgeTable buildEdgeTable(const SimplexMesh& mesh);
 
 /// The total order by which the longest edge is chosen: by (squared length, smaller id, larger id).
 /// It needs no tolerance and is the same on every rank, since lengths are computed from the end
-/// with the smaller id.
+/// with the smaller id. Edges that stand over each other count as the longest of them, so that the
+/// triangles over each other are cut alike.
 class EdgeOrder
 {
 public:
-  explicit EdgeOrder(const EdgeTable& table) : lengths_(table.squaredLengths) {}
+  explicit EdgeOrder(const EdgeTable& table)
+    : lengths_(table.squaredLengths), idsInStack_(table.idsInStack)
+  {
+  }
 
   /// True where edge `a` is longer than edge `b`. The edges are numbered by their ids.
   bool longer(Index a, Index b) const
   {
-    return lengths_[a] != lengths_[b] ? lengths_[a] > lengths_[b] : a > b;
+    if (lengths_[a] != lengths_[b])
+    {
+      return lengths_[a] > lengths_[b];
+    }
+    return !idsInStack_.empty() && idsInStack_[a] != idsInStack_[b]
+             ? idsInStack_[a] > idsInStack_[b]
+             : a > b;
   }
 
   /// The longest of some edges; there must be one.
@@ -81,6 +129,7 @@ public:
 
 private:
   const std::vector<double>& lengths_;
+  const std::vector<std::array<GlobalId, 2>>& idsInStack_;
 };
 
 } // namespace cadrefine

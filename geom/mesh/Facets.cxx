@@ -13,15 +13,21 @@ namespace cadrefine
 namespace
 {
 
-/// A side in the bucket of its smallest vertex: the other vertices, ascending, as one number, and
-/// its place in the order of the cells and their local sides.
+/// A side in the bucket of its smallest vertex: the other vertices, ascending, as one number (of a
+/// mesh with quadrilaterals two), and its place in the order of the cells and their local sides.
+template<class Others>
 struct Side
 {
-  std::uint64_t others;
+  Others others;
   std::size_t place;
 
   friend bool operator<(const Side& a, const Side& b) { return a.others < b.others; }
 };
+
+std::uint64_t packed(Index a, Index b)
+{
+  return static_cast<std::uint64_t>(a) << 32 | static_cast<std::uint64_t>(b);
+}
 
 std::pair<Index, std::uint64_t> sideKey(const std::array<Index, 3>& corners)
 {
@@ -29,14 +35,22 @@ std::pair<Index, std::uint64_t> sideKey(const std::array<Index, 3>& corners)
   const auto [low, high] = std::minmax(a, b);
   const Index first = std::min(low, c);
   const Index last = std::max(high, c);
-  const auto middle = static_cast<std::uint64_t>(std::max(low, std::min(high, c)));
-  return { first, middle << 32 | static_cast<std::uint64_t>(last) };
+  return { first, packed(std::max(low, std::min(high, c)), last) };
 }
 
 std::pair<Index, std::uint64_t> sideKey(const std::array<Index, 2>& ends)
 {
   const auto [a, b] = ends;
   return { std::min(a, b), static_cast<std::uint64_t>(std::max(a, b)) };
+}
+
+using MixedOthers = std::pair<std::uint64_t, Index>; ///< The last one -1 of a triangle.
+
+std::pair<Index, MixedOthers> sideKey(Facet side)
+{
+  auto& v = side.vertices;
+  std::sort(v.begin(), v.begin() + side.corners());
+  return { v[0], { packed(v[1], side.corners() > 2 ? v[2] : 0), v[3] } };
 }
 
 /// Calls use(vertex) for the smallest vertices of the sides of a cell whose vertices are all
@@ -68,13 +82,32 @@ void forSmallest(
   }
 }
 
-/// The sides of cells at a vertex that is their smallest, of those that are looked at.
+/// The sides of simplices at a vertex that is their smallest, of those that are looked at.
 template<std::size_t Corners, std::size_t Sides, std::size_t SideCorners>
-struct SideSource
+struct SimplexSides
 {
+  using Others = std::uint64_t;
+
   const Simplices<Corners>& cells;
   const int (&sides)[Sides][SideCorners];
   const std::vector<unsigned char>& among;
+
+  std::size_t cellCount() const { return cells.size(); }
+
+  template<class Use>
+  void forSmallestOf(std::size_t cell, const Use& use) const
+  {
+    forSmallest(cells[cell], among, use);
+  }
+
+  Facet facetAt(std::size_t place) const
+  {
+    Facet facet;
+    const auto corners = cornersOf(place);
+    std::copy(corners.begin(), corners.end(), facet.vertices.begin());
+    facet.cell = static_cast<Index>(place / Sides);
+    return facet;
+  }
 
   std::array<Index, SideCorners> cornersOf(std::size_t place) const
   {
@@ -85,7 +118,7 @@ struct SideSource
     return corners;
   }
 
-  void append(Index vertex, Index cell, std::vector<Side>& found) const
+  void append(Index vertex, Index cell, std::vector<Side<Others>>& found) const
   {
     for (std::size_t s = 0; s < Sides; ++s)
     {
@@ -103,7 +136,91 @@ struct SideSource
   }
 };
 
+/// The same of cells of any shape.
+class MixedSides
+{
+public:
+  using Others = MixedOthers;
+
+  MixedSides(const SimplexMesh& mesh, const std::vector<unsigned char>& among)
+    : mesh_(mesh), among_(among), cellCount_(mesh.cellCount(mesh.dimension))
+  {
+  }
+
+  std::size_t cellCount() const { return cellCount_; }
+
+  template<class Use>
+  void forSmallestOf(std::size_t cell, const Use& use) const
+  {
+    std::array<Index, mostSides> seen;
+    seen.fill(-1);
+    forSides(cell,
+      [&](std::size_t place, const Facet& side)
+      {
+        const Index smallest = *std::min_element(side.begin(), side.end());
+        if (isLookedAt(side) && std::find(seen.begin(), seen.end(), smallest) == seen.end())
+        {
+          seen[place % mostSides] = smallest;
+          use(smallest);
+        }
+      });
+  }
+
+  void append(Index vertex, Index cell, std::vector<Side<Others>>& found) const
+  {
+    forSides(cell,
+      [&](std::size_t place, const Facet& side)
+      {
+        const auto [smallest, others] = sideKey(side);
+        if (smallest == vertex && isLookedAt(side))
+        {
+          found.push_back({ others, place });
+        }
+      });
+  }
+
+  Facet facetAt(std::size_t place) const
+  {
+    Facet facet;
+    forSides(place / mostSides,
+      [&](std::size_t other, const Facet& side) { facet = other == place ? side : facet; });
+    return facet;
+  }
+
+private:
+  static constexpr std::size_t mostSides = 6;
+
+  /// use(place, side)
+  template<class Use>
+  void forSides(std::size_t cell, const Use& use) const
+  {
+    std::size_t first = 0;
+    std::size_t place = mostSides * cell;
+    visitOwnShapes(mesh_,
+      [&](auto shape, const auto& cells)
+      {
+        if (first <= cell && cell < first + cells.size())
+        {
+          forEachSide(shape, cells[cell - first], static_cast<Index>(cell),
+            [&](const Facet& side) { use(place++, side); });
+        }
+        first += cells.size();
+      });
+  }
+
+  bool isLookedAt(const Facet& side) const
+  {
+    return among_.empty() ||
+           std::all_of(side.begin(), side.end(), [&](Index corner) { return among_[corner]; });
+  }
+
+  const SimplexMesh& mesh_;
+  const std::vector<unsigned char>& among_;
+  std::size_t cellCount_;
+};
+
 /// Finds the sides of a bucket that are met once.
+template<class Side>
 class SingleSides
 {
 public:
@@ -170,16 +287,15 @@ std::vector<std::size_t> metOnce(
   {
     for (std::size_t c = begin; c < end; ++c)
     {
-      const auto cell = static_cast<Index>(c);
-      forSmallest(source.cells[c], source.among, [&](Index vertex) { use(vertex, cell); });
+      source.forSmallestOf(c, [&](Index vertex) { use(vertex, static_cast<Index>(c)); });
     }
   };
-  const VertexBuckets<Index> cellsAt(vertexCount, source.cells.size(), visit, parallelFor);
+  const VertexBuckets<Index> cellsAt(vertexCount, source.cellCount(), visit, parallelFor);
   auto places = collect<std::size_t>(parallelFor, vertexCount, fineGrain,
     [&](std::size_t begin, std::size_t end, std::vector<std::size_t>& found)
     {
-      SingleSides singles;
-      std::vector<Side> sides;
+      SingleSides<Side<typename Source::Others>> singles;
+      std::vector<Side<typename Source::Others>> sides;
       for (std::size_t v = begin; v < end; ++v)
       {
         const auto vertex = static_cast<Index>(v);
@@ -193,20 +309,14 @@ std::vector<std::size_t> metOnce(
   return places;
 }
 
-template<std::size_t Corners, std::size_t Sides, std::size_t SideCorners>
-std::vector<Facet> outerFacets(std::size_t vertexCount, const Simplices<Corners>& cells,
-  const int (&sides)[Sides][SideCorners], const std::vector<unsigned char>& among,
-  const ParallelFor& parallelFor)
+template<class Source>
+std::vector<Facet> outerFacets(
+  std::size_t vertexCount, const Source& source, const ParallelFor& parallelFor)
 {
-  const SideSource<Corners, Sides, SideCorners> source{ cells, sides, among };
   std::vector<Facet> facets;
   for (const std::size_t place : metOnce(vertexCount, source, parallelFor))
   {
-    Facet& facet = facets.emplace_back();
-    facet.vertices.fill(-1);
-    const auto corners = source.cornersOf(place);
-    std::copy(corners.begin(), corners.end(), facet.vertices.begin());
-    facet.cell = static_cast<Index>(place / Sides);
+    facets.push_back(source.facetAt(place));
   }
   return facets;
 }
@@ -217,19 +327,31 @@ std::vector<Facet> findOuterFacets(
   const SimplexMesh& mesh, const std::vector<unsigned char>& among, const ParallelFor& parallelFor)
 {
   const std::size_t vertices = mesh.points.size();
+  if (mesh.hasOtherThanSimplices())
+  {
+    return outerFacets(vertices, MixedSides(mesh, among), parallelFor);
+  }
   return mesh.dimension == 3
-           ? outerFacets(vertices, mesh.tetrahedra, tetrahedronFaces, among, parallelFor)
-           : outerFacets(vertices, mesh.triangles, triangleEdges, among, parallelFor);
+           ? outerFacets(vertices,
+               SimplexSides<4, 4, 3>{ mesh.tetrahedra, tetrahedronFaces, among }, parallelFor)
+           : outerFacets(vertices, SimplexSides<3, 3, 2>{ mesh.triangles, triangleEdges, among },
+               parallelFor);
 }
 
 std::vector<Facet> facetsOfSurface(const SimplexMesh& mesh)
 {
   std::vector<Facet> facets;
-  facets.reserve(mesh.triangles.size());
-  for (std::size_t c = 0; c < mesh.triangles.size(); ++c)
-  {
-    facets.push_back({ mesh.triangles[c], static_cast<Index>(c) });
-  }
+  facets.reserve(mesh.cellCount(2));
+  visitShapes(mesh, 2,
+    [&](auto, const auto& cells)
+    {
+      for (const auto& cell : cells)
+      {
+        Facet& facet = facets.emplace_back();
+        std::copy(cell.begin(), cell.end(), facet.vertices.begin());
+        facet.cell = static_cast<Index>(facets.size() - 1);
+      }
+    });
   return facets;
 }
 

@@ -16,6 +16,18 @@ double sixfoldVolume(const Point3& a, const Point3& b, const Point3& c, const Po
 /// Twice the area times the unit normal.
 Vector3 twofoldAreaVector(const Point3& a, const Point3& b, const Point3& c);
 
+/// The same of a facet with so many corners, 3 or 4; of a bilinear one the integral of its normal.
+inline Vector3 twofoldAreaVector(const std::array<Point3, 4>& p, int corners)
+{
+  return corners == 4 ? cross(p[2] - p[0], p[3] - p[1]) : twofoldAreaVector(p[0], p[1], p[2]);
+}
+
+/// The mean of the first `corners` points.
+inline Point3 centroidOf(const std::array<Point3, 4>& p, int corners)
+{
+  return corners == 4 ? 0.25 * (p[0] + p[1] + p[2] + p[3]) : (1.0 / 3.0) * (p[0] + p[1] + p[2]);
+}
+
 /// Sum of the squared lengths of the six edges.
 inline double squaredEdgeLengths(const Point3& a, const Point3& b, const Point3& c, const Point3& d)
 {

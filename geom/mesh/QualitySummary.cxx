@@ -1,7 +1,6 @@
 #include <cadrefine/mesh/QualitySummary.h>
 
-#include <cadrefine/mesh/Orientation.h>
-#include <cadrefine/mesh/Quality.h>
+#include <cadrefine/mesh/CellState.h>
 
 #include <algorithm>
 #include <cmath>
@@ -29,8 +28,9 @@ constexpr double certainlyPositive = (16 * epsilon) * (16 * epsilon);
 class Summary
 {
 public:
-  void add(const Point3& a, const Point3& b, const Point3& c, const Point3& d)
+  void add(shapes::Tetrahedron, const std::array<Point3, 4>& p)
   {
+    const auto& [a, b, c, d] = p;
     const double lengths = squaredEdgeLengths(a, b, c, d);
     const double cube = lengths * lengths * lengths;
     const double half = sixfoldVolume(a, b, c, d) / 2;
@@ -41,17 +41,23 @@ public:
     }
     else
     {
-      addByOne(a, b, c, d);
+      add(stateAt(shapes::Tetrahedron{}, p));
     }
+  }
+
+  template<class Shape>
+  void add(Shape shape, const std::array<Point3, Shape::corners>& p)
+  {
+    add(stateAt(shape, p, sideOf(shape, p, {})));
   }
 
   const QualitySummary& result() const { return summary_; }
 
 private:
-  void addByOne(const Point3& a, const Point3& b, const Point3& c, const Point3& d)
+  void add(const CellState& state)
   {
-    summary_.invalidCells += orientation(a, b, c, d) <= 0;
-    summary_.smallestRatio = std::min(summary_.smallestRatio, meanRatio(a, b, c, d));
+    summary_.invalidCells += !state.valid;
+    summary_.smallestRatio = std::min(summary_.smallestRatio, state.quality);
   }
 
   QualitySummary summary_;
@@ -71,22 +77,24 @@ void QualitySummary::add(const QualitySummary& other)
   smallestCube = std::min(smallestCube, other.smallestCube);
 }
 
-QualitySummary summariseTetrahedra(const SimplexMesh& mesh, const ParallelFor& parallelFor)
+QualitySummary summariseCells(const SimplexMesh& mesh, const ParallelFor& parallelFor)
 {
   QualitySummary result;
   std::mutex mutex;
-  parallelFor(mesh.tetrahedra.size(), fineGrain,
-    [&](std::size_t begin, std::size_t end)
+  visitOwnShapes(mesh,
+    [&](auto shape, const auto& cells)
     {
-      Summary summary;
-      const auto& p = mesh.points;
-      for (std::size_t t = begin; t < end; ++t)
-      {
-        const auto [a, b, c, d] = mesh.tetrahedra[t];
-        summary.add(p[a], p[b], p[c], p[d]);
-      }
-      const std::lock_guard<std::mutex> lock(mutex);
-      result.add(summary.result());
+      parallelFor(cells.size(), fineGrain,
+        [&](std::size_t begin, std::size_t end)
+        {
+          Summary summary;
+          for (std::size_t c = begin; c < end; ++c)
+          {
+            summary.add(shape, cornersOf(cells[c], mesh.points));
+          }
+          const std::lock_guard<std::mutex> lock(mutex);
+          result.add(summary.result());
+        });
     });
   return result;
 }

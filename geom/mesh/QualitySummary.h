@@ -13,7 +13,7 @@ namespace cadrefine
 struct QualitySummary
 {
   std::int64_t invalidCells = 0; ///< Inverted or degenerate.
-  /// Smallest mean ratio of cells whose cube is not known, and smallest cube of a twelfth of the
+  /// Smallest quality of cells whose cube is not known, and smallest cube of a twelfth of the
   /// others'. Two numbers, because roots of numbers next to each other may change places: a minimum
   /// of roots would depend on which cells are together.
   double smallestRatio = std::numeric_limits<double>::infinity();
@@ -21,15 +21,14 @@ struct QualitySummary
 
   /// Takes the cells of another summary too.
   void add(const QualitySummary& other);
-  /// Of the mean ratios.
+  /// Of the qualities.
   double minimum() const;
 };
 
-/// What orientation and meanRatio (up to rounding) say of the tetrahedra of a mesh, asking them for
+/// What stateAt says of the cells of a mesh of volume; of tetrahedra (up to rounding) asking it for
 /// few: a volume that is larger than the rounding errors in it is positive, and of mean ratios the
-/// cubes are compared. Some 10 ns a cell. The summary of two meshes is that of their cells
+/// cubes are compared. Some 10 ns a tetrahedron. The summary of two meshes is that of their cells
 /// together.
-QualitySummary summariseTetrahedra(
-  const SimplexMesh& mesh, const ParallelFor& parallelFor = serialFor);
+QualitySummary summariseCells(const SimplexMesh& mesh, const ParallelFor& parallelFor = serialFor);
 
 } // namespace cadrefine

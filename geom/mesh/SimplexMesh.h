@@ -1,4 +1,4 @@
-// One rank's piece of a mesh of simplices.
+// One rank's piece of a mesh.
 #pragma once
 
 #include <cadrefine/base/MeshTypes.h>
@@ -10,26 +10,37 @@
 namespace cadrefine
 {
 
-/// Vertices of a cell. Cells of every dimension fit; only the first `dimension + 1` entries count.
+/// The corners of cells of one shape.
 template<std::size_t Corners>
 using Simplices = std::vector<std::array<Index, Corners>>;
 
-/// A piece of a mesh: the cells of the mesh's own dimension (tetrahedra in 3D, triangles in 2D) and
-/// the cells of lower dimension that lie on their sides and carry boundary tags. No cell is on two
-/// ranks; vertices may be, with the same id and the same coordinates.
+/// A piece of a mesh: the cells of the mesh's own dimension and the cells of lower dimension that
+/// lie on their sides and carry boundary tags. No cell is on two ranks; vertices may be, with the
+/// same id and the same coordinates.
+///
+/// Corners come in VTK's order. Where cells of a dimension are numbered, those of the first shape
+/// come first: tetrahedra, pyramids, wedges, hexahedra; triangles, quadrilaterals.
 struct SimplexMesh
 {
-  int dimension = 3; ///< 3: tetrahedra, 2: triangles; the same on every rank.
+  int dimension = 3; ///< Of the cells of highest dimension; the same on every rank.
   std::vector<Point3> points;
   std::vector<GlobalId> ids; ///< Of the points; distinct within the piece.
   Simplices<4> tetrahedra;
+  Simplices<5> pyramids; ///< Seen from the apex, corner 4, the base turns counter-clockwise.
+  Simplices<6> wedges;   ///< Seen from corners 3, 4, 5, the others turn counter-clockwise.
+  Simplices<8> hexahedra;
   Simplices<3> triangles;
+  Simplices<4> quadrilaterals;
   Simplices<2> segments;
   Simplices<1> vertices;
+  /// Data sets have the wedges as VTK's documentation draws them, in which they turn clockwise.
+  bool wedgesAsDocumented = false;
 
-  std::size_t cellCount() const
+  std::size_t cellCount() const;
+  std::size_t cellCount(int ofDimension) const;
+  bool hasOtherThanSimplices() const
   {
-    return tetrahedra.size() + triangles.size() + segments.size() + vertices.size();
+    return !pyramids.empty() || !wedges.empty() || !hexahedra.empty() || !quadrilaterals.empty();
   }
 };
 
@@ -53,5 +64,151 @@ constexpr int tetrahedronFaceEdges[4][3] = { { 3, 5, 4 }, { 2, 5, 1 }, { 0, 4, 2
 
 /// Local edges of a triangle: edge k joins corners k and k + 1.
 constexpr int triangleEdges[3][2] = { { 0, 1 }, { 1, 2 }, { 2, 0 } };
+
+/// The shapes of cells. Edges come in the order of VTK's mid nodes but for tetrahedra; faces with
+/// their normals outward, triangles with a fourth corner of -1.
+namespace shapes
+{
+
+struct Vertex
+{
+  static constexpr int dimension = 0;
+  static constexpr std::size_t corners = 1;
+  static constexpr auto cells = &SimplexMesh::vertices;
+};
+
+struct Segment
+{
+  static constexpr int dimension = 1;
+  static constexpr std::size_t corners = 2;
+  static constexpr auto cells = &SimplexMesh::segments;
+  static constexpr int edges[1][2] = { { 0, 1 } };
+};
+
+struct Triangle
+{
+  static constexpr int dimension = 2;
+  static constexpr std::size_t corners = 3;
+  static constexpr auto cells = &SimplexMesh::triangles;
+  static constexpr auto& edges = triangleEdges;
+};
+
+struct Quadrilateral
+{
+  static constexpr int dimension = 2;
+  static constexpr std::size_t corners = 4;
+  static constexpr auto cells = &SimplexMesh::quadrilaterals;
+  static constexpr int edges[4][2] = { { 0, 1 }, { 1, 2 }, { 2, 3 }, { 3, 0 } };
+  /// Edges of its quadrilaterals: here of itself.
+  static constexpr int quadEdges[1][4] = { { 0, 1, 2, 3 } };
+};
+
+struct Tetrahedron
+{
+  static constexpr int dimension = 3;
+  static constexpr std::size_t corners = 4;
+  static constexpr auto cells = &SimplexMesh::tetrahedra;
+  static constexpr auto& edges = tetrahedronEdges;
+  static constexpr int faces[4][4] = { { 1, 2, 3, -1 }, { 0, 3, 2, -1 }, { 0, 1, 3, -1 },
+    { 0, 2, 1, -1 } };
+};
+
+struct Pyramid
+{
+  static constexpr int dimension = 3;
+  static constexpr std::size_t corners = 5;
+  static constexpr auto cells = &SimplexMesh::pyramids;
+  static constexpr int edges[8][2] = { { 0, 1 }, { 1, 2 }, { 2, 3 }, { 3, 0 }, { 0, 4 }, { 1, 4 },
+    { 2, 4 }, { 3, 4 } };
+  static constexpr int faces[5][4] = { { 0, 3, 2, 1 }, { 0, 1, 4, -1 }, { 1, 2, 4, -1 },
+    { 2, 3, 4, -1 }, { 3, 0, 4, -1 } };
+  static constexpr int quadEdges[1][4] = { { 3, 2, 1, 0 } };
+};
+
+struct Wedge
+{
+  static constexpr int dimension = 3;
+  static constexpr std::size_t corners = 6;
+  static constexpr auto cells = &SimplexMesh::wedges;
+  static constexpr int edges[9][2] = { { 0, 1 }, { 1, 2 }, { 2, 0 }, { 3, 4 }, { 4, 5 }, { 5, 3 },
+    { 0, 3 }, { 1, 4 }, { 2, 5 } };
+  static constexpr int faces[5][4] = { { 0, 2, 1, -1 }, { 3, 4, 5, -1 }, { 0, 1, 4, 3 },
+    { 1, 2, 5, 4 }, { 2, 0, 3, 5 } };
+  /// Edges of its quadrilaterals: of faces 2, 3, 4.
+  static constexpr int quadEdges[3][4] = { { 0, 7, 3, 6 }, { 1, 8, 4, 7 }, { 2, 6, 5, 8 } };
+};
+
+struct Hexahedron
+{
+  static constexpr int dimension = 3;
+  static constexpr std::size_t corners = 8;
+  static constexpr auto cells = &SimplexMesh::hexahedra;
+  static constexpr int edges[12][2] = { { 0, 1 }, { 1, 2 }, { 2, 3 }, { 3, 0 }, { 4, 5 }, { 5, 6 },
+    { 6, 7 }, { 7, 4 }, { 0, 4 }, { 1, 5 }, { 2, 6 }, { 3, 7 } };
+  static constexpr int faces[6][4] = { { 0, 3, 2, 1 }, { 4, 5, 6, 7 }, { 0, 1, 5, 4 },
+    { 1, 2, 6, 5 }, { 2, 3, 7, 6 }, { 3, 0, 4, 7 } };
+  /// Edges of its faces, in the same order: opposite faces are 0 and 1, 2 and 4, 3 and 5.
+  static constexpr int quadEdges[6][4] = { { 3, 2, 1, 0 }, { 4, 5, 6, 7 }, { 0, 9, 4, 8 },
+    { 1, 10, 5, 9 }, { 2, 11, 6, 10 }, { 3, 8, 7, 11 } };
+};
+
+} // namespace shapes
+
+template<class Shape>
+constexpr bool isSimplex(Shape)
+{
+  return Shape::corners == Shape::dimension + 1;
+}
+
+/// visit(shape, cells) of the cells of one dimension, in the order in which they are numbered.
+template<class Mesh, class Visit>
+void visitShapes(Mesh& mesh, int dimension, const Visit& visit)
+{
+  const auto visitAll = [&](auto... shape) { (visit(shape, mesh.*(decltype(shape)::cells)), ...); };
+  switch (dimension)
+  {
+    case 3:
+      return visitAll(
+        shapes::Tetrahedron{}, shapes::Pyramid{}, shapes::Wedge{}, shapes::Hexahedron{});
+    case 2:
+      return visitAll(shapes::Triangle{}, shapes::Quadrilateral{});
+    case 1:
+      return visitAll(shapes::Segment{});
+    default:
+      return visitAll(shapes::Vertex{});
+  }
+}
+
+/// The same of the cells of the mesh's own dimension, which is 2 or 3.
+template<class Mesh, class Visit>
+void visitOwnShapes(Mesh& mesh, const Visit& visit)
+{
+  const auto visitAll = [&](auto... shape) { (visit(shape, mesh.*(decltype(shape)::cells)), ...); };
+  mesh.dimension == 3
+    ? visitAll(shapes::Tetrahedron{}, shapes::Pyramid{}, shapes::Wedge{}, shapes::Hexahedron{})
+    : visitAll(shapes::Triangle{}, shapes::Quadrilateral{});
+}
+
+/// The same of all dimensions, 0 first.
+template<class Mesh, class Visit>
+void visitShapes(Mesh& mesh, const Visit& visit)
+{
+  for (int dimension = 0; dimension < 4; ++dimension)
+  {
+    visitShapes(mesh, dimension, visit);
+  }
+}
+
+inline std::size_t SimplexMesh::cellCount(int ofDimension) const
+{
+  std::size_t count = 0;
+  visitShapes(*this, ofDimension, [&](auto, const auto& cells) { count += cells.size(); });
+  return count;
+}
+
+inline std::size_t SimplexMesh::cellCount() const
+{
+  return cellCount(0) + cellCount(1) + cellCount(2) + cellCount(3);
+}
 
 } // namespace cadrefine

@@ -1,8 +1,6 @@
 #include <cadrefine/motion/MoveGuard.h>
 
 #include <cadrefine/base/LargeMemory.h>
-#include <cadrefine/mesh/Orientation.h>
-#include <cadrefine/mesh/Quality.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,38 +13,6 @@ namespace
 {
 
 const double smallestFraction = std::ldexp(1.0, -MoveGuard::maximumHalvings);
-
-CellState stateAt(const std::array<Point3, 4>& p, const Vector3&)
-{
-  return { orientation(p[0], p[1], p[2], p[3]) > 0, meanRatio(p[0], p[1], p[2], p[3]) };
-}
-
-CellState stateAt(const std::array<Point3, 3>& p, const Vector3& side)
-{
-  const int turn = turnOf(p[0], p[1], p[2], side);
-  return { turn > 0, std::copysign(meanRatio(p[0], p[1], p[2]), turn) };
-}
-
-template<std::size_t Corners>
-std::array<Point3, Corners> pointsOf(
-  const std::array<Index, Corners>& cell, const std::vector<Point3>& points)
-{
-  std::array<Point3, Corners> result;
-  std::transform(cell.begin(), cell.end(), result.begin(), [&](Index v) { return points[v]; });
-  return result;
-}
-
-Vector3 sideOf(const std::array<Index, 4>&, const std::vector<Point3>&, const Vector3&)
-{
-  return {};
-}
-
-Vector3 sideOf(
-  const std::array<Index, 3>& cell, const std::vector<Point3>& points, const Vector3& plane)
-{
-  return plane != Vector3{} ? plane
-                            : twofoldAreaVector(points[cell[0]], points[cell[1]], points[cell[2]]);
-}
 
 std::vector<unsigned char> movingVertices(const Moves& moves)
 {
@@ -80,64 +46,63 @@ Point3 Moves::position(const SimplexMesh& mesh, Index vertex) const
   return fraction == 0 ? start : start + fraction * (targets[vertex] - start);
 }
 
-CellState stateOf(
-  const std::array<Index, 4>& cell, const std::vector<Point3>& points, const Vector3& side)
-{
-  return stateAt(pointsOf(cell, points), side);
-}
-
-CellState stateOf(
-  const std::array<Index, 3>& cell, const std::vector<Point3>& points, const Vector3& side)
-{
-  return stateAt(pointsOf(cell, points), side);
-}
-
 std::vector<Index> cellsAt(
   const SimplexMesh& mesh, const std::vector<unsigned char>& flags, const ParallelFor& parallelFor)
 {
-  const auto lookAt = [&](const auto& cells)
-  {
-    return collect<Index>(parallelFor, cells.size(), fineGrain,
-      [&](std::size_t begin, std::size_t end, std::vector<Index>& found)
-      {
-        for (std::size_t c = begin; c < end; ++c)
+  std::vector<Index> all;
+  Index first = 0;
+  visitOwnShapes(mesh,
+    [&](auto, const auto& cells)
+    {
+      const auto found = collect<Index>(parallelFor, cells.size(), fineGrain,
+        [&](std::size_t begin, std::size_t end, std::vector<Index>& numbers)
         {
-          unsigned char any = 0;
-          for (const Index vertex : cells[c])
+          for (std::size_t c = begin; c < end; ++c)
           {
-            any |= flags[vertex];
+            unsigned char any = 0;
+            for (const Index vertex : cells[c])
+            {
+              any |= flags[vertex];
+            }
+            if (any)
+            {
+              numbers.push_back(first + static_cast<Index>(c));
+            }
           }
-          if (any)
-          {
-            found.push_back(static_cast<Index>(c));
-          }
-        }
-      });
-  };
-  return mesh.dimension == 3 ? lookAt(mesh.tetrahedra) : lookAt(mesh.triangles);
+        });
+      all.insert(all.end(), found.begin(), found.end());
+      first += static_cast<Index>(cells.size());
+    });
+  return all;
+}
+
+std::vector<Index> cellsOfShape(
+  const std::vector<Index>& numbers, std::size_t first, std::size_t count)
+{
+  const auto at = [&](std::size_t number)
+  { return std::lower_bound(numbers.begin(), numbers.end(), static_cast<Index>(number)); };
+  std::vector<Index> ofShape(at(first), at(first + count));
+  std::transform(ofShape.begin(), ofShape.end(), ofShape.begin(),
+    [&](Index number) { return number - static_cast<Index>(first); });
+  return ofShape;
 }
 
 void flagVertices(
   const SimplexMesh& mesh, const std::vector<Index>& cells, std::vector<unsigned char>& flags)
 {
-  const auto flag = [&](const auto& all)
-  {
-    for (const Index cell : cells)
+  std::size_t first = 0;
+  visitOwnShapes(mesh,
+    [&](auto, const auto& all)
     {
-      for (const Index vertex : all[cell])
+      for (const Index cell : cellsOfShape(cells, first, all.size()))
       {
-        flags[vertex] = 1;
+        for (const Index vertex : all[cell])
+        {
+          flags[vertex] = 1;
+        }
       }
-    }
-  };
-  if (mesh.dimension == 3)
-  {
-    flag(mesh.tetrahedra);
-  }
-  else
-  {
-    flag(mesh.triangles);
-  }
+      first += all.size();
+    });
 }
 
 MoveGuard::MoveGuard(const SimplexMesh& mesh, const Moves& moves)
@@ -157,83 +122,93 @@ MoveGuard::MoveGuard(const SimplexMesh& mesh, const Moves& moves,
   const ParallelFor& parallelFor)
   : mesh_(mesh), parallelFor_(parallelFor)
 {
-  if (mesh.dimension == 3)
-  {
-    guard(mesh.tetrahedra, cells, moves, reference, plane);
-  }
-  else
-  {
-    guard(mesh.triangles, cells, moves, reference, plane);
-  }
+  std::size_t first = 0;
+  std::size_t place = 0;
+  visitOwnShapes(mesh,
+    [&](auto shape, const auto& all)
+    {
+      guarded_[place++] =
+        guard(shape, cellsOfShape(cells, first, all.size()), moves, reference, plane);
+      first += all.size();
+    });
 }
 
-template<std::size_t Corners>
-void MoveGuard::guard(const Simplices<Corners>& cells, const std::vector<Index>& chosen,
-  const Moves& moves, const std::vector<Point3>& reference, const Vector3& plane)
+template<class Shape>
+std::vector<MoveGuard::GuardedCell> MoveGuard::guard(Shape shape, std::vector<Index> chosen,
+  const Moves& moves, const std::vector<Point3>& reference, const Vector3& plane) const
 {
-  std::vector<Index> moving;
-  std::copy_if(chosen.begin(), chosen.end(), std::back_inserter(moving),
-    [&](Index c)
-    {
-      return std::any_of(cells[c].begin(), cells[c].end(),
-        [&](Index vertex) { return moves.fractions[vertex] > 0; });
-    });
-  resizeLong(guarded_, moving.size(), parallelFor_);
+  const auto& cells = mesh_.*Shape::cells;
+  chosen.erase(std::remove_if(chosen.begin(), chosen.end(),
+                 [&](Index c)
+                 {
+                   return std::none_of(cells[c].begin(), cells[c].end(),
+                     [&](Index vertex) { return moves.fractions[vertex] > 0; });
+                 }),
+    chosen.end());
+  std::vector<GuardedCell> result;
+  resizeLong(result, chosen.size(), parallelFor_);
   const auto look = [&](GuardedCell& guarded, Index number)
   {
     guarded.cell = number;
-    const auto& cell = cells[guarded.cell];
-    guarded.side = sideOf(cell, reference, plane);
-    guarded.before = stateOf(cell, reference, guarded.side);
-    if (!guarded.before.valid)
+    const auto& cell = cells[number];
+    const auto before = cornersOf(cell, reference);
+    guarded.side = sideOf(shape, before, plane);
+    guarded.before = stateAt(shape, before, guarded.side);
+    if (!guarded.before.valid) // once mended, it stays so
     {
-      guarded.before = stateOf(cell, mesh_.points, guarded.side); // once mended, it stays so
+      guarded.before = stateAt(shape, cornersOf(cell, mesh_.points), guarded.side);
     }
     const double quality = guarded.before.quality;
     const double half = std::clamp(0.5 * quality, lowestQuality, qualityFloor);
     guarded.leastQuality = guarded.before.valid ? std::min(half, quality) : quality;
   };
   forEachIndex(
-    parallelFor_, guarded_.size(), fineGrain, [&](std::size_t i) { look(guarded_[i], moving[i]); });
+    parallelFor_, chosen.size(), fineGrain, [&](std::size_t i) { look(result[i], chosen[i]); });
+  return result;
 }
 
-template<std::size_t Corners>
-bool MoveGuard::accepts(
-  const std::array<Index, Corners>& cell, const GuardedCell& guarded, const Moves& moves) const
+template<class Shape>
+bool MoveGuard::accepts(Shape shape, const GuardedCell& guarded, const Moves& moves) const
 {
-  std::array<Point3, Corners> points;
+  const auto& cell = (mesh_.*Shape::cells)[guarded.cell];
+  std::array<Point3, Shape::corners> points;
   std::transform(cell.begin(), cell.end(), points.begin(),
     [&](Index vertex) { return moves.position(mesh_, vertex); });
-  const CellState after = stateAt(points, guarded.side);
+  const CellState after = stateAt(shape, points, guarded.side);
   return after.valid >= guarded.before.valid && after.quality >= guarded.leastQuality;
 }
 
-/// The corners of the guarded cells for which holds(cell, guarded).
+/// The corners of the guarded cells for which holds(shape, guarded).
 template<class Predicate>
 std::vector<Index> MoveGuard::cornersWhere(const Predicate& holds) const
 {
-  const auto lookAt = [&](const auto& cells)
-  {
-    return collect<Index>(parallelFor_, guarded_.size(), fineGrain,
-      [&](std::size_t begin, std::size_t end, std::vector<Index>& corners)
-      {
-        for (std::size_t i = begin; i < end; ++i)
+  std::vector<Index> all;
+  std::size_t place = 0;
+  visitOwnShapes(mesh_,
+    [&](auto shape, const auto& cells)
+    {
+      const auto& guarded = guarded_[place++];
+      const auto found = collect<Index>(parallelFor_, guarded.size(), fineGrain,
+        [&](std::size_t begin, std::size_t end, std::vector<Index>& corners)
         {
-          const auto& cell = cells[guarded_[i].cell];
-          if (holds(cell, guarded_[i]))
+          for (std::size_t i = begin; i < end; ++i)
           {
-            corners.insert(corners.end(), cell.begin(), cell.end());
+            if (holds(shape, guarded[i]))
+            {
+              const auto& cell = cells[guarded[i].cell];
+              corners.insert(corners.end(), cell.begin(), cell.end());
+            }
           }
-        }
-      });
-  };
-  return mesh_.dimension == 3 ? lookAt(mesh_.tetrahedra) : lookAt(mesh_.triangles);
+        });
+      all.insert(all.end(), found.begin(), found.end());
+    });
+  return all;
 }
 
 bool MoveGuard::halveUnaccepted(Moves& moves) const
 {
   std::vector<Index> vertices = cornersWhere(
-    [&](const auto& cell, const GuardedCell& guarded) { return !accepts(cell, guarded, moves); });
+    [&](auto shape, const GuardedCell& guarded) { return !accepts(shape, guarded, moves); });
   std::sort(vertices.begin(), vertices.end());
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   bool halved = false;
@@ -252,9 +227,10 @@ bool MoveGuard::halveUnaccepted(Moves& moves) const
 std::vector<Index> MoveGuard::verticesOfSpoiltCells(double part) const
 {
   return cornersWhere(
-    [&](const auto& cell, const GuardedCell& guarded)
+    [&](auto shape, const GuardedCell& guarded)
     {
-      const CellState now = stateOf(cell, mesh_.points, guarded.side);
+      const auto& cell = (mesh_.*decltype(shape)::cells)[guarded.cell];
+      const CellState now = stateAt(shape, cornersOf(cell, mesh_.points), guarded.side);
       return guarded.before.valid && now.quality < part * guarded.before.quality;
     });
 }

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cadrefine/base/ParallelFor.h>
+#include <cadrefine/mesh/CellState.h>
 #include <cadrefine/mesh/SimplexMesh.h>
 
+#include <array>
 #include <vector>
 
 namespace cadrefine
@@ -26,28 +28,18 @@ struct Moves
 /// Cells of the mesh's own dimension with a flagged vertex, ascending. Work: one look at each cell.
 std::vector<Index> cellsAt(
   const SimplexMesh& mesh, const std::vector<unsigned char>& flags, const ParallelFor& parallelFor);
+/// The cells of a shape, numbered from 0, among these numbers, ascending, of cells of the mesh's
+/// own dimension, of which `count` from `first` on are of that shape.
+std::vector<Index> cellsOfShape(
+  const std::vector<Index>& numbers, std::size_t first, std::size_t count);
 /// Flags the vertices of these cells.
 void flagVertices(
   const SimplexMesh& mesh, const std::vector<Index>& cells, std::vector<unsigned char>& flags);
 
-/// Whether a cell is valid, and its mean ratio, negative where it is inverted.
-struct CellState
-{
-  bool valid = false;
-  double quality = 0;
-};
-
-/// Of a cell with its vertices at `points`: validity by exact orientation. A triangle is valid
-/// where it turns as seen from the end of `side`.
-CellState stateOf(
-  const std::array<Index, 4>& cell, const std::vector<Point3>& points, const Vector3& side = {});
-CellState stateOf(
-  const std::array<Index, 3>& cell, const std::vector<Point3>& points, const Vector3& side);
-
 /// Keeps cells valid while their vertices move, from a mesh whose points are the starting state.
 ///
-/// A cell that is valid accepts moves after which it is valid by exact orientation and its mean
-/// ratio is at least half of what it was in the reference state, but not below `lowestQuality`, or
+/// A cell that is valid accepts moves after which it is valid and its quality (see CellState) is at
+/// least half of what it was in the reference state, but not below `lowestQuality`, or
 /// at least `qualityFloor`; one that is worse than that, inverted or flat, if it gets no worse.
 /// With the state before all moves as reference, no number of moves in a row wears cells down.
 /// Halving the way of the vertices of every cell that does not accept, at once and until all do,
@@ -79,7 +71,7 @@ public:
   /// any. Work linear in the number of cells with a vertex that moves.
   bool halveUnaccepted(Moves& moves) const;
 
-  /// Vertices of the guarded cells whose mean ratio, with the mesh's points as they now are, is
+  /// Vertices of the guarded cells whose quality, with the mesh's points as they now are, is
   /// below this part of what it was in the reference state. In any order; may name a vertex more
   /// than once.
   std::vector<Index> verticesOfSpoiltCells(double part) const;
@@ -88,24 +80,23 @@ private:
   /// A cell with a vertex that moves, and what it accepts.
   struct GuardedCell
   {
-    Index cell = -1;
+    Index cell = -1; ///< Among those of its shape.
     CellState before;
     double leastQuality = 0;
     Vector3 side{};
   };
 
-  template<std::size_t Corners>
-  void guard(const Simplices<Corners>& cells, const std::vector<Index>& chosen, const Moves& moves,
-    const std::vector<Point3>& reference, const Vector3& plane);
-  template<std::size_t Corners>
-  bool accepts(
-    const std::array<Index, Corners>& cell, const GuardedCell& guarded, const Moves& moves) const;
+  template<class Shape>
+  std::vector<GuardedCell> guard(Shape shape, std::vector<Index> chosen, const Moves& moves,
+    const std::vector<Point3>& reference, const Vector3& plane) const;
+  template<class Shape>
+  bool accepts(Shape shape, const GuardedCell& guarded, const Moves& moves) const;
   template<class Predicate>
   std::vector<Index> cornersWhere(const Predicate& holds) const;
 
   const SimplexMesh& mesh_;
   ParallelFor parallelFor_;
-  std::vector<GuardedCell> guarded_;
+  std::array<std::vector<GuardedCell>, 4> guarded_; ///< By the order of the shapes.
 };
 
 } // namespace cadrefine

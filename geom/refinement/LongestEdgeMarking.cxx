@@ -1,5 +1,7 @@
 #include <cadrefine/refinement/LongestEdgeMarking.h>
 
+#include <cadrefine/base/DisjointSets.h>
+
 #include <algorithm>
 
 namespace cadrefine
@@ -18,25 +20,168 @@ bool isPartlyMarked(const EdgeMarks& marks, const std::array<Index, Edges>& edge
   return marked != 0 && marked != Edges;
 }
 
-} // namespace
-
-void markLongestEdges(const SimplexMesh& mesh, const EdgeTable& table,
-  const std::vector<unsigned char>& cellMarks, EdgeMarks& marks)
+template<std::size_t Count, std::size_t Edges>
+std::array<Index, Count> chosen(
+  const std::array<Index, Edges>& edges, const std::array<int, Count>& places)
 {
-  const EdgeOrder order(table);
-  for (std::size_t c = 0; c < cellMarks.size(); ++c)
+  std::array<Index, Count> result;
+  std::transform(places.begin(), places.end(), result.begin(), [&](int k) { return edges[k]; });
+  return result;
+}
+
+/// Of wedges and pyramids.
+using LocalTriangle = std::array<int, 3>;
+constexpr LocalTriangle wedgeTriangles[2] = { { 0, 1, 2 }, { 3, 4, 5 } };
+constexpr LocalTriangle pyramidTriangles[4] = { { 0, 5, 4 }, { 1, 6, 5 }, { 2, 7, 6 },
+  { 3, 4, 7 } };
+
+/// The edges of a hexahedron in each of its directions.
+constexpr int hexahedronDirections[3][4] = { { 0, 2, 4, 6 }, { 1, 3, 5, 7 }, { 8, 9, 10, 11 } };
+/// Pairs of edges over each other in each direction.
+constexpr int hexahedronPairs[3][4][2] = { { { 3, 1 }, { 7, 5 }, { 8, 9 }, { 11, 10 } },
+  { { 0, 2 }, { 4, 6 }, { 8, 11 }, { 9, 10 } }, { { 0, 4 }, { 1, 5 }, { 2, 6 }, { 3, 7 } } };
+constexpr int quadrilateralDirections[2][2] = { { 0, 2 }, { 1, 3 } };
+
+/// The direction in which a cell is less than half as long as in each other one, or -1.
+template<std::size_t Edges, std::size_t Directions, std::size_t Parallel>
+int thinDirection(const EdgeTable& table, const std::array<Index, Edges>& edges,
+  const int (&directions)[Directions][Parallel])
+{
+  constexpr double thin = 4; // squares
+  std::array<double, Directions> sums{};
+  for (std::size_t d = 0; d < Directions; ++d)
   {
-    if (cellMarks[c])
+    for (const int edge : directions[d])
     {
-      marks[mesh.dimension == 3 ? order.longest(table.ofTetrahedra[c])
-                                : order.longest(table.ofTriangles[c])] = 1;
+      sums[d] += table.squaredLengths[edges[edge]];
+    }
+  }
+  const auto least = std::min_element(sums.begin(), sums.end()) - sums.begin();
+  for (std::size_t d = 0; d < Directions; ++d)
+  {
+    if (static_cast<std::ptrdiff_t>(d) != least && thin * sums[least] >= sums[d])
+    {
+      return -1;
+    }
+  }
+  return static_cast<int>(least);
+}
+
+/// All edges of a marked cell but those in the direction in which it is thin.
+template<std::size_t Edges, std::size_t Directions, std::size_t Parallel>
+void markAcross(const EdgeTable& table, const std::array<Index, Edges>& edges,
+  const int (&directions)[Directions][Parallel], bool keepLayers, EdgeMarks& marks)
+{
+  const int thin = keepLayers ? thinDirection(table, edges, directions) : -1;
+  for (int d = 0; d < static_cast<int>(Directions); ++d)
+  {
+    for (const int edge : directions[d])
+    {
+      marks[edges[edge]] |= d != thin;
     }
   }
 }
 
-MarkClosure::MarkClosure(const EdgeTable& table, EdgeMarks& marks)
-  : table_(table), order_(table), marks_(marks)
+} // namespace
+
+void markLongestEdges(const SimplexMesh& mesh, const EdgeTable& table,
+  const std::vector<unsigned char>& cellMarks, bool keepLayers, EdgeMarks& marks)
 {
+  const EdgeOrder order(table);
+  auto isMarked = cellMarks.begin();
+  visitOwnShapes(mesh,
+    [&](auto shape, const auto& cells)
+    {
+      constexpr std::size_t corners = decltype(shape)::corners;
+      const auto& edgesOf = table.*edgesOfCells(shape);
+      for (std::size_t c = 0; c < cells.size(); ++c)
+      {
+        if (!*isMarked++)
+        {
+          continue;
+        }
+        if constexpr (corners == shapes::Hexahedron::corners)
+        {
+          markAcross(table, edgesOf[c], hexahedronDirections, keepLayers, marks);
+        }
+        else if constexpr (corners == 4 && decltype(shape)::dimension == 2)
+        {
+          markAcross(table, edgesOf[c], quadrilateralDirections, keepLayers, marks);
+        }
+        else if constexpr (corners == shapes::Wedge::corners)
+        {
+          const std::array<int, 6> ofTriangles{ 0, 1, 2, 3, 4, 5 };
+          marks[keepLayers ? order.longest(chosen(edgesOf[c], ofTriangles))
+                           : order.longest(edgesOf[c])] = 1;
+        }
+        else
+        {
+          marks[order.longest(edgesOf[c])] = 1;
+        }
+      }
+    });
+}
+
+EdgeStacks::EdgeStacks(const EdgeTable& table, const std::vector<GlobalId>& ids)
+{
+  DisjointSets sets(table.edges.size());
+  for (const auto& edges : table.ofWedges)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      sets.join(edges[k], edges[3 + k]);
+    }
+  }
+  stackOf_ = sets.representatives();
+  for (std::size_t e = 0; e < table.edges.size(); ++e)
+  {
+    const auto& [a, b] = table.edges[e];
+    ranks_.push_back({ table.squaredLengths[e], { ids[a], ids[b] } });
+  }
+}
+
+bool EdgeStacks::spread()
+{
+  std::vector<StackRank> largest = ranks_;
+  for (std::size_t e = 0; e < ranks_.size(); ++e)
+  {
+    largest[stackOf_[e]] = std::max(largest[stackOf_[e]], ranks_[e]);
+  }
+  bool changed = false;
+  for (std::size_t e = 0; e < ranks_.size(); ++e)
+  {
+    const StackRank& ofStack = largest[stackOf_[e]];
+    changed = changed || ranks_[e] < ofStack;
+    ranks_[e] = ofStack;
+  }
+  return changed;
+}
+
+void EdgeStacks::writeTo(EdgeTable& table) const
+{
+  table.idsInStack.resize(ranks_.size());
+  for (std::size_t e = 0; e < ranks_.size(); ++e)
+  {
+    table.squaredLengths[e] = ranks_[e].squaredLength;
+    table.idsInStack[e] = ranks_[e].ids;
+  }
+}
+
+MarkClosure::MarkClosure(const EdgeTable& table, int dimension, bool keepLayers, EdgeMarks& marks)
+  : table_(table), dimension_(dimension), keepLayers_(keepLayers), order_(table), marks_(marks)
+{
+}
+
+/// visit(edges of the cells of a shape) in turn.
+template<class Visit>
+void MarkClosure::visitLists(const Visit& visit) const
+{
+  visit(table_.ofTetrahedra);
+  visit(table_.ofTriangles);
+  visit(table_.ofPyramids);
+  visit(table_.ofWedges);
+  visit(table_.ofHexahedra);
+  visit(table_.ofQuadrilaterals);
 }
 
 bool MarkClosure::closeAll()
@@ -70,15 +215,15 @@ void MarkClosure::sweep()
 {
   --sweepsLeft_;
   fresh_.clear();
-  looks_ += table_.ofTetrahedra.size() + table_.ofTriangles.size();
-  for (const auto& edges : table_.ofTetrahedra)
-  {
-    lookAt(edges);
-  }
-  for (const auto& edges : table_.ofTriangles)
-  {
-    lookAt(edges);
-  }
+  visitLists(
+    [&](const auto& cells)
+    {
+      looks_ += cells.size();
+      for (const auto& edges : cells)
+      {
+        lookAt(edges);
+      }
+    });
 }
 
 /// Looks at the cells at fresh edges only. Returns true where an edge was marked.
@@ -109,52 +254,111 @@ void MarkClosure::listCells()
     [&](const auto& use)
     {
       std::uint32_t cell = 0;
-      const auto useAll = [&](const auto& edges)
-      {
-        std::for_each(edges.begin(), edges.end(), [&](Index edge) { use(edge, cell); });
-        ++cell;
-      };
-      std::for_each(table_.ofTetrahedra.begin(), table_.ofTetrahedra.end(), useAll);
-      std::for_each(table_.ofTriangles.begin(), table_.ofTriangles.end(), useAll);
+      visitLists(
+        [&](const auto& cells)
+        {
+          for (const auto& edges : cells)
+          {
+            std::for_each(edges.begin(), edges.end(), [&](Index edge) { use(edge, cell); });
+            ++cell;
+          }
+        });
     });
 }
 
 void MarkClosure::lookAtCell(std::uint32_t cell)
 {
   ++looks_;
-  const std::size_t tetrahedra = table_.ofTetrahedra.size();
-  if (cell < tetrahedra)
+  std::size_t first = 0;
+  visitLists(
+    [&](const auto& cells)
+    {
+      const std::size_t place = cell - first; // huge where it is below
+      if (place < cells.size())
+      {
+        lookAt(cells[place]);
+      }
+      first += cells.size();
+    });
+}
+
+/// The longest edge, and those of the faces.
+void MarkClosure::lookAt(const std::array<Index, 6>& tetrahedron)
+{
+  if (isPartlyMarked(marks_, tetrahedron))
   {
-    lookAt(table_.ofTetrahedra[cell]);
-  }
-  else
-  {
-    lookAt(table_.ofTriangles[cell - tetrahedra]);
+    mark(order_.longest(tetrahedron));
+    for (const auto& [a, b, c] : tetrahedronFaceEdges)
+    {
+      lookAt(std::array<Index, 3>{ tetrahedron[a], tetrahedron[b], tetrahedron[c] });
+    }
   }
 }
 
-template<class Edges>
-void MarkClosure::lookAt(const Edges& edges)
+void MarkClosure::lookAt(const std::array<Index, 3>& triangle)
 {
-  if (isPartlyMarked(marks_, edges))
+  if (isPartlyMarked(marks_, triangle))
   {
-    markLongest(edges);
+    mark(order_.longest(triangle));
   }
 }
 
-/// Of the tetrahedron, and of its faces.
-void MarkClosure::markLongest(const std::array<Index, 6>& edges)
+void MarkClosure::lookAt(const std::array<Index, 8>& pyramid)
 {
-  mark(order_.longest(edges));
-  for (const auto& face : tetrahedronFaceEdges)
+  for (const LocalTriangle& triangle : pyramidTriangles)
   {
-    lookAt(std::array<Index, 3>{ edges[face[0]], edges[face[1]], edges[face[2]] });
+    lookAt(chosen(pyramid, triangle));
   }
 }
 
-void MarkClosure::markLongest(const std::array<Index, 3>& edges)
+void MarkClosure::lookAt(const std::array<Index, 9>& wedge)
 {
-  mark(order_.longest(edges));
+  if (keepLayers_)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      markTogether(wedge[k], wedge[3 + k]);
+    }
+  }
+  for (const LocalTriangle& triangle : wedgeTriangles)
+  {
+    lookAt(chosen(wedge, triangle));
+  }
+}
+
+void MarkClosure::lookAt(const std::array<Index, 12>& hexahedron)
+{
+  if (keepLayers_ && isPartlyMarked(marks_, hexahedron))
+  {
+    const int thin = thinDirection(table_, hexahedron, hexahedronDirections);
+    for (int k = 0; thin >= 0 && k < 4; ++k)
+    {
+      const auto& [edge, over] = hexahedronPairs[thin][k];
+      markTogether(hexahedron[edge], hexahedron[over]);
+    }
+  }
+}
+
+/// Those of a mesh of volume have no rules of their own.
+void MarkClosure::lookAt(const std::array<Index, 4>& quadrilateral)
+{
+  if (keepLayers_ && dimension_ == 2 && isPartlyMarked(marks_, quadrilateral))
+  {
+    const int thin = thinDirection(table_, quadrilateral, quadrilateralDirections);
+    if (thin >= 0)
+    {
+      markTogether(quadrilateral[1 - thin], quadrilateral[3 - thin]);
+    }
+  }
+}
+
+void MarkClosure::markTogether(Index edge, Index over)
+{
+  if (marks_[edge] || marks_[over])
+  {
+    mark(edge);
+    mark(over);
+  }
 }
 
 void MarkClosure::mark(Index edge)

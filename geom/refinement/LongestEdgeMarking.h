@@ -34,9 +34,53 @@ using EdgeMarks = std::vector<unsigned char>;
 /// versions); A. Plaza, G. F. Carey, "Local refinement of simplicial grids based on the skeleton",
 /// Appl. Numer. Math. 32, 2000 (its form in three dimensions).
 
+/// Other cells than simplices take any marks (see CellCutting), and have further rules:
+///   1. a marked hexahedron or quadrilateral marks all its edges, a marked wedge or pyramid its
+///      longest edge;
+///   2. each triangle of a wedge or pyramid that has a marked edge marks its longest edge.
+/// Where layers are kept, all cells over each other are cut alike, and along the wall alone:
+///   1. a marked wedge marks the longest edge of its triangles; a hexahedron or quadrilateral that
+///   is
+///      thin in one direction (its edges there are less than half as long as those in each other
+///      one, by the means of their squares) marks its edges in the others;
+///   2. an edge of a wedge's triangle that is marked marks the one over it, an edge of a thin cell
+///      the one over it.
+/// These are monotone too.
+
 /// Rule 1 for the cells of the mesh's own dimension; `cellMarks` has one entry for each of them.
 void markLongestEdges(const SimplexMesh& mesh, const EdgeTable& table,
-  const std::vector<unsigned char>& cellMarks, EdgeMarks& marks);
+  const std::vector<unsigned char>& cellMarks, bool keepLayers, EdgeMarks& marks);
+
+/// What an edge counts as in the order of edges (see EdgeOrder).
+struct StackRank
+{
+  double squaredLength;
+  std::array<GlobalId, 2> ids; ///< Of its ends, smaller first.
+
+  friend bool operator<(const StackRank& a, const StackRank& b)
+  {
+    return a.squaredLength != b.squaredLength ? a.squaredLength < b.squaredLength : a.ids < b.ids;
+  }
+};
+
+/// Edges that stand over each other in the wedges of a piece.
+class EdgeStacks
+{
+public:
+  EdgeStacks(const EdgeTable& table, const std::vector<GlobalId>& ids);
+
+  /// Each edge counts as the largest of those over and below it. Returns whether any has changed.
+  bool spread();
+  /// What each edge counts as; over ranks, give shared edges the largest and spread again, until
+  /// none changes.
+  std::vector<StackRank>& ranks() { return ranks_; }
+  /// Makes it the order of the edges.
+  void writeTo(EdgeTable& table) const;
+
+private:
+  std::vector<Index> stackOf_; ///< The smallest of the edges that stand over each other.
+  std::vector<StackRank> ranks_;
+};
 
 /// Rules 2 and 3 within this piece. Where few marks spread, as is usual, a few sweeps over all
 /// cells do; what they leave is spread from edge to edge, through lists of the cells at each edge.
@@ -52,7 +96,8 @@ public:
   static constexpr int maximumSweeps = 6;
 
   /// Both must outlive this object. Throughout, marks may be set by others, but not reset.
-  MarkClosure(const EdgeTable& table, EdgeMarks& marks);
+  /// `dimension` is that of the mesh: layers of quadrilaterals are those of a mesh of area.
+  MarkClosure(const EdgeTable& table, int dimension, bool keepLayers, EdgeMarks& marks);
 
   /// Closes all marks. Returns true where an edge was marked.
   bool closeAll();
@@ -67,19 +112,26 @@ private:
   void sweep();
   bool spread();
   void listCells();
+  template<class Visit>
+  void visitLists(const Visit& visit) const;
   void lookAtCell(std::uint32_t cell);
-  template<class Edges>
-  void lookAt(const Edges& edges);
-  void markLongest(const std::array<Index, 6>& edges);
-  void markLongest(const std::array<Index, 3>& edges);
+  void lookAt(const std::array<Index, 6>& tetrahedron);
+  void lookAt(const std::array<Index, 3>& triangle);
+  void lookAt(const std::array<Index, 8>& pyramid);
+  void lookAt(const std::array<Index, 9>& wedge);
+  void lookAt(const std::array<Index, 12>& hexahedron);
+  void lookAt(const std::array<Index, 4>& quadrilateral);
+  void markTogether(Index edge, Index over);
   void mark(Index edge);
 
   const EdgeTable& table_;
+  const int dimension_;
+  const bool keepLayers_;
   const EdgeOrder order_;
   EdgeMarks& marks_;
   std::vector<Index> fresh_; ///< Marked edges at which cells wait for a look.
   int sweepsLeft_ = maximumSweeps;
-  /// At each edge: tetrahedra, and triangles, whose numbers follow those of the tetrahedra.
+  /// At each edge: the cells, by their numbers in the order of visitLists.
   std::optional<VertexBuckets<std::uint32_t>> cellsAt_;
   std::size_t looks_ = 0;
 };

@@ -2,8 +2,13 @@
 
 #include <cadrefine/base/LargeMemory.h>
 #include <cadrefine/base/PieceLimit.h>
+#include <cadrefine/mesh/CellState.h>
+#include <cadrefine/refinement/Bisection.h>
+#include <cadrefine/refinement/CellCutting.h>
 
 #include <algorithm>
+#include <numeric>
+#include <type_traits>
 #include <utility>
 
 namespace cadrefine
@@ -11,21 +16,73 @@ namespace cadrefine
 namespace
 {
 
+/// visit(shape, first, cells) of the cells of volume that are not simplices, `first` being the
+/// number of the first one.
+template<class Visit>
+void visitOthers(const SimplexMesh& mesh, const Visit& visit)
+{
+  auto first = static_cast<Index>(mesh.tetrahedra.size());
+  const auto visitOne = [&](auto shape)
+  {
+    const auto& cells = mesh.*decltype(shape)::cells;
+    visit(shape, first, cells);
+    first += static_cast<Index>(cells.size());
+  };
+  visitOne(shapes::Pyramid{});
+  visitOne(shapes::Wedge{});
+  visitOne(shapes::Hexahedron{});
+}
+
+/// The corners of the cells in whose middle a vertex is, in their order.
+template<class Use>
+void forCornersOfCells(const SimplexMesh& mesh, const Midpoints& midpoints, const Use& use)
+{
+  auto next = midpoints.cells.begin();
+  visitOthers(mesh,
+    [&](auto, Index first, const auto& cells)
+    {
+      const Index end = first + static_cast<Index>(cells.size());
+      for (; next != midpoints.cells.end() && *next < end; ++next)
+      {
+        use(cells[*next - first]);
+      }
+    });
+}
+
+void appendNewPoints(
+  const SimplexMesh& mesh, const Midpoints& midpoints, std::vector<Point3>& points)
+{
+  const std::size_t halves = midpoints.parentEdges.size() - midpoints.cells.size();
+  for (std::size_t n = 0; n < halves; ++n)
+  {
+    const auto& [a, b] = midpoints.parentEdges[n];
+    points.push_back(0.5 * (points[a] + points[b]));
+  }
+  forCornersOfCells(mesh, midpoints,
+    [&](const auto& corners)
+    {
+      Point3 sum{};
+      for (const Index corner : corners)
+      {
+        sum = sum + points[corner];
+      }
+      points.push_back((1.0 / static_cast<double>(corners.size())) * sum);
+    });
+}
+
 /// The split mesh with its points but without cells.
 SplitMesh withNewPoints(
   const SimplexMesh& mesh, const Midpoints& midpoints, const std::vector<GlobalId>& ids)
 {
   SplitMesh result;
   result.mesh.dimension = mesh.dimension;
-  const std::size_t count = mesh.points.size() + midpoints.edges.size();
+  result.mesh.wedgesAsDocumented = mesh.wedgesAsDocumented;
+  const std::size_t count = mesh.points.size() + midpoints.parentEdges.size();
   reserveLong(result.mesh.points, count);
   reserveLong(result.mesh.ids, count);
   result.mesh.points.assign(mesh.points.begin(), mesh.points.end());
   result.mesh.ids.assign(mesh.ids.begin(), mesh.ids.end());
-  for (const auto& ends : midpoints.parentEdges)
-  {
-    result.mesh.points.push_back(0.5 * (mesh.points[ends[0]] + mesh.points[ends[1]]));
-  }
+  appendNewPoints(mesh, midpoints, result.mesh.points);
   result.mesh.ids.insert(result.mesh.ids.end(), ids.begin(), ids.end());
   result.parentEdges = midpoints.parentEdges;
   return result;
@@ -78,7 +135,7 @@ void splitSegments(
   for (std::size_t c = 0; c < mesh.segments.size(); ++c)
   {
     const auto& cell = mesh.segments[c];
-    const Index m = midpoints.ofEdge[table.ofSegments[c]];
+    const Index m = midpoints.ofEdge[table.ofSegments[c][0]];
     if (m < 0)
     {
       result.mesh.segments.push_back(cell);
@@ -89,75 +146,6 @@ void splitSegments(
       result.mesh.segments.push_back({ m, cell[1] });
     }
   }
-}
-
-/// A part of a cell under bisection: its vertices, and which of its edges are whole edges of the
-/// mesh (-1: cut from one, or new).
-template<std::size_t Corners, std::size_t Edges>
-struct Part
-{
-  std::array<Index, Corners> vertices;
-  std::array<Index, Edges> edges;
-};
-
-const int (*edgesOf(Part<3, 3>))[2]
-{
-  return triangleEdges;
-}
-
-const int (*edgesOf(Part<4, 6>))[2]
-{
-  return tetrahedronEdges;
-}
-
-/// `part` with corner `corner` moved to vertex `to`: edges at that corner are no longer whole.
-template<std::size_t Corners, std::size_t Edges>
-Part<Corners, Edges> withCornerAt(Part<Corners, Edges> part, int corner, Index to)
-{
-  const auto ends = edgesOf(part);
-  for (int k = 0; k < static_cast<int>(Edges); ++k)
-  {
-    if (ends[k][0] == corner || ends[k][1] == corner)
-    {
-      part.edges[k] = -1;
-    }
-  }
-  part.vertices[corner] = to;
-  return part;
-}
-
-/// The longest of the edges that are whole and marked, as a place in `edges`, or -1.
-template<std::size_t Edges, class IsMarked>
-int longestMarked(
-  const std::array<Index, Edges>& edges, const EdgeOrder& order, const IsMarked& isMarked)
-{
-  int longest = -1;
-  for (int k = 0; k < static_cast<int>(Edges); ++k)
-  {
-    if (edges[k] >= 0 && isMarked(edges[k]) &&
-        (longest < 0 || order.longer(edges[k], edges[longest])))
-    {
-      longest = k;
-    }
-  }
-  return longest;
-}
-
-/// Calls use(vertices) for each leaf of the recursive bisection; vertexOf(edge) is its new vertex.
-template<std::size_t Corners, std::size_t Edges, class VertexOf, class Use>
-void bisect(const Part<Corners, Edges>& part, const EdgeOrder& order, const VertexOf& vertexOf,
-  const Use& use)
-{
-  const int cut = longestMarked(part.edges, order, [&](Index edge) { return vertexOf(edge) >= 0; });
-  if (cut < 0)
-  {
-    use(part.vertices);
-    return;
-  }
-  const Index m = vertexOf(part.edges[cut]);
-  const auto ends = edgesOf(part)[cut];
-  bisect(withCornerAt(part, ends[1], m), order, vertexOf, use);
-  bisect(withCornerAt(part, ends[0], m), order, vertexOf, use);
 }
 
 template<std::size_t Corners, std::size_t Edges>
@@ -253,14 +241,280 @@ void splitTetrahedronUniformly(const SimplexMesh& mesh, const std::array<Index, 
   }
 }
 
-template<std::size_t Edges>
-std::array<Index, Edges> midpointsOf(
-  const std::array<Index, Edges>& edges, const Midpoints& midpoints)
+/// The new vertices of edges, or of quadrilaterals.
+template<std::size_t Count>
+std::array<Index, Count> midpointsOf(
+  const std::array<Index, Count>& items, const std::vector<Index>& midpointOf)
 {
-  std::array<Index, Edges> result;
+  std::array<Index, Count> result;
   std::transform(
-    edges.begin(), edges.end(), result.begin(), [&](Index edge) { return midpoints.ofEdge[edge]; });
+    items.begin(), items.end(), result.begin(), [&](Index item) { return midpointOf[item]; });
   return result;
+}
+
+/// With m on the edges and one vertex in the middle.
+void splitQuadrilateralUniformly(const std::array<Index, 4>& v, const std::array<Index, 4>& m,
+  Index middle, Simplices<4>& children)
+{
+  children.push_back({ v[0], m[0], middle, m[3] });
+  children.push_back({ m[0], v[1], m[1], middle });
+  children.push_back({ middle, m[1], v[2], m[2] });
+  children.push_back({ m[3], middle, m[2], v[3] });
+}
+
+/// With m on the edges and one vertex in the base.
+void splitPyramidUniformly(const std::array<Index, 5>& v, const std::array<Index, 8>& m, Index base,
+  Simplices<5>& pyramids, Simplices<4>& tetrahedra)
+{
+  pyramids.push_back({ v[0], m[0], base, m[3], m[4] });
+  pyramids.push_back({ m[0], v[1], m[1], base, m[5] });
+  pyramids.push_back({ base, m[1], v[2], m[2], m[6] });
+  pyramids.push_back({ m[3], base, m[2], v[3], m[7] });
+  pyramids.push_back({ m[4], m[5], m[6], m[7], v[4] });
+  pyramids.push_back({ m[4], m[7], m[6], m[5], base });
+  for (int k = 0; k < 4; ++k)
+  {
+    tetrahedra.push_back({ m[k], base, m[4 + k], m[4 + (k + 1) % 4] });
+  }
+}
+
+/// With m on the edges and q in the quadrilaterals: four wedges over each half of the height.
+void splitWedgeUniformly(const std::array<Index, 6>& v, const std::array<Index, 9>& m,
+  const std::array<Index, 3>& q, Simplices<6>& children)
+{
+  const std::array<Index, 6> levels[3] = { { v[0], v[1], v[2], m[0], m[1], m[2] },
+    { m[6], m[7], m[8], q[0], q[1], q[2] }, { v[3], v[4], v[5], m[3], m[4], m[5] } };
+  constexpr int triangles[4][3] = { { 0, 3, 5 }, { 3, 1, 4 }, { 5, 4, 2 }, { 3, 4, 5 } };
+  for (int level = 0; level < 2; ++level)
+  {
+    for (const auto& [a, b, c] : triangles)
+    {
+      const auto& low = levels[level];
+      const auto& high = levels[level + 1];
+      children.push_back({ low[a], low[b], low[c], high[a], high[b], high[c] });
+    }
+  }
+}
+
+/// Corners of a hexahedron in steps along its three directions.
+constexpr int cornerSteps[8][3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 }, { 0, 0, 1 },
+  { 1, 0, 1 }, { 1, 1, 1 }, { 0, 1, 1 } };
+
+/// With m on the edges, q in the faces and one vertex in the middle: a child at each corner.
+void splitHexahedronUniformly(const std::array<Index, 8>& v, const std::array<Index, 12>& m,
+  const std::array<Index, 6>& q, Index middle, Simplices<8>& children)
+{
+  Index lattice[3][3][3]; // of half the size of the hexahedron
+  const auto at = [&](const int* corners, int count) -> Index&
+  {
+    int place[3] = { 0, 0, 0 };
+    for (int k = 0; k < count; ++k)
+    {
+      for (int i = 0; i < 3; ++i)
+      {
+        place[i] += 2 * cornerSteps[corners[k]][i];
+      }
+    }
+    return lattice[place[0] / count][place[1] / count][place[2] / count];
+  };
+  for (int k = 0; k < 8; ++k)
+  {
+    at(&k, 1) = v[k];
+  }
+  for (int e = 0; e < 12; ++e)
+  {
+    at(shapes::Hexahedron::edges[e], 2) = m[e];
+  }
+  for (int f = 0; f < 6; ++f)
+  {
+    at(shapes::Hexahedron::faces[f], 4) = q[f];
+  }
+  lattice[1][1][1] = middle;
+  for (const auto& first : cornerSteps)
+  {
+    auto& child = children.emplace_back();
+    for (int k = 0; k < 8; ++k)
+    {
+      const auto& step = cornerSteps[k];
+      child[k] = lattice[first[0] + step[0]][first[1] + step[1]][first[2] + step[2]];
+    }
+  }
+}
+
+/// Numbers of the children of cells of one dimension, which are appended to the cells of several
+/// shapes.
+class ChildNumbering
+{
+public:
+  ChildNumbering(const SimplexMesh& children, int dimension)
+    : children_(children), dimension_(dimension)
+  {
+  }
+
+  /// The children that were appended since the last time: those of one cell, or of several in turn
+  /// that have children of the first shape alone.
+  void take()
+  {
+    std::size_t shape = 0;
+    visitShapes(children_, dimension_,
+      [&](auto, const auto& cells)
+      {
+        for (std::size_t& count = counts_[shape]; count < cells.size(); ++count)
+        {
+          taken_.push_back({ shape, count });
+        }
+        ++shape;
+      });
+  }
+
+  std::vector<Index> finish() const
+  {
+    std::array<std::size_t, 4> firsts{};
+    std::partial_sum(counts_.begin(), counts_.end() - 1, firsts.begin() + 1);
+    std::vector<Index> numbers(taken_.size());
+    std::transform(taken_.begin(), taken_.end(), numbers.begin(),
+      [&](const std::pair<std::size_t, std::size_t>& child)
+      { return static_cast<Index>(firsts[child.first] + child.second); });
+    return numbers;
+  }
+
+private:
+  const SimplexMesh& children_;
+  int dimension_;
+  std::array<std::size_t, 4> counts_{};
+  std::vector<std::pair<std::size_t, std::size_t>> taken_; ///< Shape, and place among its cells.
+};
+
+/// Cuts all cells of volume that are not simplices; use(cell) after each, by its number.
+template<class Use>
+void cutOthers(const SimplexMesh& mesh, const CellCutting& cutting, const Midpoints& midpoints,
+  SimplexMesh& children, const Use& use)
+{
+  auto next = midpoints.cells.begin();
+  Index apex = midpoints.nextVertex() - static_cast<Index>(midpoints.cells.size());
+  visitOthers(mesh,
+    [&](auto shape, Index first, const auto& cells)
+    {
+      for (Index c = 0; c < static_cast<Index>(cells.size()); ++c)
+      {
+        const bool hasApex = next != midpoints.cells.end() && *next == first + c;
+        cutting.cut(shape, c, hasApex ? apex++ : -1, children);
+        next += hasApex;
+        use(first + c);
+      }
+    });
+}
+
+template<class Use>
+void cutQuadrilaterals(
+  const SimplexMesh& mesh, const CellCutting& cutting, SimplexMesh& children, const Use& use)
+{
+  for (Index c = 0; c < static_cast<Index>(mesh.quadrilaterals.size()); ++c)
+  {
+    cutting.cut(shapes::Quadrilateral{}, c, children);
+    use();
+  }
+}
+
+void clearCells(SimplexMesh& mesh)
+{
+  visitShapes(mesh, [](auto, auto& cells) { cells.clear(); });
+}
+
+/// Appends how many children cells that are not simplices have.
+void countOthers(const SimplexMesh& mesh, const EdgeTable& table, const QuadTable& quads,
+  const EdgeMarks& marks, ChildRanges& firsts)
+{
+  const Midpoints midpoints = makeMidpoints(mesh, table, quads, marks, false);
+  const CellCutting cutting(mesh, table, quads, midpoints);
+  SimplexMesh children;
+  const auto count = [&](int dimension)
+  {
+    auto& list = firsts[dimension];
+    const std::size_t total = list.back() + children.cellCount(dimension);
+    requireAtMost(total, "cells");
+    list.push_back(static_cast<Index>(total));
+    clearCells(children);
+  };
+  cutQuadrilaterals(mesh, cutting, children, [&] { count(2); });
+  cutOthers(mesh, cutting, midpoints, children, [&](Index) { count(3); });
+}
+
+void splitOthers(const SimplexMesh& mesh, const EdgeTable& table, const QuadTable& quads,
+  const Midpoints& midpoints, SplitMesh& result)
+{
+  const CellCutting cutting(mesh, table, quads, midpoints);
+  ChildNumbering flat(result.mesh, 2);
+  flat.take();
+  cutQuadrilaterals(mesh, cutting, result.mesh, [&] { flat.take(); });
+  result.children[2] = flat.finish();
+  ChildNumbering ofVolume(result.mesh, 3);
+  ofVolume.take();
+  cutOthers(mesh, cutting, midpoints, result.mesh, [&](Index) { ofVolume.take(); });
+  result.children[3] = ofVolume.finish();
+  Index vertex = midpoints.nextVertex() - static_cast<Index>(midpoints.cells.size());
+  forCornersOfCells(mesh, midpoints,
+    [&](const auto& corners)
+    {
+      for (const Index corner : corners)
+      {
+        result.ofVertices.add(corner, 1.0 / static_cast<double>(corners.size()));
+      }
+      result.ofVertices.endRow(vertex++);
+    });
+}
+
+void addQuadMidpoints(const QuadTable& quads, Midpoints& midpoints)
+{
+  reserveLong(midpoints.ofQuad, quads.edges.size());
+  for (std::size_t q = 0; q < quads.edges.size(); ++q)
+  {
+    const auto onEdges = midpointsOf(quads.edges[q], midpoints.ofEdge);
+    const bool isCut = std::find(onEdges.begin(), onEdges.end(), -1) == onEdges.end();
+    midpoints.ofQuad.push_back(isCut ? midpoints.nextVertex() : -1);
+    if (isCut)
+    {
+      midpoints.parentEdges.push_back({ onEdges[0], onEdges[2] });
+      midpoints.quads.push_back(static_cast<Index>(q));
+    }
+  }
+}
+
+void addHexahedronMidpoints(const QuadTable& quads, Midpoints& midpoints)
+{
+  constexpr int opposite[6] = { 1, 0, 4, 5, 2, 3 };
+  reserveLong(midpoints.ofHexahedron, quads.ofHexahedra.size());
+  for (std::size_t h = 0; h < quads.ofHexahedra.size(); ++h)
+  {
+    const auto& faces = quads.ofHexahedra[h];
+    const auto inFaces = midpointsOf(faces, midpoints.ofQuad);
+    const bool isCut = std::find(inFaces.begin(), inFaces.end(), -1) == inFaces.end();
+    midpoints.ofHexahedron.push_back(isCut ? midpoints.nextVertex() : -1);
+    if (isCut)
+    {
+      const auto smallest = std::min_element(faces.begin(), faces.end()) - faces.begin();
+      midpoints.parentEdges.push_back({ inFaces[smallest], inFaces[opposite[smallest]] });
+      midpoints.hexahedra.push_back(static_cast<Index>(h));
+    }
+  }
+}
+
+void addApexes(
+  const SimplexMesh& mesh, const EdgeTable& table, const QuadTable& quads, Midpoints& midpoints)
+{
+  const CellCutting cutting(mesh, table, quads, midpoints);
+  visitOthers(mesh,
+    [&](auto shape, Index first, const auto& cells)
+    {
+      for (Index c = 0; c < static_cast<Index>(cells.size()); ++c)
+      {
+        if (cutting.needsApex(shape, c))
+        {
+          midpoints.cells.push_back(first + c);
+          midpoints.parentEdges.push_back({ cells[c].front(), cells[c].back() });
+        }
+      }
+    });
 }
 
 } // namespace
@@ -268,6 +522,7 @@ std::array<Index, Edges> midpointsOf(
 Midpoints makeMidpoints(const SimplexMesh& mesh, const EdgeTable& table, const EdgeMarks& marks)
 {
   Midpoints result;
+  result.firstVertex = static_cast<Index>(mesh.points.size());
   const std::size_t count = marks.size() - std::count(marks.begin(), marks.end(), 0);
   requireAtMost(mesh.points.size() + count, "points");
   reserveLong(result.edges, count);
@@ -278,7 +533,7 @@ Midpoints makeMidpoints(const SimplexMesh& mesh, const EdgeTable& table, const E
   {
     if (marks[e])
     {
-      result.ofEdge[e] = static_cast<Index>(mesh.points.size() + result.edges.size());
+      result.ofEdge[e] = result.nextVertex();
       result.edges.push_back(static_cast<Index>(e));
       result.parentEdges.push_back(table.edges[e]);
     }
@@ -286,62 +541,164 @@ Midpoints makeMidpoints(const SimplexMesh& mesh, const EdgeTable& table, const E
   return result;
 }
 
+Midpoints makeMidpoints(const SimplexMesh& mesh, const EdgeTable& table, const QuadTable& quads,
+  const EdgeMarks& marks, bool uniform)
+{
+  Midpoints midpoints = makeMidpoints(mesh, table, marks);
+  addQuadMidpoints(quads, midpoints);
+  addHexahedronMidpoints(quads, midpoints);
+  if (!uniform)
+  {
+    addApexes(mesh, table, quads, midpoints);
+  }
+  requireAtMost(mesh.points.size() + midpoints.parentEdges.size(), "points");
+  return midpoints;
+}
+
 ChildRanges countMarkedChildren(
-  const SimplexMesh& mesh, const EdgeTable& table, const EdgeMarks& marks)
+  const SimplexMesh& mesh, const EdgeTable& table, const QuadTable& quads, const EdgeMarks& marks)
 {
   const EdgeOrder order(table);
   ChildRanges firsts;
   firsts[0] = evenChildren(mesh.vertices.size(), 1);
   ChildCount ofSegments(table.ofSegments.size());
-  for (const Index edge : table.ofSegments)
+  for (const auto& [edge] : table.ofSegments)
   {
     ofSegments.add(marks[edge] ? 2 : 1);
   }
   firsts[1] = ofSegments.finish();
   firsts[2] = countParts<3>(table.ofTriangles, order, marks);
   firsts[3] = countParts<4>(table.ofTetrahedra, order, marks);
+  if (mesh.hasOtherThanSimplices())
+  {
+    countOthers(mesh, table, quads, marks, firsts);
+  }
   return firsts;
 }
 
 ChildRanges countUniformChildren(const SimplexMesh& mesh)
 {
-  return { evenChildren(mesh.vertices.size(), 1), evenChildren(mesh.segments.size(), 2),
-    evenChildren(mesh.triangles.size(), 4), evenChildren(mesh.tetrahedra.size(), 8) };
+  ChildRanges firsts{ evenChildren(mesh.vertices.size(), 1), evenChildren(mesh.segments.size(), 2),
+    evenChildren(mesh.cellCount(2), 4), evenChildren(mesh.cellCount(3), 8) };
+  if (!mesh.pyramids.empty())
+  {
+    ChildCount count(mesh.cellCount(3));
+    visitShapes(mesh, 3,
+      [&](auto shape, const auto& cells)
+      {
+        for (std::size_t c = 0; c < cells.size(); ++c)
+        {
+          count.add(std::is_same_v<decltype(shape), shapes::Pyramid> ? 10 : 8);
+        }
+      });
+    firsts[3] = count.finish();
+  }
+  return firsts;
 }
 
-SplitMesh splitMarked(const SimplexMesh& mesh, const EdgeTable& table, const EdgeMarks& marks,
-  const Midpoints& midpoints, const std::vector<GlobalId>& ids)
+SplitMesh splitMarked(const SimplexMesh& mesh, const EdgeTable& table, const QuadTable& quads,
+  const EdgeMarks& marks, const Midpoints& midpoints, const std::vector<GlobalId>& ids)
 {
   SplitMesh result = withNewPoints(mesh, midpoints, ids);
   const EdgeOrder order(table);
-  result.firstChildren = countMarkedChildren(mesh, table, marks);
+  result.firstChildren = countMarkedChildren(mesh, table, quads, marks);
   result.mesh.vertices = mesh.vertices;
   splitSegments(mesh, table, midpoints, result);
   bisectAll<3, 3>(mesh.triangles, table.ofTriangles, order, midpoints, result.firstChildren[2],
     result.mesh.triangles);
   bisectAll<4, 6>(mesh.tetrahedra, table.ofTetrahedra, order, midpoints, result.firstChildren[3],
     result.mesh.tetrahedra);
+  if (mesh.hasOtherThanSimplices())
+  {
+    splitOthers(mesh, table, quads, midpoints, result);
+  }
   return result;
 }
 
-SplitMesh splitUniformly(const SimplexMesh& mesh, const EdgeTable& table,
+std::vector<Index> cellsCutBadly(
+  const SimplexMesh& mesh, const EdgeTable& table, const QuadTable& quads, const EdgeMarks& marks)
+{
+  const Midpoints midpoints = makeMidpoints(mesh, table, quads, marks, false);
+  std::vector<Point3> points = mesh.points;
+  appendNewPoints(mesh, midpoints, points);
+  const CellCutting cutting(mesh, table, quads, midpoints);
+  SimplexMesh children;
+  std::vector<Index> bad;
+  cutOthers(mesh, cutting, midpoints, children,
+    [&](Index cell)
+    {
+      bool valid = children.cellCount(3) == 1; // not cut
+      if (!valid)
+      {
+        valid = true;
+        visitOwnShapes(children,
+          [&](auto shape, const auto& cells)
+          {
+            valid = valid && std::all_of(cells.begin(), cells.end(),
+                               [&](const auto& child)
+                               { return stateAt(shape, cornersOf(child, points), {}).valid; });
+          });
+      }
+      if (!valid)
+      {
+        bad.push_back(cell);
+      }
+      clearCells(children);
+    });
+  return bad;
+}
+
+SplitMesh splitUniformly(const SimplexMesh& mesh, const EdgeTable& table, const QuadTable& quads,
   const Midpoints& midpoints, const std::vector<GlobalId>& ids)
 {
   SplitMesh result = withNewPoints(mesh, midpoints, ids);
   result.firstChildren = countUniformChildren(mesh);
   result.mesh.vertices = mesh.vertices;
   splitSegments(mesh, table, midpoints, result);
-  reserveLong(result.mesh.triangles, result.firstChildren[2].back());
+  SimplexMesh& fine = result.mesh;
+  const auto onEdges = [&](const auto& edges) { return midpointsOf(edges, midpoints.ofEdge); };
+  const auto inQuads = [&](const auto& ofCell) { return midpointsOf(ofCell, midpoints.ofQuad); };
+  reserveLong(fine.triangles, 4 * mesh.triangles.size());
   for (std::size_t c = 0; c < mesh.triangles.size(); ++c)
   {
-    splitTriangleUniformly(
-      mesh.triangles[c], midpointsOf(table.ofTriangles[c], midpoints), result.mesh.triangles);
+    splitTriangleUniformly(mesh.triangles[c], onEdges(table.ofTriangles[c]), fine.triangles);
   }
-  reserveLong(result.mesh.tetrahedra, result.firstChildren[3].back());
+  reserveLong(fine.quadrilaterals, 4 * mesh.quadrilaterals.size());
+  for (std::size_t c = 0; c < mesh.quadrilaterals.size(); ++c)
+  {
+    splitQuadrilateralUniformly(mesh.quadrilaterals[c], onEdges(table.ofQuadrilaterals[c]),
+      inQuads(quads.ofQuadrilaterals[c])[0], fine.quadrilaterals);
+  }
+  reserveLong(fine.tetrahedra, 8 * mesh.tetrahedra.size() + 4 * mesh.pyramids.size());
   for (std::size_t c = 0; c < mesh.tetrahedra.size(); ++c)
   {
-    splitTetrahedronUniformly(result.mesh, mesh.tetrahedra[c],
-      midpointsOf(table.ofTetrahedra[c], midpoints), result.mesh.tetrahedra);
+    splitTetrahedronUniformly(
+      fine, mesh.tetrahedra[c], onEdges(table.ofTetrahedra[c]), fine.tetrahedra);
+  }
+  ChildNumbering numbering(fine, 3);
+  reserveLong(fine.pyramids, 6 * mesh.pyramids.size());
+  for (std::size_t c = 0; c < mesh.pyramids.size(); ++c)
+  {
+    splitPyramidUniformly(mesh.pyramids[c], onEdges(table.ofPyramids[c]),
+      inQuads(quads.ofPyramids[c])[0], fine.pyramids, fine.tetrahedra);
+    numbering.take();
+  }
+  reserveLong(fine.wedges, 8 * mesh.wedges.size());
+  for (std::size_t c = 0; c < mesh.wedges.size(); ++c)
+  {
+    splitWedgeUniformly(
+      mesh.wedges[c], onEdges(table.ofWedges[c]), inQuads(quads.ofWedges[c]), fine.wedges);
+  }
+  reserveLong(fine.hexahedra, 8 * mesh.hexahedra.size());
+  for (std::size_t c = 0; c < mesh.hexahedra.size(); ++c)
+  {
+    splitHexahedronUniformly(mesh.hexahedra[c], onEdges(table.ofHexahedra[c]),
+      inQuads(quads.ofHexahedra[c]), midpoints.ofHexahedron[c], fine.hexahedra);
+  }
+  if (!mesh.pyramids.empty())
+  {
+    numbering.take();
+    result.children[3] = numbering.finish();
   }
   return result;
 }

@@ -68,7 +68,7 @@ def option_parser():
     files.add_argument("--output", metavar="FILE", help="write the last mesh: .vtu .pvtu .xdmf .msh .med .exo .inp "
                        ".su2 .foam; see below")
     files.add_argument("--boundary-cells", action=argparse.BooleanOptionalAction, default=True,
-                       help="write the boundary's triangles (in 2D, lines) too, each with its CAD face: cell arrays "
+                       help="write the boundary's facets (in 2D, lines) too, each with its CAD face: cell arrays "
                        "CADEntity, CADDimension and CADColor (default)")
     files.add_argument("--msh-version", choices=MSH_VERSIONS, default=MSH_VERSIONS[0],
                        help="of a .msh file: 2.2, which all programs know that take .msh (default), or 4.1")
@@ -87,7 +87,7 @@ def add_steps(group):
                        help="refinement steps (default 3)")
     group.add_argument("--method", choices=list(METHODS), default="longest-edge",
                        help="of --steps: longest-edge bisects the marked cells at their longest edge, and others until "
-                       "no vertex hangs (default); uniform cuts all cells into 4 triangles or 8 tetrahedra")
+                       "no vertex hangs (default); uniform cuts all cells into 4 or 8 of their kind")
     group.add_argument("--uniform-steps", type=whole(0, MOST_STEPS), default=0, metavar="N",
                        help="uniform steps before the others (default 0)")
     group.add_argument("--maximum-cells", type=whole(0, MOST_CELLS), metavar="N",
@@ -107,6 +107,9 @@ def add_steps(group):
     group.add_argument("--conserve", type=names, default=[], metavar="NAME,...",
                        help="cell arrays of MESH that are densities, per volume (of triangles per area): their "
                        "integrals stay whatever becomes of the cells (default: none)")
+    group.add_argument("--keep-layers", action=argparse.BooleanOptionalAction, default=True,
+                       help="cut boundary layers (wedges; hexahedra and quadrilaterals half as thick as long) along the "
+                       "wall only, all cells over each other alike (default)")
     group.add_argument("--quadratic", action="store_true",
                        help="at the end, make the cells quadratic, with mid-edge nodes on the CAD")
 

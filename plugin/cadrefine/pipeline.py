@@ -102,7 +102,7 @@ def adaptation_properties(options):
                   "MaximumSteps": options.steps, "Method": METHODS[options.method], "IndicatorArray": "None",
                   "ProjectNewVertices": int(not options.no_cad), "Operations": OPERATIONS[options.operations],
                   "MinimumQuality": options.minimum_quality,
-                  "QuadraticCells": int(options.quadratic), "MaximumCells": 0, "TargetError": 0,
+                  "KeepLayers": int(options.keep_layers), "QuadraticCells": int(options.quadratic), "MaximumCells": 0, "TargetError": 0,
                   "Faces": options.faces, "ConservedArrays": options.conserve,
                   "BoundaryCells": int(bool(options.output and options.boundary_cells))}
     if options.region:

@@ -4,6 +4,7 @@ endif ()
 
 cadrefine_geom_test(mesh_tests
   SOURCES
+    mesh/CellJacobianTest.cxx
     mesh/EdgeTableTest.cxx
     mesh/FacetsTest.cxx
     mesh/OrientationTest.cxx

@@ -41,7 +41,8 @@ SimplexMesh boundaryOf(const SimplexMesh& mesh)
   std::vector<Index> numbers(mesh.points.size(), -1);
   for (const Facet& facet : findOuterFacets(mesh))
   {
-    auto& triangle = surface.triangles.emplace_back(facet.vertices);
+    auto& triangle = surface.triangles.emplace_back();
+    std::copy(facet.begin(), facet.end(), triangle.begin());
     for (Index& v : triangle)
     {
       Index& number = numbers[v];

@@ -121,11 +121,11 @@ Refined bisect(Random& random, const SimplexMesh& mesh, const std::vector<unsign
   Refined result;
   result.table = buildEdgeTable(mesh);
   result.marks.assign(result.table.edges.size(), 0);
-  markLongestEdges(mesh, result.table, cellMarks, result.marks);
-  MarkClosure(result.table, result.marks).closeAll();
+  markLongestEdges(mesh, result.table, cellMarks, true, result.marks);
+  MarkClosure(result.table, mesh.dimension, true, result.marks).closeAll();
   const Midpoints midpoints = makeMidpoints(mesh, result.table, result.marks);
   const auto ids = newIds(random, mesh, midpoints);
-  result.split = splitMarked(mesh, result.table, result.marks, midpoints, ids);
+  result.split = splitMarked(mesh, result.table, {}, result.marks, midpoints, ids);
   return result;
 }
 
@@ -136,7 +136,7 @@ Refined splitAll(Random& random, const SimplexMesh& mesh)
   result.marks.assign(result.table.edges.size(), 1);
   const Midpoints midpoints = makeMidpoints(mesh, result.table, result.marks);
   const auto ids = newIds(random, mesh, midpoints);
-  result.split = splitUniformly(mesh, result.table, midpoints, ids);
+  result.split = splitUniformly(mesh, result.table, {}, midpoints, ids);
   return result;
 }
 

@@ -27,7 +27,7 @@ FacetRecord facetWithNormal(const Vector3& normal)
 
 ClassifiedFacet facetAt(const BoundaryProjector& projector, const std::array<Point3, 3>& points)
 {
-  ClassifiedFacet facet{ points, {} };
+  ClassifiedFacet facet{ { points[0], points[1], points[2] }, {} };
   for (int k = 0; k < 3; ++k)
   {
     facet.entities[k] = projector.nearest(points[k], unlimited).entity;

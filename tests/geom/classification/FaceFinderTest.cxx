@@ -24,7 +24,7 @@ Point3 at(double radius, double degrees, double z)
 
 CornerHits hitsOf(const CADModel& model, const std::array<Point3, 3>& points)
 {
-  CornerHits facet{ points, {}, {} };
+  CornerHits facet{ { points[0], points[1], points[2] }, {} };
   for (int k = 0; k < 3; ++k)
   {
     facet.hits[k] = model.nearest(points[k]);

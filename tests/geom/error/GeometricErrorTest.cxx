@@ -23,7 +23,7 @@ constexpr double pi = 3.14159265358979323846;
 ErrorFacet facetOf(const BoundaryProjector& projector, const std::array<Point3, 3>& points)
 {
   ErrorFacet facet;
-  facet.corners.points = points;
+  facet.corners.points = { points[0], points[1], points[2] };
   for (int k = 0; k < 3; ++k)
   {
     facet.corners.entities[k] =
@@ -148,7 +148,7 @@ ClassifiedSurface surfaceOf(const BoundaryProjector& projector, const SimplexMes
   std::map<std::pair<Index, Index>, Index> edges;
   for (const auto& corners : mesh.triangles)
   {
-    SurfaceFacet facet{ corners, {} };
+    SurfaceFacet facet{ { corners[0], corners[1], corners[2] }, {} };
     for (int k = 0; k < 3; ++k)
     {
       const auto ends = std::minmax(corners[k], corners[(k + 1) % 3]);

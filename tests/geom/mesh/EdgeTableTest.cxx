@@ -75,7 +75,7 @@ TEST(EdgeTable, holdsEdgesOfCellsOfAllDimensions)
   const EdgeTable table = buildEdgeTable(mesh);
   EXPECT_EQ(table.edges.size(), 7u);
   EXPECT_EQ(table.ofTriangles.at(0)[1], table.find(1, 2));
-  EXPECT_EQ(table.ofSegments.at(0), table.find(1, 4));
+  EXPECT_EQ(table.ofSegments.at(0)[0], table.find(1, 4));
   EXPECT_EQ(table.find(0, 4), -1);
 }
 

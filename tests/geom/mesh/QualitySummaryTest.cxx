@@ -32,7 +32,7 @@ QualitySummary oneByOne(const SimplexMesh& mesh)
 void expectSame(const SimplexMesh& mesh)
 {
   const QualitySummary expected = oneByOne(mesh);
-  const QualitySummary summary = summariseTetrahedra(mesh);
+  const QualitySummary summary = summariseCells(mesh);
   EXPECT_EQ(summary.invalidCells, expected.invalidCells);
   EXPECT_NEAR(summary.minimum(), expected.minimum(), 1e-14);
 }
@@ -43,7 +43,7 @@ TEST(QualitySummary, isThatOfTheCellsOneByOne)
   {
     expectSame(cadtest::cubeMesh(4, 0.02 * static_cast<double>(seed), seed));
   }
-  EXPECT_EQ(summariseTetrahedra(cadtest::cubeMesh(4, 0.1, 1)).invalidCells, 0);
+  EXPECT_EQ(summariseCells(cadtest::cubeMesh(4, 0.1, 1)).invalidCells, 0);
 }
 
 TEST(QualitySummary, countsInvertedAndFlatCells)
@@ -52,8 +52,8 @@ TEST(QualitySummary, countsInvertedAndFlatCells)
   std::swap(mesh.tetrahedra[5][0], mesh.tetrahedra[5][1]);
   mesh.tetrahedra.push_back({ 0, 1, 2, 2 });
   expectSame(mesh);
-  EXPECT_EQ(summariseTetrahedra(mesh).invalidCells, 2);
-  EXPECT_LT(summariseTetrahedra(mesh).minimum(), 0);
+  EXPECT_EQ(summariseCells(mesh).invalidCells, 2);
+  EXPECT_LT(summariseCells(mesh).minimum(), 0);
 }
 
 /// Volumes within the rounding errors, of either sign.
@@ -99,12 +99,12 @@ TEST(QualitySummary, ofCellsWithoutANumberIsInvalid)
   SimplexMesh mesh = cadtest::cubeMesh(1, 0, 1);
   mesh.points[0][1] = std::numeric_limits<double>::quiet_NaN();
   expectSame(mesh);
-  EXPECT_GT(summariseTetrahedra(mesh).invalidCells, 0);
+  EXPECT_GT(summariseCells(mesh).invalidCells, 0);
 }
 
 TEST(QualitySummary, ofNoCellsHasNoMinimum)
 {
-  const QualitySummary summary = summariseTetrahedra({});
+  const QualitySummary summary = summariseCells({});
   EXPECT_EQ(summary.invalidCells, 0);
   EXPECT_EQ(summary.minimum(), std::numeric_limits<double>::infinity());
 }

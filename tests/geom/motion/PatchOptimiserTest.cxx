@@ -20,13 +20,13 @@ namespace
 
 using namespace cadrefine;
 
-template<std::size_t Corners>
-double lowest(const Simplices<Corners>& cells, const std::vector<Point3>& points)
+template<class Shape, std::size_t Corners>
+double lowest(Shape shape, const Simplices<Corners>& cells, const std::vector<Point3>& points)
 {
   double result = std::numeric_limits<double>::infinity();
   for (const auto& cell : cells)
   {
-    const CellState state = stateOf(cell, points, { 0, 0, 1 });
+    const CellState state = stateAt(shape, cornersOf(cell, points), { 0, 0, 1 });
     result = std::min(result, state.valid ? state.quality : std::min(state.quality, 0.0));
   }
   return result;
@@ -35,7 +35,8 @@ double lowest(const Simplices<Corners>& cells, const std::vector<Point3>& points
 /// Lowest mean ratio; at most 0 where a cell is not valid.
 double lowestQuality(const SimplexMesh& mesh, const std::vector<Point3>& points)
 {
-  return mesh.dimension == 3 ? lowest(mesh.tetrahedra, points) : lowest(mesh.triangles, points);
+  return mesh.dimension == 3 ? lowest(shapes::Tetrahedron{}, mesh.tetrahedra, points)
+                             : lowest(shapes::Triangle{}, mesh.triangles, points);
 }
 
 double lowestQuality(const SimplexMesh& mesh)

@@ -43,7 +43,7 @@ std::vector<Index> cellsOf(const std::vector<Facet>& facets)
   for (const Facet& facet : facets)
   {
     cells.push_back(facet.cell);
-    cells.insert(cells.end(), facet.vertices.begin(), facet.vertices.end());
+    cells.insert(cells.end(), facet.begin(), facet.end());
   }
   return cells;
 }
@@ -85,8 +85,8 @@ TEST(Threads, findTheSameQuality)
 {
   SimplexMesh mesh = largeMesh();
   std::swap(mesh.tetrahedra[7][0], mesh.tetrahedra[7][1]);
-  const QualitySummary expected = summariseTetrahedra(mesh);
-  const QualitySummary summary = summariseTetrahedra(mesh, threadsFor);
+  const QualitySummary expected = summariseCells(mesh);
+  const QualitySummary summary = summariseCells(mesh, threadsFor);
   EXPECT_EQ(summary.invalidCells, 1);
   EXPECT_EQ(summary.smallestRatio, expected.smallestRatio);
   EXPECT_EQ(summary.smallestCube, expected.smallestCube);

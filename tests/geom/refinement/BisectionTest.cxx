@@ -22,7 +22,7 @@ SplitMesh split(const SimplexMesh& mesh, const EdgeTable& table, const EdgeMarks
   const Midpoints midpoints = makeMidpoints(mesh, table, marks);
   std::vector<GlobalId> ids(midpoints.edges.size());
   std::iota(ids.begin(), ids.end(), GlobalId{ 1000 });
-  return splitMarked(mesh, table, marks, midpoints, ids);
+  return splitMarked(mesh, table, {}, marks, midpoints, ids);
 }
 
 EdgeMarks marksOf(unsigned long subset, std::size_t count)

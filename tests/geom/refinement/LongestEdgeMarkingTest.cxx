@@ -29,8 +29,8 @@ struct Closure
   Closure(const SimplexMesh& mesh, const std::vector<unsigned char>& cellMarks)
     : table(buildEdgeTable(mesh)), marks(table.edges.size(), 0)
   {
-    markLongestEdges(mesh, table, cellMarks, marks);
-    MarkClosure(table, marks).closeAll();
+    markLongestEdges(mesh, table, cellMarks, true, marks);
+    MarkClosure(table, mesh.dimension, true, marks).closeAll();
     for (std::size_t e = 0; e < marks.size(); ++e)
     {
       if (marks[e])
@@ -141,7 +141,7 @@ TEST_P(LongestEdge, marksMayArriveLater)
   const auto cellMarks = someCells(mesh, 17);
   const EdgeTable table = buildEdgeTable(mesh);
   EdgeMarks marks(table.edges.size(), 0);
-  MarkClosure closure(table, marks);
+  MarkClosure closure(table, 2, true, marks);
   EXPECT_FALSE(closure.closeAll());
   const std::size_t sides = mesh.dimension == 3 ? 6 : 3;
   std::size_t arrived = 0;
@@ -150,7 +150,7 @@ TEST_P(LongestEdge, marksMayArriveLater)
     std::vector<unsigned char> oneMark(cellMarks.size(), 0);
     oneMark[c] = cellMarks[c];
     const EdgeMarks before = marks;
-    markLongestEdges(mesh, table, oneMark, marks);
+    markLongestEdges(mesh, table, oneMark, true, marks);
     const auto fresh = std::mismatch(marks.begin(), marks.end(), before.begin()).first;
     if (fresh != marks.end())
     {
@@ -194,8 +194,8 @@ std::pair<std::size_t, std::ptrdiff_t> workOnStrip(const SimplexMesh& strip)
     { return std::find(cell.begin(), cell.end(), 0) != cell.end(); });
   const EdgeTable table = buildEdgeTable(strip);
   EdgeMarks marks(table.edges.size(), 0);
-  markLongestEdges(strip, table, cellMarks, marks);
-  MarkClosure closure(table, marks);
+  markLongestEdges(strip, table, cellMarks, true, marks);
+  MarkClosure closure(table, 2, true, marks);
   EXPECT_TRUE(closure.closeAll());
   return { closure.looks(), std::count(marks.begin(), marks.end(), 1) };
 }
@@ -217,7 +217,7 @@ TEST_P(LongestEdge, closedMarksStayAsTheyAre)
 {
   const SimplexMesh mesh = this->mesh(13);
   Closure closure(mesh, someCells(mesh, 14));
-  EXPECT_FALSE(MarkClosure(closure.table, closure.marks).closeAll());
+  EXPECT_FALSE(MarkClosure(closure.table, mesh.dimension, true, closure.marks).closeAll());
 }
 
 /// Six rounds of refinement near a corner: the mesh stays whole and its cells do not degenerate.
@@ -236,7 +236,7 @@ TEST_P(LongestEdge, bisectionKeepsMeshesConforming)
     std::vector<GlobalId> ids(midpoints.edges.size());
     std::iota(ids.begin(), ids.end(), static_cast<GlobalId>(mesh.points.size()));
     const std::size_t before = mesh.cellCount();
-    mesh = splitMarked(mesh, closure.table, closure.marks, midpoints, ids).mesh;
+    mesh = splitMarked(mesh, closure.table, {}, closure.marks, midpoints, ids).mesh;
     EXPECT_GT(mesh.cellCount(), before);
     EXPECT_TRUE(cadtest::isValid(mesh));
     EXPECT_TRUE(cadtest::hasNoHangingVertex(mesh));

@@ -25,7 +25,7 @@ struct Uniform
     const Midpoints midpoints = makeMidpoints(mesh, table, marks);
     std::vector<GlobalId> ids(midpoints.edges.size());
     std::iota(ids.begin(), ids.end(), static_cast<GlobalId>(mesh.points.size()));
-    split = splitUniformly(mesh, table, midpoints, ids);
+    split = splitUniformly(mesh, table, {}, midpoints, ids);
   }
 
   EdgeTable table;

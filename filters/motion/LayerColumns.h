@@ -1,0 +1,74 @@
+// The cells of boundary layers move along with the wall that they stand on.
+#pragma once
+
+#include "mesh/DistributedMesh.h"
+
+#include <cadrefine/classification/BoundaryProjector.h>
+#include <cadrefine/classification/Classification.h>
+#include <cadrefine/motion/MoveGuard.h>
+
+#include <vector>
+
+namespace cadrefine
+{
+
+/// Columns of vertices over the moving vertices of walls: up the edges of the wedges, hexahedra or
+/// quadrilaterals that stand on a boundary facet at such a vertex, on whatever ranks, to where the
+/// stack ends, or another column comes closer to its wall (counted in cells; ties by the ids of the
+/// walls' vertices). Of several facets at the vertex that counts whose normal is nearest to the
+/// direction of the move.
+///
+/// A wall's vertex takes its column along: the first vertex of it all the way, so that the height
+/// of the first cell stays, the others less and less (by 1 - 3 x^2 + 2 x^3 of the height over the
+/// first), the last one not at all. Vertices of a column that are on a boundary keep to it: those
+/// on the CAD to their entity, others move if they stay in the planes of their facets.
+///
+/// Work: linear in the cells that are not simplices. Messages: one to and from each neighbour for
+/// every time that columns cross between ranks, and a few more.
+class LayerColumns
+{
+public:
+  /// None, where no rank has cells that stand on others, or `plane`, the normal of a planar mesh,
+  /// is zero in 2D. `fixed`: 1 for vertices on the boundary, over all ranks. Collective.
+  LayerColumns(RankExchange& exchange, const DistributedMesh& mesh, const Moves& moves,
+    const std::vector<unsigned char>& fixed, const Vector3& plane);
+
+  /// Whether some rank has cells that stand on others.
+  bool any() const { return any_; }
+
+  /// Adds the moves of the columns' vertices to those of their walls. Returns these vertices.
+  /// Collective.
+  std::vector<Index> follow(RankExchange& exchange, Moves& moves,
+    const BoundaryProjector& projector, const Classification& classification);
+
+  /// Makes all vertices of a column that follow, and that of its wall, go the same part of their
+  /// way: the smallest. Collective.
+  void tie(RankExchange& exchange, Moves& moves) const;
+
+private:
+  /// A vertex of a column.
+  struct Member
+  {
+    Index vertex;
+    Index column;
+    double part; ///< Of the move of the wall's vertex.
+  };
+
+  /// The moves of the walls of all columns of this rank. Collective.
+  std::vector<Vector3> movesOfWalls(RankExchange& exchange, const Moves& moves) const;
+  std::vector<unsigned char> findBlocked(RankExchange& exchange,
+    const std::vector<Vector3>& ofWalls, const Classification& classification) const;
+  template<class Use>
+  void forAllTied(const Use& use) const;
+
+  const DistributedMesh& mesh_;
+  Vector3 plane_;
+  bool any_ = false;
+  std::vector<Facet> facets_; ///< Of the mesh's boundary.
+  std::vector<Index> walls_;  ///< The vertex of each column's wall; -1: only other ranks start it.
+  SharedItems shared_;        ///< Columns.
+  std::vector<Member> members_;
+  std::vector<Member> following_; ///< Those of them that move.
+};
+
+} // namespace cadrefine

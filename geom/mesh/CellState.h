@@ -1,0 +1,61 @@
+// Validity and quality of one cell of any shape.
+#pragma once
+
+#include <cadrefine/mesh/Quality.h>
+#include <cadrefine/mesh/SimplexMesh.h>
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+namespace cadrefine
+{
+
+/// Whether a cell is valid, and its quality: of simplices the mean ratio, negative where they are
+/// inverted, of others the scaled Jacobian.
+struct CellState
+{
+  bool valid = false;
+  double quality = 0;
+};
+
+/// Of a cell with these corners: validity of simplices by exact orientation, of others by that of
+/// their Jacobian everywhere. A cell of area is valid where it turns as seen from the end of
+/// `side`.
+CellState stateAt(shapes::Tetrahedron, const std::array<Point3, 4>& p, const Vector3& side = {});
+CellState stateAt(shapes::Pyramid, const std::array<Point3, 5>& p, const Vector3& side = {});
+CellState stateAt(shapes::Wedge, const std::array<Point3, 6>& p, const Vector3& side = {});
+CellState stateAt(shapes::Hexahedron, const std::array<Point3, 8>& p, const Vector3& side = {});
+CellState stateAt(shapes::Triangle, const std::array<Point3, 3>& p, const Vector3& side);
+CellState stateAt(shapes::Quadrilateral, const std::array<Point3, 4>& p, const Vector3& side);
+
+/// The points of a cell's corners.
+template<std::size_t Corners>
+std::array<Point3, Corners> cornersOf(
+  const std::array<Index, Corners>& cell, const std::vector<Point3>& points)
+{
+  std::array<Point3, Corners> result;
+  std::transform(cell.begin(), cell.end(), result.begin(), [&](Index v) { return points[v]; });
+  return result;
+}
+
+/// The side from which a cell is seen: of one of area that of the plane, or else its own where its
+/// corners are at these points.
+template<class Shape>
+Vector3 sideOf(Shape, const std::array<Point3, Shape::corners>& p, const Vector3& plane)
+{
+  if constexpr (Shape::dimension == 3)
+  {
+    return {};
+  }
+  else if constexpr (Shape::corners == 4)
+  {
+    return plane != Vector3{} ? plane : twofoldAreaVector(p, 4);
+  }
+  else
+  {
+    return plane != Vector3{} ? plane : twofoldAreaVector(p[0], p[1], p[2]);
+  }
+}
+
+} // namespace cadrefine

@@ -1,0 +1,77 @@
+// How cells that are not simplices are cut where some of their edges are marked.
+#pragma once
+
+#include <cadrefine/mesh/EdgeTable.h>
+#include <cadrefine/mesh/QuadTable.h>
+#include <cadrefine/mesh/SimplexMesh.h>
+#include <cadrefine/refinement/Split.h>
+
+namespace cadrefine
+{
+
+/// Cuts hexahedra, wedges, pyramids and quadrilaterals at the midpoints of their marked edges, so
+/// that neighbours agree whatever edges are marked:
+///   - A triangle is bisected as the face of a tetrahedron is. A quadrilateral with all edges
+///   marked
+///     becomes four, with two opposite ones two; with one it becomes three triangles, with two
+///     adjacent ones three, with three a quadrilateral and three triangles.
+///   - A cell whose two opposite sides are cut alike, and of whose edges between them none is
+///   marked
+///     or all are, is cut along these: wedges and hexahedra stand on the parts of the side, in one
+///     layer or two.
+///   - A pyramid with marked edges in its base alone becomes pyramids and tetrahedra on the parts
+///   of
+///     that.
+///   - All others: pyramids and tetrahedra on the parts of their sides, with a new vertex in the
+///     middle of their corners for the apex.
+class CellCutting
+{
+public:
+  /// All must outlive this object.
+  CellCutting(const SimplexMesh& mesh, const EdgeTable& table, const QuadTable& quads,
+    const Midpoints& midpoints);
+
+  /// Whether a cell is cut with a new vertex in the middle.
+  bool needsApex(shapes::Pyramid, Index cell) const;
+  bool needsApex(shapes::Wedge, Index cell) const;
+  bool needsApex(shapes::Hexahedron, Index cell) const;
+
+  /// Appends the children of a cell (itself where it is not cut); `apex` is its new vertex, if it
+  /// needs one. The number is that among the cells of its shape.
+  void cut(shapes::Pyramid, Index cell, Index apex, SimplexMesh& children) const;
+  void cut(shapes::Wedge, Index cell, Index apex, SimplexMesh& children) const;
+  void cut(shapes::Hexahedron, Index cell, Index apex, SimplexMesh& children) const;
+  void cut(shapes::Quadrilateral, Index cell, SimplexMesh& children) const;
+
+private:
+  /// A part of a side; -1 for the fourth vertex of a triangle.
+  using Piece = std::array<Index, 4>;
+  struct Stack;
+
+  template<class Shape>
+  Index midpointOf(Shape, Index cell, int a, int b) const;
+  template<class Shape>
+  Index middleOf(Shape, Index cell, int quad) const;
+  template<class Shape>
+  std::vector<Piece> piecesOf(Shape, Index cell, const int* corners, int count) const;
+  template<class Shape>
+  bool isCut(Shape, Index cell) const;
+  template<class Shape>
+  bool findStack(Shape, Index cell, const int* low, const int* high, int count, Stack& stack) const;
+  template<class Shape>
+  bool findStack(Shape, Index cell, Stack& stack) const;
+  void cutStack(const Stack& stack, SimplexMesh& children) const;
+  template<class Shape>
+  void cutAround(Shape, Index cell, Index apex, SimplexMesh& children) const;
+  template<class Shape>
+  void cutVolume(Shape, Index cell, Index apex, SimplexMesh& children) const;
+  bool isCutInBaseAlone(Index pyramid) const;
+
+  const SimplexMesh& mesh_;
+  const EdgeTable& table_;
+  const QuadTable& quads_;
+  const Midpoints& midpoints_;
+  EdgeOrder order_;
+};
+
+} // namespace cadrefine
