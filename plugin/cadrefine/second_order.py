@@ -4,13 +4,13 @@ import numpy as np
 from paraview import simple
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
+from cadrefine.formats import cells
 from cadrefine.formats import grid as grids
 from cadrefine.merge import take
 from cadrefine.pieces import of_all_ranks
 
-# VTK's types of cells of second order: the linear type, and its corners, which come first.
-LINEAR = {21: (3, 2), 22: (5, 3), 34: (5, 3), 23: (9, 4), 28: (9, 4), 24: (10, 4), 25: (12, 8), 29: (12, 8),
-          26: (13, 6), 27: (14, 5)}
+# VTK's types of cells of second order, and their linear types; corners come first.
+LINEAR = {**cells.LINEAR, **{kind: cells.LINEAR[reduced] for kind, reduced in cells.REDUCED.items()}}
 
 # Run on every rank, in the process of the driver on rank 0.
 LOOK = """
@@ -46,8 +46,8 @@ def by_corners(data):
     if data.GetNumberOfCells() == 0:
         return data
     linear, count = np.arange(256), np.full(256, np.iinfo(int).max)
-    for kind, (of_corners, corners) in LINEAR.items():
-        linear[kind], count[kind] = of_corners, corners
+    for kind, of_corners in LINEAR.items():
+        linear[kind], count[kind] = of_corners, cells.CORNERS[of_corners]
     types = vtk_to_numpy(data.GetCellTypesArray())
     sizes = np.minimum(np.diff(vtk_to_numpy(data.GetCells().GetOffsetsArray())), count[types])
     offsets, corners = grids.corners_of(data, np.arange(len(types)), sizes)

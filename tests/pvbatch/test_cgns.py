@@ -167,7 +167,7 @@ class CGNS(unittest.TestCase):
             (removed(f"{ZONE}/GridCoordinates/CoordinateX"), "GridCoordinates has no CoordinateX"),
             (removed(f"{ZONE}/Volume/ElementConnectivity/ data"), "ElementConnectivity is empty"),
             (removed(f"{ZONE}/ZoneBC/wall/PointList"), "wall has no PointList"),
-            (replaced("ZoneType", "Structured"), "the zone Zone is structured, and not of triangles or tetrahedra"),
+            (replaced("ZoneType", "Structured"), "the zone Zone is structured; save it as an unstructured one"),
             (replaced("Volume", np.int32([22, 0])), "Volume holds elements of CGNS's type NGON_n"),
             (replaced("Volume", np.int32([34, 0])), "Volume holds elements of CGNS's type 34"),
             (replaced("Volume", np.int32([20, 0])), "Volume holds elements of CGNS's type 1"),

@@ -6,22 +6,21 @@ import numpy as np
 
 from cadrefine.formats import BadFile
 from cadrefine.formats.bulk import Bulk
-from cadrefine.formats.grid import TYPES
+from cadrefine.formats.cells import LINEAR, SIDES, TYPES, facet_of
 from cadrefine.formats.groups import NAME, group_names, grouped, members
-from cadrefine.formats.sides import SIDES, sides_of
+from cadrefine.formats.sides import sides_of
 
-SOLIDS = {4: 10, 10: 24, 8: 12, 6: 13, 5: 14}  # VTK's types, by number of nodes.
-PLANE = {3: 5, 6: 22, 4: 9}
+# VTK's types, by number of nodes: the order of these is the same. Nodes on sides and inside are the last ones.
+SOLIDS = {4: 10, 10: 24, 8: 12, 20: 25, 27: 25, 6: 13, 15: 26, 5: 14, 13: 27}
+PLANE = {3: 5, 6: 22, 4: 9, 8: 23, 9: 23}
 LINES = {2: 3, 3: 21}
 # How names of element types begin.
 FAMILIES = (
-    (re.compile(r"(C3D|DC3D|AC3D|F3D)"), SOLIDS),
+    (re.compile(r"(C3D|DC3D|AC3D|F3D|SC\d)"), SOLIDS),
     (re.compile(r"(CP[ES]|CG?AX|DC2D|DCAX|AC2D|S\d|STRI|M3D|R3D|SFM3D|DS|F2D)"), PLANE),
     (re.compile(r"(T2D|T3D|B[23]|FRAME|DC1D)"), LINES),
 )
 SHELLS = re.compile(r"(S\d|STRI|DS)")  # Their first two sides are above and below.
-MID_NODES = {10: {(0, 1): 4, (1, 2): 5, (0, 2): 6, (0, 3): 7, (1, 3): 8, (2, 3): 9},  # By number of nodes.
-             6: {(0, 1): 3, (1, 2): 4, (0, 2): 5}}
 # Corners of the sides S1, S2, ... by VTK's type.
 FACES = {
     10: ((0, 1, 2), (0, 3, 1), (1, 3, 2), (2, 3, 0)), 5: ((0, 1), (1, 2), (2, 0)), 9: ((0, 1), (1, 2), (2, 3), (3, 0)),
@@ -29,13 +28,12 @@ FACES = {
     13: ((0, 1, 2), (3, 5, 4), (0, 3, 4, 1), (1, 4, 5, 2), (2, 5, 3, 0)),
     14: ((0, 1, 2, 3), (0, 4, 1), (1, 4, 2), (2, 4, 3), (3, 4, 0)),
 }
-FACES.update({24: FACES[10], 22: FACES[5]})
-FACET_TYPES = {(2, False): 3, (3, False): 5, (4, False): 9, (2, True): 21, (3, True): 22}  # By corners, second order.
-ELEMENTS = {3: "T3D2", 21: "T3D3", 5: "CPS3", 22: "CPS6", 9: "CPS4", 10: "C3D4", 24: "C3D10", 12: "C3D8", 13: "C3D6",
-            14: "C3D5"}  # Written for VTK's types.
-IN_SPACE = {5: "S3", 22: "STRI65", 9: "S4"}
+FACES.update({kind: FACES[linear] for kind, linear in LINEAR.items() if linear in FACES})
+ELEMENTS = {3: "T3D2", 21: "T3D3", 5: "CPS3", 22: "CPS6", 9: "CPS4", 23: "CPS8", 10: "C3D4", 24: "C3D10", 12: "C3D8",
+            25: "C3D20", 13: "C3D6", 26: "C3D15", 14: "C3D5"}  # Written for VTK's types.
+IN_SPACE = {5: "S3", 22: "STRI65", 9: "S4", 23: "S8R"}
 FIRST_SHELL_SIDE = 2  # Of a shell's sides, as written; above and below come before its edges.
-A_LINE = 8  # Numbers in a line of a set.
+A_LINE = 16  # The most numbers that a line may have.
 
 
 class Reader:
@@ -94,6 +92,7 @@ class Reader:
         if len(nodes) not in kinds:
             raise BadFile(f"holds elements {options['TYPE']} of {len(nodes)} nodes")
         kind = kinds[len(nodes)]
+        nodes = nodes[:TYPES[kind][2]]
         self.bulk.add_element(number, kind, nodes)
         self.elements[number] = kind, nodes, options["TYPE"].upper()
         if "ELSET" in options:
@@ -132,12 +131,8 @@ class Reader:
         side -= FIRST_SHELL_SIDE if SHELLS.match(element) else 0
         if kind not in FACES or not 0 <= side < len(FACES[kind]):
             return None
-        corners = FACES[kind][side]
-        middles = MID_NODES.get(len(nodes), {}) if kind in (22, 24) else {}
-        pairs = [tuple(sorted(pair)) for pair in zip(corners, (*corners[1:], corners[0]))]
-        pairs = pairs[:1] if len(corners) == 2 else pairs
-        places = [*corners, *(middles[pair] for pair in pairs if middles)]
-        return FACET_TYPES[len(corners), bool(middles)], [nodes[place] for place in places]
+        facet, places = facet_of(kind, FACES[kind][side])
+        return facet, [nodes[place] for place in places]
 
     def mesh(self):
         """Sets that were made by themselves come before those that elements name."""
@@ -159,8 +154,8 @@ def kinds_of(name):
 
 
 def nodes_of(name):
-    """As the name tells: C3D10 has 10. Beams (B31) and some shells (STRI65) tell of other things."""
-    number = re.search(r"(\d+)[A-Z]*$", name.upper())
+    """As the name tells: C3D10 has 10. Beams (B31) and some shells (STRI65, S4R5) tell of other things."""
+    number = re.match(r"S(\d)", name.upper()) or re.search(r"(\d+)[A-Z]*$", name.upper())
     kinds = kinds_of(name)
     if kinds is LINES:
         return int(number[1][-1]) + (1 if name.upper().startswith("B") else 0)
@@ -176,6 +171,8 @@ def read(path):
 def write(path, mesh):
     """Groups of cells are sets of elements; those of facets surfaces and sets of nodes; others sets of nodes."""
     mesh = grouped(mesh)
+    if any(kind not in ELEMENTS for kind, _ in mesh.blocks if TYPES[kind][1] == 3):
+        raise BadFile("Abaqus has no quadratic pyramids")
     dimensions = mesh.cell_dimensions()
     highest = int(dimensions.max(initial=0))
     flat = highest < 3 and not np.any(mesh.points[:, 2])
@@ -189,7 +186,7 @@ def write(path, mesh):
             if TYPES[kind][1] == highest and len(corners):
                 element = ELEMENTS[kind] if flat or highest == 3 else IN_SPACE.get(kind, ELEMENTS[kind])
                 file.write(f"*ELEMENT, TYPE={element}\n")
-                np.savetxt(file, np.column_stack([place[first:first + len(corners)], corners + 1]), "%d", ", ")
+                write_rows(file, np.column_stack([place[first:first + len(corners)], corners + 1]))
             first += len(corners)
         plain = {tag: name for dimension in range(4) for tag, name in group_names(mesh, dimension, NAME).items()}
         sides = sides_of(mesh)
@@ -202,6 +199,12 @@ def write(path, mesh):
             if dimension == highest - 1:
                 offset = 0 if flat or highest == 3 else FIRST_SHELL_SIDE
                 write_surface(file, plain[tag], mesh, sides, inside, place, offset)
+
+
+def write_rows(file, rows):
+    words = ["%d"] * rows.shape[1]
+    lines = [", ".join(words[first:first + A_LINE]) for first in range(0, len(words), A_LINE)]
+    np.savetxt(file, rows, ",\n".join(lines))
 
 
 def nodes_in(mesh, inside):

@@ -5,10 +5,11 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkUnstructuredGrid
 from vtkmodules.vtkFiltersCore import vtkAppendFilter
 
-from cadrefine.formats.grid import arrays_of, corners_of, make_grid, to_vtk
+from cadrefine.formats.cells import TURNED, volumes
+from cadrefine.formats.grid import WEDGES, arrays_of, corners_of, make_grid, to_vtk
 from cadrefine.formats.sides import same_corners, same_rows
 
-VERTEX, POLY_VERTEX, LINE, POLY_LINE, TRIANGLE, TETRAHEDRON = 1, 2, 3, 4, 5, 10  # VTK's types of cells.
+VERTEX, POLY_VERTEX, LINE, POLY_LINE, TRIANGLE, TETRAHEDRON, WEDGE = 1, 2, 3, 4, 5, 10, 13  # VTK's types of cells.
 
 
 def joined(data):
@@ -115,15 +116,18 @@ def complete(parts):
 
 
 def orient(grid):
-    """Turns tetrahedra of negative volume round, and triangles of the plane z = 0, where there are no tetrahedra."""
+    """Turns tetrahedra of negative volume round, wedges that are not as VTK defines them, and triangles of the plane
+    z = 0."""
     points = vtk_to_numpy(grid.GetPoints().GetData())
     offsets = vtk_to_numpy(grid.GetCells().GetOffsetsArray())
     corners = vtk_to_numpy(grid.GetCells().GetConnectivityArray())
     types = vtk_to_numpy(grid.GetCellTypesArray())
-    kind, size = (TETRAHEDRON, 4) if (types == TETRAHEDRON).any() else (TRIANGLE, 3)
-    if kind == TRIANGLE and points[:, 2].any():
-        return
-    places = offsets[:-1][types == kind][:, np.newaxis] + np.arange(size)
-    sides = points[corners[places]][:, 1:] - points[corners[places]][:, :1]
-    turned = places[np.linalg.det(sides[:, :, : size - 1]) < 0]
-    corners[turned[:, -2:]] = corners[turned[:, :-3:-1]]
+    for kind, order in ((TRIANGLE, [0, 2, 1]), (TETRAHEDRON, [0, 1, 3, 2]), (WEDGE, TURNED[WEDGE])):
+        places = offsets[:-1][types == kind][:, np.newaxis] + np.arange(len(order))
+        nodes = corners[places]
+        if kind == TRIANGLE:
+            sizes = np.linalg.det(points[nodes[:, 1:], :2] - points[nodes[:, :1], :2]) * (not points[:, 2].any())
+        else:
+            sizes = volumes(points, kind, nodes if kind not in WEDGES else nodes[:, order])
+        turned = sizes < 0
+        corners[places[turned]] = nodes[turned][:, order]

@@ -3,7 +3,8 @@
 import numpy as np
 
 from cadrefine.formats import BadFile
-from cadrefine.formats.grid import TYPES, Mesh, positions
+from cadrefine.formats.cells import TYPES
+from cadrefine.formats.grid import Mesh, positions
 from cadrefine.formats.groups import set_groups, unused
 
 

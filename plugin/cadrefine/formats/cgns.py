@@ -6,7 +6,8 @@ gives no names; meshio's files are none to other programs.)
    names are those of its families, and its own. In gmsh's files a family stands for a part of the geometry, and the
    names in it are those of physical groups: these count.
 3. A section of facets is a group where no condition has any of them: SU2 knows no conditions, but names of sections.
-4. The cells of a zone are a group of its families. Of several zones, one without has its name, where no condition has
+4. A part of a zone that lists elements is a group of its families and its name, as a condition is.
+5. The cells of a zone are a group of its families. Of several zones, one without has its name, where no condition has
    any of its cells.
 """
 
@@ -17,14 +18,13 @@ import numpy as np
 from cadrefine.formats import BadFile, library
 from cadrefine.formats.blocks import in_order
 from cadrefine.formats.bulk import Bulk
-from cadrefine.formats.cgns_tree import Node
-from cadrefine.formats.grid import TYPES, Mesh, in_space, positions
-from cadrefine.formats.sides import CORNERS, FACET_TYPES, same_rows, sides_of
+from cadrefine.formats.cells import CORNERS, LAYERED, TYPES, inverse, reordered
+from cadrefine.formats.cgns_tree import REGION, Node
+from cadrefine.formats.cgns_types import MIXED, NAMES, SIZES, VTK_TYPES
+from cadrefine.formats.grid import Mesh, in_space, positions
+from cadrefine.formats.sides import same_rows, sides_of, with_facets
 
-# VTK's types by CGNS's numbers. Corners and mid nodes are in the same order.
-VTK_TYPES = {2: 1, 3: 3, 4: 21, 5: 5, 6: 22, 7: 9, 10: 10, 11: 24, 12: 14, 14: 13, 17: 12}
-MIXED = 20
-NAMES = {22: "NGON_n", 23: "NFACE_n"}  # Of types that are no cells of a mesh, but common.
+ORDERS = inverse(LAYERED)
 
 
 @dataclasses.dataclass
@@ -76,8 +76,10 @@ def read_file(root):
     mesh = joined(zones)
     conditions = [(zone, node) for zone in zones for of_zone in zone.node.all("ZoneBC_t")
                   for node in of_zone.all("BC_t")]
+    conditions += [(zone, node) for zone in zones for node in zone.node.all(REGION)
+                   if (node.has("PointList") or node.has("PointRange")) and not is_of_nodes(node)]
     if any(is_of_nodes(node) for _, node in conditions):
-        add_facets(mesh)
+        mesh = with_boundary_facets(mesh)
     add_groups(mesh, zones, conditions, families_of(bases[0]))
     add_arrays(mesh, zones)
     return mesh
@@ -90,7 +92,7 @@ def families_of(base):
 
 def read_zone(node):
     if node.child("ZoneType").text() != "Unstructured":
-        raise BadFile(f"the zone {node.name} is structured, and not of triangles or tetrahedra")
+        raise BadFile(f"the zone {node.name} is structured; save it as an unstructured one")
     grids = node.all("GridCoordinates_t")
     if not grids:
         raise BadFile(f"the zone {node.name} has no nodes")
@@ -117,16 +119,17 @@ def parts_of(section):
         kinds = np.full(len(starts), kind)
     for kind in np.unique(kinds).tolist():
         chosen = np.flatnonzero(kinds == kind)
-        places = starts[chosen, np.newaxis] + np.arange(size_of(section, kind))
-        if places.max() >= len(values) or len(starts) != last - first + 1:
+        if starts[chosen[-1]] + size_of(section, kind) > len(values) or len(starts) != last - first + 1:
             raise BadFile(f"{section.name} does not hold the elements {first} to {last}")
-        yield Part(section.name, VTK_TYPES[kind], values[places] - 1, first + chosen)
+        vtk = VTK_TYPES[kind]
+        nodes = values[starts[chosen, np.newaxis] + np.arange(TYPES[vtk][2])] - 1
+        yield Part(section.name, vtk, reordered(vtk, nodes, ORDERS), first + chosen)
 
 
 def size_of(section, kind):
-    if kind not in VTK_TYPES:
+    if kind not in SIZES:
         raise BadFile(f"{section.name} holds elements of CGNS's type {NAMES.get(kind, kind)}")
-    return TYPES[VTK_TYPES[kind]][2]
+    return SIZES[kind]
 
 
 def starts_of(section, values):
@@ -156,15 +159,13 @@ def joined(zones):
     return mesh
 
 
-def add_facets(mesh):
-    """Gives the mesh the facets of its boundary as cells, if it has no facets."""
+def with_boundary_facets(mesh):
+    """The mesh with the facets of its boundary as cells, if it has no facets."""
     dimensions = mesh.cell_dimensions()
     if dimensions.max() < 2 or (dimensions == dimensions.max() - 1).any():
-        return
+        return mesh
     sides = sides_of(mesh)
-    corners = sides.corners[sides.neighbours < 0]
-    sizes = (corners >= 0).sum(axis=1)
-    mesh.blocks += [(FACET_TYPES[size], corners[sizes == size, :size]) for size in np.unique(sizes)]
+    return with_facets(mesh, sides, np.flatnonzero(sides.neighbours < 0))
 
 
 def is_of_nodes(condition):

@@ -5,6 +5,9 @@ import numpy as np
 from cadrefine.formats import BadFile
 
 
+REGION = "ZoneSubRegion_t"  # The label of a part of a zone.
+
+
 class Node:
     """The attributes of the group tell its label, its dataset " data" what it holds. A link has " link" instead."""
 

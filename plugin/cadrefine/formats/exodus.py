@@ -3,7 +3,9 @@
 from vtkmodules.vtkIOExodus import vtkExodusIIReader
 
 from cadrefine.formats.blocks import joined
-from cadrefine.formats.grid import TYPES, to_vtk
+from cadrefine.formats.cells import REDUCED, TYPES
+from cadrefine.formats.exodus_writing import ELEMENTS, further
+from cadrefine.formats.grid import to_vtk
 
 ID = "ObjectId"  # Cell array of the reader: the number of the block or side set.
 OBJECTS = (vtkExodusIIReader.ELEM_BLOCK, vtkExodusIIReader.SIDE_SET)
@@ -25,19 +27,32 @@ def read(path):
             name = reader.GetObjectArrayName(kind, index)
             reader.SetObjectArrayStatus(kind, name, 1)
     reader.Update()
+    names = groups_in(reader.GetOutput())
     grid = joined(reader.GetOutput())
     grid.GetFieldData().Initialize()
-    add_names(grid, reader.GetOutput())
+    for name, pair in names.items():
+        grid.GetFieldData().AddArray(to_vtk(name, [pair]))
     return grid
 
 
-def add_names(grid, data):
+def groups_in(data):
+    """{name: number and dimension} of the blocks and sets. The blocks of one group, which this writer makes of cells of
+    several types, get one number."""
+    names = {}
     iterator = data.NewIterator()
     while not iterator.IsDoneWithTraversal():
         block = iterator.GetCurrentDataObject()
         name = iterator.GetCurrentMetaData().Get(data.NAME())
         ids = block.GetCellData().GetArray(ID)
         if name and ids is not None and block.GetNumberOfCells() > 0:
-            dimension = TYPES[block.GetCellType(0)][1] if block.GetCellType(0) in TYPES else 3
-            grid.GetFieldData().AddArray(to_vtk(name, [[int(ids.GetValue(0)), dimension]]))
+            kind = block.GetCellType(0)
+            kind = REDUCED.get(kind, kind)
+            dimension = TYPES[kind][1] if kind in TYPES else 3
+            whole = next((other for other, (_, of_other) in names.items()
+                          if of_other == dimension and kind in ELEMENTS and name == further(other, kind)), None)
+            if whole:
+                ids.Fill(names[whole][0])
+            else:
+                names[name] = int(ids.GetValue(0)), dimension
         iterator.GoToNextItem()
+    return names

@@ -4,13 +4,14 @@ takes sets from what its reader has read alone; meshio's writes no side sets.)""
 import numpy as np
 
 from cadrefine.formats import library
-from cadrefine.formats.grid import PHYSICAL, TYPES
+from cadrefine.formats.cells import LAYERED, TYPES, reordered
+from cadrefine.formats.grid import PHYSICAL
 from cadrefine.formats.groups import grouped, members, unused
 from cadrefine.formats.sides import sides_of
 
-ELEMENTS = {1: "SPHERE", 3: "BAR2", 21: "BAR3", 5: "TRI3", 22: "TRI6", 9: "QUAD4", 10: "TETRA4", 24: "TETRA10",
-            12: "HEX8", 13: "WEDGE6", 14: "PYRAMID5"}
-SHELLS = {"TRI3": "TRISHELL3", "TRI6": "TRISHELL6", "QUAD4": "SHELL4"}  # The same in space.
+ELEMENTS = {1: "SPHERE", 3: "BAR2", 21: "BAR3", 5: "TRI3", 22: "TRI6", 9: "QUAD4", 23: "QUAD8", 10: "TETRA4",
+            24: "TETRA10", 12: "HEX8", 25: "HEX20", 13: "WEDGE", 26: "WEDGE15", 14: "PYRAMID", 27: "PYRAMID13"}
+SHELLS = {"TRI3": "TRISHELL3", "TRI6": "TRISHELL6", "QUAD4": "SHELL4", "QUAD8": "SHELL8"}  # The same in space.
 SHELL_SIDES = 2  # Of a shell, above and below, come before its edges.
 NAME = 32  # Most bytes of a name that every reader takes.
 LONG_NAME = 255
@@ -58,10 +59,15 @@ def blocks_of(mesh, dimension, flat):
             taken = [name for name, *_ in blocks]
             element = ELEMENTS[kind] if flat or dimension < 2 else SHELLS.get(ELEMENTS[kind], ELEMENTS[kind])
             name = names.get(int(tag), REST)
-            blocks.append((unused(f"{name} {element}" if name in taken else name, taken), int(tag), element,
-                           corners[inside]))
+            blocks.append((unused(further(name, kind) if name in taken else name, taken), int(tag), element,
+                           reordered(kind, corners[inside], LAYERED)))
         first += len(corners)
     return with_numbers(blocks), place
+
+
+def further(name, kind):
+    """Name of a group's block of further cells, of another type."""
+    return f"{name} {ELEMENTS[kind]}"
 
 
 def with_numbers(items):

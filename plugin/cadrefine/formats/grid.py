@@ -8,6 +8,7 @@ from vtkmodules.vtkCommonCore import vtkPoints, vtkStringArray
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkCellTypes, vtkUnstructuredGrid
 
 from cadrefine.formats import BadFile
+from cadrefine.formats.cells import REDUCED, TURNED, TYPES, reordered, turned_where_negative
 
 PHYSICAL, GEOMETRICAL = "gmsh:physical", "gmsh:geometrical"  # Cell arrays, named as meshio names them.
 PATCH_TYPES = "OpenFOAMPatchTypes"  # Field data: names of patches, and the type of each behind it.
@@ -16,22 +17,15 @@ SERIAL = "SERIAL:"  # Before the name of an HDF5 file: this process opens it alo
 # files, Netgen, .vtk files.
 TAG_ARRAYS = (PHYSICAL, "medit:ref", "ObjectId", "su2:tag", "nastran:ref", "unv:property", "netgen:index",
               "CellEntityIds", "MaterialIds")
-
-TYPES = {  # VTK's number of a type of cell: its name in meshio, its dimension, its number of points.
-    1: ("vertex", 0, 1), 3: ("line", 1, 2), 5: ("triangle", 2, 3), 9: ("quad", 2, 4), 10: ("tetra", 3, 4),
-    12: ("hexahedron", 3, 8), 13: ("wedge", 3, 6), 14: ("pyramid", 3, 5), 21: ("line3", 1, 3),
-    22: ("triangle6", 2, 6), 24: ("tetra10", 3, 10),
-}
-QUADRATIC = (21, 22, 24)
-TYPE_OF_NAME = {name: number for number, (name, _, _) in TYPES.items()}
+WEDGES = {kind: TURNED[kind] for kind in (13, 26)}  # VTK has them the other way round.
 
 
 @dataclasses.dataclass
 class Mesh:
-    """Cells of one type after the other, in `blocks` of VTK's type and corners (cells, points); arrays over all points,
-    and over all cells in the order of the blocks; `groups` is tag and dimension by name of group, `entity_names` the
-    CAD's name by dimension and number of a CAD entity that cells are part of, `patch_types` OpenFOAM's type by name of
-    patch."""
+    """Cells of one type after the other, in `blocks` of type and nodes (cells, points), numbered as in `cells`; arrays
+    over all points, and over all cells in the order of the blocks; `groups` is tag and dimension by name of group,
+    `entity_names` the CAD's name by dimension and number of a CAD entity that cells are part of, `patch_types`
+    OpenFOAM's type by name of patch."""
 
     points: np.ndarray
     blocks: list
@@ -58,7 +52,7 @@ def to_grid(mesh):
     """A vtkUnstructuredGrid. Names of groups become field data: two integers, the tag and the dimension."""
     sizes = [np.full(len(corners), corners.shape[1]) for _, corners in mesh.blocks]
     offsets = np.concatenate([[0], np.cumsum(np.concatenate(sizes or [[]]))])
-    corners = np.concatenate([corners.ravel() for _, corners in mesh.blocks] or [[]])
+    corners = np.concatenate([reordered(kind, corners, WEDGES).ravel() for kind, corners in mesh.blocks] or [[]])
     types = np.concatenate([np.full(len(corners), number) for number, corners in mesh.blocks] or [[]])
     grid = make_grid(in_space(mesh.points), types, offsets, corners)
     for data, arrays in ((grid.GetPointData(), mesh.point_data), (grid.GetCellData(), mesh.cell_data),
@@ -113,21 +107,25 @@ def in_space(points):
 
 
 def from_grid(grid):
-    """A Mesh with the cells ordered by type, those of a type as they were; ids and ghost arrays are left out."""
+    """A Mesh with the cells ordered by type, those of a type as they were; ids and ghost arrays are left out. Wedges
+    are taken either way round: programs differ in how they read VTK's definition."""
+    points = vtk_to_numpy(grid.GetPoints().GetData())
     types = vtk_to_numpy(grid.GetCellTypesArray())
     offsets = vtk_to_numpy(grid.GetCells().GetOffsetsArray())
     corners = vtk_to_numpy(grid.GetCells().GetConnectivityArray())
+    for kind, reduced in REDUCED.items():
+        types = np.where(types == kind, reduced, types)
     order, blocks = [], []
-    for number in np.unique(types):
-        if int(number) not in TYPES:
-            raise BadFile(f"it holds a {vtkCellTypes.GetClassNameFromTypeId(int(number))}")
-        chosen = np.flatnonzero(types == number)
-        size = TYPES[int(number)][2]
-        blocks.append((int(number), corners[offsets[chosen][:, np.newaxis] + np.arange(size)]))
+    for kind in np.unique(types).tolist():
+        if kind not in TYPES:
+            raise BadFile(f"it holds a {vtkCellTypes.GetClassNameFromTypeId(kind)}")
+        chosen = np.flatnonzero(types == kind)
+        nodes = corners[offsets[chosen][:, np.newaxis] + np.arange(TYPES[kind][2])]
+        blocks.append((kind, turned_where_negative(points, kind, nodes) if kind in WEDGES else nodes))
         order.append(chosen)
     order = np.concatenate(order or [[]]).astype(int)
     cell_data = {name: values[order] for name, values in arrays_of(grid.GetCellData()).items()}
-    return Mesh(vtk_to_numpy(grid.GetPoints().GetData()), blocks, arrays_of(grid.GetPointData()), cell_data,
+    return Mesh(points, blocks, arrays_of(grid.GetPointData()), cell_data,
                 groups_of(grid.GetFieldData()), entity_names_of(grid.GetCellData()),
                 patch_types_of(grid.GetFieldData()))
 

@@ -4,16 +4,15 @@ order, which is the opposite of MED's, and makes no groups of families.)"""
 import numpy as np
 
 from cadrefine.formats import BadFile, library
-from cadrefine.formats.grid import TYPES, Mesh, check, in_space
+from cadrefine.formats.cells import TURNED, TYPES, reordered, turned_where_negative
+from cadrefine.formats.grid import Mesh, check, in_space
 from cadrefine.formats.groups import grouped, set_groups, sets_of_groups, unused
 
-VTK_TYPES = {"PO1": 1, "SE2": 3, "SE3": 21, "TR3": 5, "TR6": 22, "QU4": 9, "TE4": 10, "T10": 24, "HE8": 12, "PE6": 13,
-             "PY5": 14}
+VTK_TYPES = {"PO1": 1, "SE2": 3, "SE3": 21, "TR3": 5, "TR6": 22, "QU4": 9, "QU8": 23, "TE4": 10, "T10": 24, "HE8": 12,
+             "H20": 25, "PE6": 13, "P15": 26, "PY5": 14, "P13": 27}
 MED_TYPES = {vtk: med for med, vtk in VTK_TYPES.items()}
-ORDERS = {  # Corners in the other program's order, both ways: volume cells are turned round.
-    10: [0, 2, 1, 3], 24: [0, 2, 1, 3, 6, 5, 4, 7, 9, 8], 12: [0, 3, 2, 1, 4, 7, 6, 5], 13: [0, 2, 1, 3, 5, 4],
-    14: [0, 3, 2, 1, 4],
-}
+# Those that have nodes on sides or inside too: how many, and what they are without.
+REDUCED = {"TR7": (7, 22), "QU9": (9, 23), "H27": (27, 25), "P18": (18, 26)}
 MESH = "mesh"
 STEP = "-0000000000000000001-0000000000000000001"  # Of a mesh that does not change.
 PROFILE = np.bytes_("MED_NO_PROFILE_INTERNAL")
@@ -42,29 +41,19 @@ def read_file(file):
     mesh = Mesh(in_space(coordinates.reshape((-1, space), order="F")), [])
     families = []
     for name, cells in step.get("MAI", {}).items():
-        if name not in VTK_TYPES:
+        if name not in VTK_TYPES and name not in REDUCED:
             raise BadFile(f"it holds cells of MED's type {name}")
-        kind = VTK_TYPES[name]
-        corners = cells["NOD"][()].reshape((-1, TYPES[kind][2]), order="F").astype(int) - 1
+        size, kind = REDUCED[name] if name in REDUCED else (TYPES[VTK_TYPES[name]][2], VTK_TYPES[name])
+        corners = cells["NOD"][()].reshape((-1, size), order="F")[:, :TYPES[kind][2]].astype(int) - 1
         mesh.blocks.append((kind, corners))
         families.append(cells["FAM"][()] if "FAM" in cells else np.zeros(len(corners), int))
     check(mesh)
-    mesh.blocks = [(kind, turned(mesh.points, kind, corners)) for kind, corners in mesh.blocks]
+    # Volume cells are the other way round, but for those of meshio.
+    mesh.blocks = [(kind, turned_where_negative(mesh.points, kind, reordered(kind, corners, TURNED)))
+                   for kind, corners in mesh.blocks]
     groups = groups_of_families(file["FAS"][names[0]].get("ELEME", {}) if names[0] in file.get("FAS", {}) else {})
     add_groups(mesh, groups, np.concatenate(families))
     return mesh
-
-
-def turned(points, kind, corners):
-    """The corners in VTK's order. Cells that are the wrong way round then, as of meshio, stay as they were."""
-    if kind not in ORDERS:
-        return corners
-    result = corners[:, ORDERS[kind]]
-    other = [4 if kind in (12, 14) else 3]
-    sides = points[result[:, [1, 3 if kind in (12, 14) else 2, *other]]] - points[result[:, :1]]
-    wrong = np.linalg.det(sides) < 0
-    result[wrong] = corners[wrong]
-    return result
 
 
 def groups_of_families(families):
@@ -143,7 +132,7 @@ def write_cells(step, mesh, families):
     for kind, corners in mesh.blocks:
         cells = root.create_group(MED_TYPES[kind])
         attributes(cells, CGT=1, CGS=1, PFL=PROFILE)
-        nodes = 1 + corners[:, ORDERS.get(kind, slice(None))].astype(np.int32)
+        nodes = 1 + reordered(kind, corners, TURNED).astype(np.int32)
         dataset(cells, "NOD", nodes.flatten(order="F"), len(corners))
         dataset(cells, "FAM", families[first:first + len(corners)], len(corners))
         first += len(corners)

@@ -3,7 +3,8 @@
 import numpy as np
 
 from cadrefine.formats import BadFile, library
-from cadrefine.formats.grid import PHYSICAL, TYPE_OF_NAME, Mesh, tag_array
+from cadrefine.formats.cells import REDUCED_NAMES, TYPE_OF_NAME, TYPES
+from cadrefine.formats.grid import PHYSICAL, Mesh, tag_array
 
 NOT_KEPT = {"medit:ref", "gmsh:dim_tags"}  # Tags of points, which could only be interpolated.
 
@@ -22,10 +23,12 @@ def read(path, module):
 
 
 def converted(source):
-    unknown = {block.type for block in source.cells} - set(TYPE_OF_NAME)
+    kinds = {**TYPE_OF_NAME, **REDUCED_NAMES}
+    unknown = {block.type for block in source.cells} - set(kinds)
     if unknown:
         raise BadFile(f"it holds cells of the type {min(unknown)}")
-    blocks = [(TYPE_OF_NAME[block.type], np.asarray(block.data)) for block in source.cells]
+    kinds = [kinds[block.type] for block in source.cells]
+    blocks = [(kind, np.asarray(block.data)[:, :TYPES[kind][2]]) for kind, block in zip(kinds, source.cells)]
     cell_data = {name: np.concatenate(values) for name, values in source.cell_data.items()}
     for name, chosen in source.cell_sets.items():
         cell_data[name] = np.concatenate([members(part, len(corners)) for part, (_, corners) in zip(chosen, blocks)])

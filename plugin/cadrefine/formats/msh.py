@@ -3,13 +3,14 @@
 import numpy as np
 
 from cadrefine.formats import BadFile
+from cadrefine.formats.cells import CORNERS, TYPES, reordered
 from cadrefine.formats.grid import GEOMETRICAL, Mesh, positions
 from cadrefine.formats.groups import set_groups
 from cadrefine.formats.msh_sections import Reader
-from cadrefine.formats.msh_types import SWAPPED, VTK_TYPES
+from cadrefine.formats.msh_types import REDUCED, VTK_ORDERS, VTK_TYPES
 
-PRIMES = np.array([2654435761, 2246822519, 3266489917, 668265263, 374761393, 2147483647, 1181783497, 982451653,
-                   961748927, 86028121], dtype=np.uint64)
+PRIMES = np.array([2654435761, 2246822519, 3266489917, 668265263, 374761393, 2147483647, 1181783497, 982451653],
+                  dtype=np.uint64)
 
 
 def read(path):
@@ -31,12 +32,12 @@ def assemble(sections):
     mesh = Mesh(sections.points, [], groups=sections.names)
     numbers, entities, members, first = [], [], [], 0
     for kind, number in VTK_TYPES.items():
-        runs = [run for run in sections.blocks if run[0] == kind]
+        runs = [run for run in sections.blocks if REDUCED.get(run[0], run[0]) == kind]
         if not runs:
             continue
-        corners = positions(np.concatenate([run[4] for run in runs]), sections.tags)
-        kept, cell_of = distinct(corners)
-        mesh.blocks.append((number, corners[kept][:, SWAPPED.get(kind, slice(None))]))
+        nodes = positions(np.concatenate([run[4][:, :TYPES[number][2]] for run in runs]), sections.tags)
+        kept, cell_of = distinct(nodes[:, :CORNERS[number]])
+        mesh.blocks.append((number, reordered(number, nodes[kept], VTK_ORDERS)))
         numbers.append(np.concatenate([run[1] for run in runs])[kept])
         entities.append(np.concatenate([run[2] for run in runs])[kept])
         rows, groups = memberships(runs)

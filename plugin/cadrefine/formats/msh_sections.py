@@ -10,8 +10,8 @@ import numpy as np
 
 from cadrefine.formats import BadFile
 from cadrefine.formats.msh_numbers import Binary, Text, alike
+from cadrefine.formats.msh_types import POINTS
 
-POINTS = {1: 2, 2: 3, 3: 4, 4: 4, 5: 8, 6: 6, 7: 5, 8: 3, 9: 6, 11: 10, 15: 1}  # Of each of gmsh's types of cells.
 
 
 class Reader:
@@ -170,5 +170,5 @@ class Reader:
 
 def points_of(kind):
     if int(kind) not in POINTS:
-        raise BadFile(f"holds cells of gmsh's type {int(kind)}, of higher order or no simplices")
+        raise BadFile(f"holds cells of gmsh's type {int(kind)}, of higher order or polyhedra")
     return POINTS[int(kind)]

@@ -2,9 +2,10 @@
 
 import numpy as np
 
-from cadrefine.formats.grid import GEOMETRICAL, TYPES
+from cadrefine.formats.cells import TYPES, reordered
+from cadrefine.formats.grid import GEOMETRICAL
 from cadrefine.formats.groups import grouped, sets_of_groups
-from cadrefine.formats.msh_types import GMSH_TYPES, SWAPPED
+from cadrefine.formats.msh_types import GMSH_ORDERS, GMSH_TYPES
 
 
 class Text:
@@ -102,7 +103,7 @@ def write_elements_2(numbers, mesh, entities, place):
         cell_labels = labels[first_label[place[of_block][rows]] + within]
         ids = np.arange(written, written + len(rows))[:, np.newaxis] + 1
         written += len(rows)
-        nodes = 1 + corners[rows][:, SWAPPED.get(GMSH_TYPES[kind], slice(None))]
+        nodes = 1 + reordered(kind, corners[rows], GMSH_ORDERS)
         if isinstance(numbers, Binary):
             numbers.rows(("i", [[GMSH_TYPES[kind], len(rows), 2]]))
             numbers.rows(("i", ids), ("i", cell_labels), ("i", nodes))
@@ -161,7 +162,7 @@ def write_elements_4(numbers, mesh, entities, place):
     numbers.rows(("n", [[len(runs), first, 1, first]]))
     for kind, entity, cells, corners, first in runs:
         numbers.rows(("i", [[*entities[entity][:2], GMSH_TYPES[kind]]]), ("n", [[len(cells)]]))
-        nodes = corners[cells][:, SWAPPED.get(GMSH_TYPES[kind], slice(None))]
+        nodes = reordered(kind, corners[cells], GMSH_ORDERS)
         numbers.rows(("n", 1 + first + cells[:, np.newaxis]), ("n", 1 + nodes))
 
 

@@ -5,13 +5,17 @@ import re
 
 from cadrefine.formats import BadFile
 from cadrefine.formats.bulk import Bulk
+from cadrefine.formats.cells import LAYERED, inverse
 
 REFERENCE = "nastran:ref"  # Cell array, as meshio names it: the property of each element.
-SOLIDS = {"CTETRA": {4: 10, 10: 24}, "CPENTA": {6: 13}, "CHEXA": {8: 12}, "CPYRAM": {5: 14}, "CPYRA": {5: 14}}
+PYRAMIDS = {5: 14, 13: 27}
+SOLIDS = {"CTETRA": {4: 10, 10: 24}, "CPENTA": {6: 13, 15: 26}, "CHEXA": {8: 12, 20: 25}, "CPYRAM": PYRAMIDS,
+          "CPYRA": PYRAMIDS}
 SHELLS = {"CTRIA3": 5, "CTRIAR": 5, "CPLSTS3": 5, "CPLSTN3": 5, "CTRIA6": 22, "CPLSTS6": 22, "CPLSTN6": 22, "CQUAD4": 9,
-          "CQUADR": 9, "CPLSTS4": 9, "CPLSTN4": 9}
+          "CQUADR": 9, "CPLSTS4": 9, "CPLSTN4": 9, "CQUAD8": 23, "CPLSTS8": 23, "CPLSTN8": 23, "CQUAD": 23}
 LINES = ("CROD", "CTUBE", "CBAR", "CBEAM")
-SIZES = {5: 3, 22: 6, 9: 4}
+SIZES = {5: 3, 22: 6, 9: 4, 23: 8}
+ORDERS = inverse(LAYERED)
 NO_EXPONENT = re.compile(r"(?<=[\d.])([+-]\d)")  # Nastran writes 1.5-3 for 1.5E-3.
 NAME = re.compile(r"\$HMNAME\s+(?:COMP|PROP)\s+(\d+)\s*\"([^\"]+)\"")  # As HyperMesh names components.
 
@@ -77,9 +81,8 @@ def add_card(bulk, fields):
         nodes = [int(field) for field in fields[3:] if field] if name in SOLIDS else fields[3:]
         kind = kind_of(name, nodes)
         nodes = nodes if name in SOLIDS else [int(field) for field in nodes[:SIZES.get(kind, 2)]]
+        nodes = [nodes[place] for place in ORDERS[kind]] if kind in ORDERS else nodes
         bulk.add_element(int(fields[1]), kind, nodes, int(fields[2] or 0))
-    elif name in ("CQUAD8", "CQUAD"):
-        raise BadFile(f"holds elements {name}, which are no simplices")
 
 
 def kind_of(name, nodes):

@@ -4,20 +4,10 @@ import dataclasses
 
 import numpy as np
 
-from cadrefine.formats.grid import PHYSICAL, TYPES, tag_array
+from cadrefine.formats.cells import CORNERS, SIDES, TYPES, facet_of
+from cadrefine.formats.grid import PHYSICAL, tag_array
 from cadrefine.formats.groups import BOUNDARY, is_list, set_groups, unused
 
-SEGMENT_SIDES = ((0, 1), (1, 2), (2, 0))
-TETRAHEDRON_SIDES = ((0, 1, 3), (1, 2, 3), (0, 3, 2), (0, 2, 1))
-SIDES = {  # Corners of the sides of each of VTK's types of cells: normals outwards, in the order of Exodus.
-    5: SEGMENT_SIDES, 22: SEGMENT_SIDES, 9: ((0, 1), (1, 2), (2, 3), (3, 0)),
-    10: TETRAHEDRON_SIDES, 24: TETRAHEDRON_SIDES,
-    12: ((0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (0, 4, 7, 3), (0, 3, 2, 1), (4, 5, 6, 7)),
-    13: ((0, 1, 4, 3), (1, 2, 5, 4), (0, 3, 5, 2), (0, 2, 1), (3, 4, 5)),
-    14: ((0, 1, 4), (1, 2, 4), (2, 3, 4), (0, 4, 3), (0, 3, 2, 1)),
-}
-CORNERS = {1: 1, 3: 2, 5: 3, 9: 4, 10: 4, 12: 8, 13: 6, 14: 5, 21: 2, 22: 3, 24: 4}  # Of the types, without mid nodes.
-FACET_TYPES = {2: 3, 3: 5, 4: 9}  # VTK's types of sides, by the number of corners.
 WIDTH = 4  # Most corners of a side.
 
 
@@ -63,6 +53,32 @@ def tagged(mesh, sides):
         tags[rest] = 1 + max([0, *(tag for tag, _ in mesh.groups.values())])
         mesh.groups[unused(BOUNDARY, mesh.groups)] = (int(tags[rest][0]), int(mesh.cell_dimensions().max()) - 1)
     return tags
+
+
+def with_boundary(mesh):
+    """The grouped mesh with each side of its boundary as a cell that is in a group."""
+    sides = sides_of(mesh)
+    mesh = with_facets(mesh, sides, np.flatnonzero((sides.neighbours < 0) & (sides.facets < 0)))
+    sides = sides_of(mesh)
+    boundary = sides.neighbours < 0
+    mesh.cell_data[PHYSICAL][sides.facets[boundary]] = tagged(mesh, sides)[boundary]
+    return mesh
+
+
+def with_facets(mesh, sides, chosen):
+    """The mesh with the `chosen` sides of its cells as further cells, whose arrays are 0."""
+    found, first = {}, 0
+    for kind, nodes in mesh.blocks:
+        cells, numbers = sides.cells[chosen] - first, sides.numbers[chosen]
+        inside = (0 <= cells) & (cells < len(nodes))
+        for number in np.unique(numbers[inside]):
+            facet, places = facet_of(kind, SIDES[kind][number])
+            found.setdefault(facet, []).append(nodes[cells[inside & (numbers == number)]][:, places])
+        first += len(nodes)
+    cell_data = {name: np.concatenate([values, np.zeros((len(chosen), *values.shape[1:]), values.dtype)])
+                 for name, values in mesh.cell_data.items()}
+    blocks = [*mesh.blocks, *((facet, np.concatenate(rows)) for facet, rows in found.items())]
+    return dataclasses.replace(mesh, blocks=blocks, cell_data=cell_data)
 
 
 def all_sides(mesh, dimension):

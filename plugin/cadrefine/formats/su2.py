@@ -3,16 +3,20 @@
 import numpy as np
 
 from cadrefine.formats import BadFile
-from cadrefine.formats.grid import QUADRATIC, TYPES, Mesh
+from cadrefine.formats.cells import FACET_TYPES, LINEAR, TURNED, TYPES, turned_where_negative
+from cadrefine.formats.grid import Mesh
+from cadrefine.formats.grid import check as check_nodes
 from cadrefine.formats.groups import NAME, group_names, grouped
-from cadrefine.formats.sides import FACET_TYPES, sides_of, tagged
+from cadrefine.formats.sides import sides_of, tagged
 
 TAGS = "su2:tag"
-LINEAR = (3, 5, 9, 10, 12, 13, 14)  # SU2 numbers types of cells as VTK does.
+KINDS = (3, 5, 9, 10, 12, 13, 14)  # SU2 numbers types of cells as VTK does, and their corners.
+WEDGE = 13
 
 
 def read(path):
-    """The Mesh; cells of the mesh's own dimension are in no group. Throws BadFile."""
+    """The Mesh; cells of the mesh's own dimension are in no group. Volume cells are the right way round, as SU2 turns
+    them itself. Throws BadFile."""
     with open(path, encoding="utf-8", errors="replace") as file:
         lines = Lines(file)
         try:
@@ -59,7 +63,10 @@ def read_lines(lines):
             add_cells(cells, tags, lines.table(int(value)), tag if key == "MARKER_ELEMS" else 0)
     blocks = [(kind, np.array(rows, dtype=int)) for kind, rows in cells.items()]
     numbers = np.concatenate([[], *(tags[kind] for kind, _ in blocks)]).astype(np.int32)
-    return Mesh(points, blocks, {}, {TAGS: numbers}, groups)
+    mesh = Mesh(points, blocks, {}, {TAGS: numbers}, groups)
+    check_nodes(mesh)
+    mesh.blocks = [(kind, turned_where_negative(points, kind, corners)) for kind, corners in blocks]
+    return mesh
 
 
 def number_of(name, groups):
@@ -75,7 +82,7 @@ def add_cells(cells, tags, rows, tag):
         kind = int(row[0])
         if kind == 1:  # A vertex, which tells of pieces of a mesh.
             continue
-        if kind not in LINEAR:
+        if kind not in KINDS:
             raise BadFile(f"holds cells of the type {kind}")
         cells.setdefault(kind, []).append([int(word) for word in row[1:1 + TYPES[kind][2]]])
         tags.setdefault(kind, []).append(tag)
@@ -83,7 +90,7 @@ def add_cells(cells, tags, rows, tag):
 
 def check(mesh):
     """Throws BadFile where the format cannot hold the mesh."""
-    if any(kind in QUADRATIC for kind, _ in mesh.blocks):
+    if any(kind in LINEAR for kind, _ in mesh.blocks):
         raise BadFile("SU2 has no quadratic cells")
     if mesh.cell_dimensions().max(initial=0) < dimension_of(mesh):
         raise BadFile("SU2 has no meshes of surfaces in space")
@@ -104,7 +111,7 @@ def write(path, mesh):
         cells = [block for block in mesh.blocks if TYPES[block[0]][1] == dimension]
         file.write(f"NDIME= {dimension}\nNELEM= {sum(len(corners) for _, corners in cells)}\n")
         for kind, corners in cells:
-            write_cells(file, kind, corners)
+            write_cells(file, kind, corners[:, TURNED[kind]] if kind == WEDGE else corners)
         file.write(f"NPOIN= {len(mesh.points)}\n")
         np.savetxt(file, mesh.points[:, :dimension], "%.17g")
         markers = {tag: name for tag, name in group_names(mesh, dimension - 1, NAME).items() if (tags == tag).any()}

@@ -10,11 +10,15 @@ NODES, ELEMENTS, GROUPS = ("2411", "781"), ("2412",), ("2435", "2452", "2467", "
 ELEMENT_MEMBER = 8  # Kind of a member of a group.
 BEAMS = (11, 21, 22, 23, 24)  # Their second line is about their section.
 LINES = {11: 3, 21: 3, 22: 3, 23: 21, 24: 21}
-# VTK's types, by the descriptor of an element: rods and beams; plane, axisymmetric and shell triangles; solids.
+# VTK's types, by the descriptor of an element: rods and beams; plane, axisymmetric and shell triangles and
+# quadrilaterals; solids. SALOME uses the cubic wedge's number for pyramids of second order.
 TYPES = {**LINES, **dict.fromkeys((41, 51, 61, 74, 81, 91), 5), **dict.fromkeys((42, 52, 62, 72, 82, 92), 22),
-         **dict.fromkeys((44, 54, 64, 71, 84, 94), 9), 111: 10, 118: 24, 115: 12, 112: 13, 113: 14}
-# Nodes go round an element, mid nodes between the corners.
-ORDERS = {21: [0, 2, 1], 22: [0, 2, 4, 1, 3, 5], 24: [0, 2, 4, 9, 1, 3, 5, 6, 7, 8]}
+         **dict.fromkeys((44, 54, 64, 71, 84, 94), 9), **dict.fromkeys((45, 55, 65, 75, 85, 95), 23), 111: 10, 118: 24,
+         115: 12, 116: 25, 112: 13, 113: 26, 114: 27}
+# Nodes go round an element, mid nodes between the corners, layer by layer.
+ORDERS = {21: [0, 2, 1], 22: [0, 2, 4, 1, 3, 5], 23: [0, 2, 4, 6, 1, 3, 5, 7], 24: [0, 2, 4, 9, 1, 3, 5, 6, 7, 8],
+          25: [0, 2, 4, 6, 12, 14, 16, 18, 1, 3, 5, 7, 13, 15, 17, 19, 8, 9, 10, 11],
+          26: [0, 2, 4, 9, 11, 13, 1, 3, 5, 10, 12, 14, 6, 7, 8], 27: [0, 2, 4, 6, 12, 1, 3, 5, 7, 8, 9, 10, 11]}
 
 
 def read(path):
@@ -60,7 +64,7 @@ def read_elements(bulk, lines):
         while len(nodes) < count:
             nodes += [int(word) for word in next(lines).split()]
         if descriptor not in TYPES:
-            raise BadFile(f"holds elements of the type {descriptor} of universal files, which are no simplices")
+            raise BadFile(f"holds elements of the type {descriptor} of universal files")
         kind = TYPES[descriptor]
         nodes = [nodes[place] for place in ORDERS.get(kind, range(count))]
         bulk.add_element(number, kind, nodes, property_number)

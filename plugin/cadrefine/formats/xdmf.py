@@ -6,18 +6,22 @@ import os
 import xml.etree.ElementTree as ElementTree
 
 import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkMultiBlockDataSet, vtkUnstructuredGrid
 from vtkmodules.vtkIOXdmf2 import vtkXdmfReader, vtkXdmfWriter
 
-from cadrefine.formats import BadFile
+from cadrefine.formats import BadFile, library
 from cadrefine.formats.blocks import joined, merge_cells, orient
-from cadrefine.formats.grid import PHYSICAL, SERIAL, TYPES, Mesh, arrays_of, tag_array, to_grid, to_vtk
+from cadrefine.formats.cells import TYPES
+from cadrefine.formats.grid import PHYSICAL, SERIAL, Mesh, arrays_of, tag_array, to_grid, to_vtk
 from cadrefine.formats.groups import grouped
 
 FACET_TAGS = "facet_tags"
 PLANE = "plane"  # Points in the plane, two coordinates: DOLFIN takes them for a mesh of two dimensions.
 INCLUDE = "{*}include"  # DOLFINx 0.5 and 0.9 have different names for the name space.
-ORDER = ("mesh", "facets", "edges", "vertices")
+
+# XDMF's numbers, by VTK's, of the types of cells that can be beside others in a grid.
+NUMBERS = {5: 4, 9: 5, 10: 6, 14: 7, 13: 8, 12: 9, 22: 36, 23: 37, 24: 38, 27: 39, 26: 40, 25: 48}
 
 OVERHEAD = 1 << 20  # Bytes of an HDF5 file beside its numbers, more or less.
 KINDS = {1: "Scalar", 3: "Vector", 6: "Tensor6", 9: "Tensor"}  # Of attributes, by components.
@@ -107,13 +111,13 @@ def parse(path):
 
 
 def write(path, mesh):
-    """Writes a Mesh to `path`, and its numbers to the HDF5 file beside it: a grid for each type of cells, all with the
-    same points. The cells of the highest dimension are the grid "mesh", which DOLFIN takes; those of its boundary are
+    """Writes a Mesh to `path`, and its numbers to the HDF5 file beside it: a grid for each dimension, all with the same
+    points. The cells of the highest dimension are the grid "mesh", which DOLFIN takes; those of its boundary are
     "facets", with their tags a second time as FACET_TAGS, since DOLFIN seeks arrays by name in all grids. Names of
     groups are Information of each grid, as meshio reads them: text that is XML itself."""
     named = grouped(mesh)
     mesh = named if named.groups else mesh
-    grids = dict(sorted(grids_of(mesh), key=lambda item: ORDER.index(item[0])))
+    grids = grids_of(mesh)
     data = vtkMultiBlockDataSet()
     names = {}
     for index, grid in enumerate(grids.values()):
@@ -129,6 +133,24 @@ def write(path, mesh):
             raise OSError("the HDF5 library reports an error")
     os.replace(os.path.join(folder, SERIAL + name), path)
     arrange(path, list(grids), names, mesh)
+    number_mixed_cells(path, grids)
+
+
+def number_mixed_cells(path, grids):
+    """Gives quadrilaterals, and cells of second order, their numbers where they are beside others: VTK's writer has
+    wrong ones."""
+    for element, grid in zip(parse(path).iter("Grid"), grids.values()):
+        topology = element.find("Topology")
+        if topology.get("TopologyType") != "Mixed":
+            continue
+        types = vtk_to_numpy(grid.GetCellTypesArray())
+        sizes = np.diff(vtk_to_numpy(grid.GetCells().GetOffsetsArray()))
+        starts = np.cumsum([0, *(1 + sizes)])[:-1]
+        name, _, inside = topology.find("DataItem").text.rpartition(":")
+        with library("h5py").File(os.path.join(os.path.dirname(os.path.abspath(path)), name), "a") as file:
+            numbers = file[inside][()]
+            numbers[starts] = np.array([NUMBERS.get(kind, 0) for kind in range(256)])[types]
+            file[inside][...] = numbers
 
 
 def check_space(path, size):
@@ -141,22 +163,22 @@ def check_space(path, size):
 
 
 def grids_of(mesh):
-    """Pairs of name and vtkUnstructuredGrid. Points in the plane z = 0 get the array PLANE."""
-    dimensions = [TYPES[number][1] for number, _ in mesh.blocks]
+    """{name: vtkUnstructuredGrid}, the cells of the highest dimension first. Points in the plane z = 0 get the array
+    PLANE."""
+    dimensions, grids = mesh.cell_dimensions(), {}
     tags = mesh.cell_data.get(tag_array(mesh.cell_data))
     points = dict(mesh.point_data)
     if not np.any(mesh.points[:, 2]):
         points[PLANE] = mesh.points[:, :2]
-    first = 0
-    for (number, corners), dimension in zip(mesh.blocks, dimensions):
-        cells = slice(first, first + len(corners))
-        first = cells.stop
-        arrays = {name: values[cells] for name, values in mesh.cell_data.items()}
-        below = max(dimensions) - dimension
+    for dimension in np.unique(dimensions)[::-1].tolist():
+        arrays = {name: values[dimensions == dimension] for name, values in mesh.cell_data.items()}
+        below = dimensions.max() - dimension
         if below == 1 and tags is not None:
-            arrays[FACET_TAGS] = tags[cells]
+            arrays[FACET_TAGS] = tags[dimensions == dimension]
         name = ("mesh", "facets")[below] if below < 2 else ("vertices", "edges")[dimension]
-        yield name, to_grid(Mesh(mesh.points, [(number, corners)], points, arrays))
+        blocks = [(kind, corners) for kind, corners in mesh.blocks if TYPES[kind][1] == dimension]
+        grids[name] = to_grid(Mesh(mesh.points, blocks, points, arrays))
+    return grids
 
 
 def with_numbered_arrays(grid, names):
