@@ -10,9 +10,10 @@ import numpy as np
 from cadrefine.formats import BadFile
 from cadrefine.formats.grid import Mesh
 from cadrefine.formats.groups import set_groups, unused
+from cadrefine.formats.openfoam_cells import cells_of
 from cadrefine.parts import polymesh_of
 
-TETRAHEDRON, TRIANGLE, QUADRILATERAL = 10, 5, 9  # VTK's types of cells.
+TRIANGLE, QUADRILATERAL = 5, 9  # VTK's types of cells.
 HEAD = re.compile(rb"FoamFile\s*\{(.*?)\}", re.DOTALL)
 COMMENT = re.compile(rb"//[^\n]*|/\*.*?\*/", re.DOTALL)
 START = re.compile(rb"\s*(\d+)\s*([({])")  # Of a list: how many, and the brace of values or of one value for all.
@@ -107,7 +108,7 @@ def content_of(path):
 
 
 def read(path):
-    """The Mesh of tetrahedra, and of the faces in patches and zones. Throws BadFile."""
+    """The Mesh of the cells, and of the faces in patches and zones. Throws BadFile."""
     folder = polymesh_of(path)
     if folder is None:
         raise BadFile("there is no folder constant/polyMesh beside it")
@@ -125,7 +126,7 @@ def read_folder(folder):
     if len(owner) != len(faces) or faces.max(initial=-1) >= len(points) or len(neighbour) > len(owner) or not (
             0 <= cells.min(initial=0) <= cells.max(initial=0) < len(faces)):
         raise BadFile("constant/polyMesh/owner, faces and points do not fit together")
-    cells = tetrahedra(points, faces, owner, neighbour)
+    blocks, cell_places = cells_of(faces, owner, neighbour)
     patches = list(patches_of(File(folder, "boundary")))
     members = [(name, 2, np.arange(start, start + count)) for name, _, start, count in patches]
     members += zones_of(folder, "faceZones", b"faceLabels", 2) + zones_of(folder, "cellZones", b"cellLabels", 3)
@@ -133,40 +134,18 @@ def read_folder(folder):
     chosen = np.unique(np.concatenate([np.zeros(0, int), *in_groups]))
     chosen = chosen[np.argsort((faces[chosen] >= 0).sum(axis=1), kind="stable")]
     sizes = (faces[chosen] >= 0).sum(axis=1)
-    if not set(np.unique(sizes)) <= {3, 4}:
-        raise BadFile("it holds faces of more than 4 corners; convert the mesh to tetrahedra")
-    blocks = [(kind, faces[chosen[sizes == size], :size]) for kind, size in ((TRIANGLE, 3), (QUADRILATERAL, 4))
+    facets = [(kind, faces[chosen[sizes == size], :size]) for kind, size in ((TRIANGLE, 3), (QUADRILATERAL, 4))
               if (sizes == size).any()]
-    mesh = Mesh(points, [*blocks, (TETRAHEDRON, cells)], patch_types={name: kind for name, kind, _, _ in patches})
+    mesh = Mesh(points, [*facets, *blocks], patch_types={name: kind for name, kind, _, _ in patches})
     place = np.full(len(faces), -1)
     place[chosen] = np.arange(len(chosen))
     rows = []
     for tag, (name, dimension, numbers) in enumerate(members, 1):
         mesh.groups[unused(name, mesh.groups)] = (tag, dimension)
-        where = place[numbers] if dimension == 2 else len(chosen) + numbers
+        where = place[numbers] if dimension == 2 else len(chosen) + cell_places[numbers]
         rows.append(np.column_stack([where, np.full(len(numbers), tag)]))
     set_groups(mesh, np.concatenate(rows))
     return mesh
-
-
-def tetrahedra(points, faces, owner, neighbour):
-    """Corners of the cells: those of a face, and the one of the next face that is not among them."""
-    cells = np.concatenate([owner, neighbour])
-    numbers = np.concatenate([np.arange(len(owner)), np.arange(len(neighbour))])
-    order = np.argsort(cells, kind="stable")
-    counts = np.bincount(cells)
-    if (counts != 4).any() or (faces[:, :3] < 0).any() or (faces[:, 3:] >= 0).any():
-        raise BadFile("it holds other cells than tetrahedra; convert the mesh to tetrahedra")
-    first, second = numbers[order].reshape(-1, 4)[:, :2].T
-    other = faces[second, :3]
-    apex = other[~(other[:, :, np.newaxis] == faces[first, np.newaxis, :3]).any(axis=2)]
-    if len(apex) != len(first):
-        raise BadFile("two faces of a cell have the same corners, or none in common")
-    corners = np.column_stack([faces[first, :3], apex])
-    sides = points[corners[:, 1:]] - points[corners[:, :1]]
-    turned = np.linalg.det(sides) < 0
-    corners[turned, 1:3] = corners[turned, 2:0:-1]
-    return corners
 
 
 def patches_of(file):

@@ -5,7 +5,8 @@ import os
 import numpy as np
 
 from cadrefine.formats import BadFile
-from cadrefine.formats.grid import PHYSICAL, QUADRATIC
+from cadrefine.formats.cells import LINEAR
+from cadrefine.formats.grid import PHYSICAL
 from cadrefine.formats.groups import NAME, group_names, grouped
 from cadrefine.formats.sides import sides_of, tagged
 
@@ -28,7 +29,7 @@ def check(mesh):
     dimensions = mesh.cell_dimensions()
     if dimensions.max(initial=0) < 3:
         raise BadFile("OpenFOAM has meshes of volume cells alone; extrude the plane by one layer first")
-    if any(kind in QUADRATIC for kind, _ in mesh.blocks):
+    if any(kind in LINEAR for kind, _ in mesh.blocks):
         raise BadFile("OpenFOAM has no quadratic cells")
 
 
@@ -82,12 +83,13 @@ def write_list(folder, name, kind, rows, row_format, note=""):
 def write_faces(folder, corners):
     """Of triangles and quadrilaterals, in their order."""
     sizes = (corners >= 0).sum(axis=1)
-    changes = np.flatnonzero(np.diff(sizes)) + 1
+    lines = np.empty(len(corners), object)
+    for size in np.unique(sizes):
+        text = f"{size}({' '.join(['%d'] * size)})\n"
+        lines[sizes == size] = [text % tuple(row) for row in corners[sizes == size, :size].tolist()]
     with open_file(folder, "faces", "faceList") as file:
         file.write(f"{len(corners)}\n(\n")
-        for run in np.split(corners, changes):
-            size = int((run[0] >= 0).sum())
-            np.savetxt(file, run[:, :size], f"{size}({' '.join(['%d'] * size)})")
+        file.writelines(lines)
         file.write(")\n")
 
 
