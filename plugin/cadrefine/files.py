@@ -21,7 +21,8 @@ MESHIO = {".mesh": "medit", ".meshb": "medit", ".vol": "netgen"}  # Its modules 
 OWN = {".su2": "su2", ".med": "med", ".foam": "openfoam", ".unv": "unv", ".bdf": "nastran", ".nas": "nastran",
        ".fem": "nastran"}
 WRITERS = {".msh": "msh_writing", ".xdmf": "xdmf", ".med": "med", ".exo": "exodus_writing", ".e": "exodus_writing",
-           ".inp": "abaqus", ".su2": "su2", ".foam": "openfoam_writing"}
+           ".inp": "abaqus", ".su2": "su2", ".cgns": "cgns_writing", ".bdf": "nastran_writing", ".unv": "unv_writing",
+           ".mesh": "medit_writing", ".foam": "openfoam_writing"}
 
 HDF5 = b"\x89HDF"  # How such files begin.
 

@@ -33,7 +33,8 @@ examples:
     xvfb-run -a pvpython cadrefine.py plane.vtu plane.igs --region 0 0.2 -1 1 -1 1 \\
         --screenshot nose.png
 
-formats of MESH (triangles or tetrahedra; cells of lower dimension carry tags):
+formats of MESH (hexahedra, wedges, pyramids and tetrahedra, or quadrilaterals and triangles; cells of
+lower dimension carry tags):
   .vtu .pvtu .vtk .vtp ...  VTK's files, and whatever else ParaView reads
   .msh                      gmsh, versions 2.2 and 4.1, text and binary, with physical groups
   .xdmf                     as written by meshio, DOLFIN, DOLFINx, ParaView; all grids of the domain
@@ -45,7 +46,7 @@ formats of MESH (triangles or tetrahedra; cells of lower dimension carry tags):
   .su2                      SU2, with names of markers
   .cgns                     CGNS in HDF5: boundary conditions, families, zones; through python3-h5py
   .med                      SALOME and code_aster, with groups; needs python3-h5py
-  CASE/NAME.foam, CASE      OpenFOAM, with patches and zones
+  CASE/NAME.foam, CASE      OpenFOAM, with patches and zones; no other polyhedra
   Tags of gmsh are the cell arrays gmsh:physical and gmsh:geometrical, those of Medit medit:ref, of
   Exodus ObjectId. Names of groups are field data of the mesh, and are written with the groups.
   Quadratic cells are taken by their corners, and made quadratic again at the end.
@@ -60,6 +61,10 @@ formats of --output, all but .vtu and .pvtu with groups and their names:
   .med   SALOME and code_aster; needs python3-h5py
   .exo   Exodus (also .e), for MOOSE: blocks, side sets, node sets; needs python3-scipy
   .inp   Abaqus and CalculiX: sets of elements, surfaces, sets of nodes
+  .cgns  CGNS in HDF5: boundary conditions, subregions; needs python3-h5py
+  .bdf   Nastran: properties
+  .unv   SALOME, I-DEAS: groups of elements
+  .mesh  Medit, Mmg: references
   .su2   SU2: markers
   .foam  OpenFOAM: constant/polyMesh beside the file, patches and zones; the name of the folder of a
          case does the same

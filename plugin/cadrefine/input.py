@@ -22,7 +22,7 @@ def open_mesh(path, terminal):
     mesh = open_with_groups(path) if files.can_read(path) else open_in_paraview(path)
     data = local_output(mesh)
     if not (data.IsA("vtkUnstructuredGrid") or data.IsA("vtkPolyData")):
-        raise Failure(f"{path}: holds a {data.GetClassName()}, not a mesh of triangles or tetrahedra")
+        raise Failure(f"{path}: holds a {data.GetClassName()}, not a mesh of cells")
     if mesh.GetDataInformation().GetNumberOfCells() == 0:
         raise Failure(f"{path}: the mesh has no cells")
     return mesh

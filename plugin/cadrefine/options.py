@@ -66,7 +66,7 @@ def option_parser():
                        ".inp .foam ...; see below")
     files.add_argument("cad", metavar="CAD", help="the CAD model: .igs .iges .stp .step .brep")
     files.add_argument("--output", metavar="FILE", help="write the last mesh: .vtu .pvtu .xdmf .msh .med .exo .inp "
-                       ".su2 .foam; see below")
+                       ".cgns .bdf .unv .mesh .su2 .foam; see below")
     files.add_argument("--boundary-cells", action=argparse.BooleanOptionalAction, default=True,
                        help="write the boundary's facets (in 2D, lines) too, each with its CAD face: cell arrays "
                        "CADEntity, CADDimension and CADColor (default)")

@@ -19,12 +19,16 @@ NOT_KEPT = {
     ".exo": "arrays, but for groups",
     ".e": "arrays, but for groups",
     ".inp": "arrays, but for groups",
+    ".cgns": "arrays, but for groups of cells, facets and edges",
+    ".bdf": "arrays, but for the first group of each cell",
+    ".unv": "arrays, but for groups of cells, facets and edges",
+    ".mesh": "arrays, but for the number of the first group of each cell",
     ".su2": "arrays, but for groups of facets on the boundary",
     ".foam": "arrays, but for groups",
 }
 FORMATS = (".vtu", ".pvtu", *NOT_KEPT)
-NEEDED = {".med": "h5py", ".exo": "scipy", ".e": "scipy"}  # Python packages.
-LINEAR_ONLY = {".su2": "SU2", ".foam": "OpenFOAM"}
+NEEDED = {".med": "h5py", ".cgns": "h5py", ".exo": "scipy", ".e": "scipy"}  # Python packages.
+LINEAR_ONLY = {".su2": "SU2", ".foam": "OpenFOAM", ".mesh": "Medit"}
 
 
 def ending(path):
