@@ -2,8 +2,8 @@
 
     mesh_files.py PLUGIN DATA FOLDER
 
-FOLDER has gmsh4binary.msh and files that cannot be read. What was found is left there in found.json: where it is not,
-the script failed. (Under mpirun pvbatch hangs when its script ends with an exception.)
+FOLDER has gmsh4binary.msh, mixed.msh and files that cannot be read. What was found is left there in found.json: where
+it is not, the script failed. (Under mpirun pvbatch hangs when its script ends with an exception.)
 """
 
 import json
@@ -32,6 +32,15 @@ def described(source):
             "points": information.GetNumberOfPoints(), "fields": sorted(source.FieldData.keys())}
 
 
+def measured(source):
+    """How many volume cells are positive, and their volume, over all ranks."""
+    sizes = simple.CellSize(Input=source, ComputeSum=1)
+    solids = simple.Threshold(Input=sizes, Scalars=["CELLS", "Volume"], LowerThreshold=1e-12, UpperThreshold=1e9)
+    solids.UpdatePipeline()
+    sizes.UpdatePipeline()
+    return [solids.GetDataInformation().GetNumberOfCells(), sizes.FieldData["Volume"].GetRange()[1]]
+
+
 def errors_of(work):
     errors.clear()
     work()
@@ -57,6 +66,11 @@ def run(plugin, data, folder):
     spread = simple.RedistributeDataSet(Input=mesh)
     simple.SaveData(path("spread.msh"), spread)
     found["spread"] = described(simple.OpenDataFile(path("spread.msh")))
+    mixed = simple.RedistributeDataSet(Input=simple.OpenDataFile(path("mixed.msh")))
+    found["mixed"] = {}
+    for ending in (*ENDINGS, "bdf", "mesh"):
+        simple.SaveData(path("mixed_saved." + ending), mixed)
+        found["mixed"][ending] = measured(simple.MeshReader(FileName=path("mixed_saved." + ending)))
     found["abaqus"] = simple.OpenDataFile(path("saved.inp")).GetXMLLabel()
     found["avs"] = simple.OpenDataFile(path("avs.inp")).GetXMLLabel()
     for name in sorted(os.listdir(folder)):

@@ -253,6 +253,52 @@ def write_boxes(path):
         gmsh.finalize()
 
 
+def write_mixed(path, path_2, lid=True, complete=False):
+    """Boxes side by side: one of hexahedra, one of wedges; with `lid`, two of tetrahedra above them, and pyramids where
+    hexahedra and tetrahedra meet. All have a volume of 1. Some facets are in a group: "floor", "roof", "contact"
+    (between the boxes and what is above them), and of the lower boxes "left", "right", "front" and "back". Also of
+    second order, `complete` with nodes on sides and inside. Returns {(name, dimension): number of cells}. (gmsh 4.8
+    makes pyramids once in a process, and crashes then.)"""
+    gmsh.initialize()
+    try:
+        gmsh.option.setNumber("General.Terminal", 0)
+        geometry = gmsh.model.geo
+        corners = [geometry.addPoint(x, y, 0, 0.4) for x, y in ((0, 0), (1, 0), (2, 0), (2, 1), (1, 1), (0, 1))]
+        around = [geometry.addLine(corners[i - 1], corners[i]) for i in (1, 2, 3, 4, 5, 0)]
+        between = geometry.addLine(corners[1], corners[4])
+        loops = [[around[0], between, *around[4:]], [*around[1:4], -between]]
+        floor = [geometry.addPlaneSurface([geometry.addCurveLoop(loop)]) for loop in loops]
+        for curve in (*around, between):
+            geometry.mesh.setTransfiniteCurve(curve, 4)
+        geometry.mesh.setTransfiniteSurface(floor[0])
+        geometry.mesh.setRecombine(2, floor[0])
+        layers = geometry.extrude([(2, surface) for surface in floor], 0, 0, 1, numElements=[2], recombine=True)
+        contact = [layers[place - 1] for place, (dimension, _) in enumerate(layers) if dimension == 3]
+        above = geometry.extrude(contact, 0, 0, 1) if lid else []
+        geometry.synchronize()
+        boxes, tetrahedra = ([tag for dimension, tag in made if dimension == 3] for made in (layers, above))
+        roof = [above[place - 1][1] for place, (dimension, _) in enumerate(above) if dimension == 3]
+        groups = {("hexahedra", 3): boxes[:1], ("wedges", 3): boxes[1:], ("above", 3): tetrahedra, ("floor", 2): floor,
+                  ("contact", 2): [tag for _, tag in contact], ("roof", 2): roof}
+        extents = {tag: gmsh.model.getBoundingBox(2, tag) for _, tag in gmsh.model.getEntities(2)}
+        for name, axis, place in (("left", 0, 0), ("right", 0, 2), ("front", 1, 0), ("back", 1, 1)):
+            groups[name, 2] = [tag for tag, extent in extents.items() if extent[5] < 1.1 and
+                               max(abs(extent[axis] - place), abs(extent[axis + 3] - place)) < 0.1]
+        groups = {pair: entities for pair, entities in groups.items() if entities}
+        for (name, dimension), entities in groups.items():
+            gmsh.model.setPhysicalName(dimension, gmsh.model.addPhysicalGroup(dimension, entities), name)
+        gmsh.model.mesh.generate(3)
+        gmsh.write(path)
+        gmsh.option.setNumber("Mesh.SecondOrderIncomplete", int(not complete))
+        gmsh.model.mesh.setOrder(2)
+        gmsh.write(path_2)
+        return {(name, dimension): sum(len(ids) for entity in entities
+                                       for ids in gmsh.model.mesh.getElements(dimension, entity)[1])
+                for (name, dimension), entities in groups.items()}
+    finally:
+        gmsh.finalize()
+
+
 def write_plane(folder):
     """A square in the plane z = 0, with tagged sides, by gmsh."""
     gmsh.initialize()

@@ -29,6 +29,8 @@ class MeshFiles(unittest.TestCase):
         cls.addClassCleanup(folder.cleanup)
         cls.folder = folder.name
         meshes.write_gmsh(driver.data("cylinder.brep"), cls.folder)
+        counts = meshes.write_mixed(cls.path("mixed.msh"), cls.path("mixed2.msh"))
+        cls.solids = sum(count for (_, dimension), count in counts.items() if dimension == 3)
         for name, content in (("avs.inp", AVS), *((name, content) for name, (content, _) in BAD.items())):
             with open(cls.path(name), "w", encoding="ascii") as file:
                 file.write(content)
@@ -83,6 +85,13 @@ class MeshFiles(unittest.TestCase):
         """Points that pieces share are one again."""
         self.assertEqual(self.found["spread"], self.found["opened"])
 
+    def test_mixed_cells(self):
+        """Hexahedra, wedges, pyramids and tetrahedra, in pieces, in all formats: four boxes of volume 1."""
+        self.assertEqual({ending: cells for ending, (cells, _) in self.found["mixed"].items()},
+                         dict.fromkeys(self.found["mixed"], self.solids))
+        for ending, (_, volume) in self.found["mixed"].items():
+            self.assertAlmostEqual(volume, 4, msg=ending)
+
     def test_the_reader_that_can_read_it_is_taken(self):
         self.assertEqual(self.found["abaqus"], "Mesh Reader")
         self.assertEqual(self.found["avs"], "AVS UCD Reader")
@@ -100,6 +109,7 @@ class MeshFiles(unittest.TestCase):
                 self.assertIn(self.path(name), line)
         self.assertIsNotNone(meshio.gmsh.read(self.path("saved.msh")))  # As it was.
         saved = {"saved." + ending for ending in (*self.found["files"], "h5")}
+        saved |= {"mixed_saved." + ending for ending in (*self.found["mixed"], "h5")}
         self.assertEqual(set(os.listdir(self.folder)) - self.before,
                          {*saved, "constant", "found.json", "text.msh", "spread.msh"})
 
