@@ -64,7 +64,7 @@ formats of --output, all but .vtu and .pvtu with groups and their names:
   .cgns  CGNS in HDF5: boundary conditions, subregions; needs python3-h5py
   .bdf   Nastran: properties
   .unv   SALOME, I-DEAS: groups of elements
-  .mesh  Medit, Mmg: references
+  .mesh  Medit, Mmg: numbers of groups
   .su2   SU2: markers
   .foam  OpenFOAM: constant/polyMesh beside the file, patches and zones; the name of the folder of a
          case does the same

@@ -27,7 +27,7 @@ from scipy.io import netcdf_file
 sys.path.insert(0, os.path.join(driver.ROOT, "plugin"))
 
 from cadrefine import files
-from cadrefine.formats import BadFile, abaqus, cgns, grid, med, openfoam, openfoam_cells
+from cadrefine.formats import BadFile, abaqus, cgns, grid, med, openfoam, openfoam_cells, openfoam_writing
 from cadrefine.formats.groups import grouped
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkUnstructuredGrid
@@ -379,32 +379,33 @@ class Mixed(unittest.TestCase):
 
     def test_polyhedra(self):
         """They are refused by name; so are faces that enclose no cell."""
-        self.write(self.made["mixed1"], "poly/case.foam")
-        folder = self.path("poly/constant/polyMesh")
-        faces, owner, neighbour = (openfoam.File(folder, "faces").faces(), *(
-            openfoam.File(folder, name).list("label") for name in ("owner", "neighbour")))
-        hexahedron = owner[np.flatnonzero((faces >= 0).all(axis=1))[0]]
-        joined = owner[: len(neighbour)] == hexahedron  # Its inner faces go, and it becomes one with its neighbours.
-        others = np.unique(neighbour[joined])
-        owner[np.isin(owner, others)] = hexahedron
-        neighbour[np.isin(neighbour, others)] = hexahedron
-        kept = np.ones(len(owner), bool)
-        kept[: len(neighbour)] = owner[: len(neighbour)] != neighbour
-        count = int((owner[kept] == hexahedron).sum() + (neighbour[kept[: len(neighbour)]] == hexahedron).sum())
-        with self.assertRaisesRegex(BadFile, f"^constant/polyMesh/faces: cell {hexahedron}, of {count} faces, is no "
-                                             "hexahedron, wedge, pyramid or tetrahedron"):
-            openfoam_cells.kinds_of(faces, *self.sorted_sides(owner[kept], neighbour[kept[: len(neighbour)]], kept))
+        around = np.linspace(0, 2 * np.pi, 6, endpoint=False)
+        ring = np.column_stack([np.cos(around), np.sin(around), np.zeros(6)])
+        below, above = np.arange(6), 6 + np.arange(6)
+        sides = np.column_stack([below, np.roll(below, -1), np.roll(above, -1), above])
+        faces = [f"6({' '.join(map(str, face))})" for face in (below[::-1], above)]
+        faces += [f"4({' '.join(map(str, face))})" for face in sides]
+        path = self.write(self.made["mixed1"], "prism/case.foam")
+        folder = self.path("prism/constant/polyMesh")
+        points = [f"({x} {y} {z})" for x, y, z in [*ring, *(ring + [0, 0, 1])]]
+        for name, kind, rows in (("points", "vectorField", points),
+                                 ("faces", "faceList", faces), ("owner", "labelList", ["0"] * 8),
+                                 ("neighbour", "labelList", []),
+                                 ("boundary", "polyBoundaryMesh", ["all { type wall; nFaces 8; startFace 0; }"])):
+            with openfoam_writing.open_file(folder, name, kind) as file:
+                file.write("\n".join([str(len(rows)), "(", *rows, ")\n"]))
+        data = vtkUnstructuredGrid()
+        self.assertEqual(files.read(path, data), f"{path}: constant/polyMesh/faces: cells that are no hexahedra, "
+                                                 "wedges, pyramids or tetrahedra: 1, the first is cell 0, of 8 faces")
+
+    def test_faces_that_do_not_fit(self):
+        self.write(self.made["mixed1"], "broken/case.foam")
+        folder = self.path("broken/constant/polyMesh")
+        faces = openfoam.File(folder, "faces").faces()
+        owner, neighbour = (openfoam.File(folder, name).list("label") for name in ("owner", "neighbour"))
         faces[0, :3] = faces[1, :3]
         with self.assertRaisesRegex(BadFile, r"^constant/polyMesh/faces: the faces of cell \d+ do not fit together$"):
-            openfoam_cells.cells_of(faces, *(openfoam.File(folder, name).list("label") for name in
-                                             ("owner", "neighbour")))
-
-    @staticmethod
-    def sorted_sides(owner, neighbour, kept):
-        numbers = np.flatnonzero(kept)
-        cells = np.concatenate([owner, neighbour])
-        order = np.argsort(cells, kind="stable")
-        return cells[order], np.concatenate([numbers, numbers[:len(neighbour)]])[order]
+            openfoam_cells.cells_of(faces, owner, neighbour)
 
     def run_tool(self, *command, **environment):
         """What an installed program prints."""

@@ -47,9 +47,8 @@ def kinds_of(faces, cells, numbers):
         kinds[(triangles == of_three) & (quadrilaterals == of_four) & (counts == of_three + of_four)] = kind
     others = np.flatnonzero(kinds == 0)
     if len(others):
-        more = f", nor are {len(others) - 1} others" if len(others) > 1 else ""
-        raise BadFile(f"{FILE}: cell {others[0]}, of {counts[others[0]]} faces, is no hexahedron, wedge, pyramid or "
-                      f"tetrahedron{more}")
+        raise BadFile(f"{FILE}: cells that are no hexahedra, wedges, pyramids or tetrahedra: {len(others)}, the first "
+                      f"is cell {others[0]}, of {counts[others[0]]} faces")
     return kinds
 
 
