@@ -69,7 +69,6 @@ class BadFormats(unittest.TestCase):
             ("words.msh", part("gmsh2text.msh", None).replace(b"$Nodes\n", b"$Nodes\nmany "), "malformed: "),
             ("letters.msh", part("gmsh4text.msh", None).replace(b"$EndElements", b"x y\n$EndElements"),
              "the section Elements does not hold numbers alone"),
-            ("hexahedron.msh", HEXAHEDRON, "holds a hexahedron"),
             ("cut.mesh", part("gmsh.mesh", 3000), "meshio cannot read it as medit: "),
             ("cut.inp", TETRAHEDRON[:-4], "holds elements C3D4 of 3 nodes"),
             ("type.inp", TETRAHEDRON.replace("C3D4", "U4"), "holds elements of the type U4"),
