@@ -240,7 +240,7 @@ std::vector<MidpointOnCAD> projectMidpoints(RankExchange& exchange, const Simple
   {
     midpoints[asking[i]].where = answers.values[i];
   }
-  for (std::size_t i = 0; edges.offCreases && i < midpoints.size(); ++i)
+  for (std::size_t i = 0; edges.withOperations && i < midpoints.size(); ++i)
   {
     const Index e = edgesOf[i];
     const BoundaryEdge edge =

@@ -26,7 +26,8 @@ struct MarkedEdges
   EdgeTable table;
   SharedEdges sharedEdges;
   EdgeMarks marks;
-  bool offCreases = false; ///< See BoundaryProjector::offCrease.
+  /// Local operations follow: see BoundaryProjector::offCrease and MoveSettings::smoothWorst.
+  bool withOperations = false;
 };
 
 /// The quadrilaterals of a piece.

@@ -9,6 +9,7 @@
 #include <cadrefine/base/IndicesWhere.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace cadrefine
@@ -26,6 +27,9 @@ constexpr int roundsBeforeSliding = 2;
 constexpr int sweepsARound = 5;
 /// Cells that lost more of their mean ratio are smoothed.
 constexpr double worthwhile = 0.9;
+/// A mean ratio from which on cells are no matter of local operations.
+constexpr double fairQuality = 0.3;
+constexpr double noQuality = std::numeric_limits<double>::infinity();
 
 /// A mesh on its way onto the CAD.
 struct Motion
@@ -164,7 +168,7 @@ struct Region
 /// The cells up to so many rings round the flagged vertices, which are to go to where these cells
 /// are valid and well shaped once all vertices are where they are wanted.
 Region untangleRound(const Motion& motion, std::vector<unsigned char> flags,
-  const std::vector<Point3>& wanted, int rings, bool sliding)
+  const std::vector<Point3>& wanted, int rings, bool sliding, double fair = noQuality)
 {
   const auto larger = [](unsigned char a, unsigned char b) { return std::max(a, b); };
   combineShared(motion.exchange, motion.distributed.shared, flags, larger);
@@ -181,7 +185,7 @@ Region untangleRound(const Motion& motion, std::vector<unsigned char> flags,
                (motion.isInterior(v) || (sliding && motion.canSlide(v)));
   }
   const MovingVertices vertices{ std::move(flags), motion.classification.entities, wanted,
-    motion.start, cells };
+    motion.start, cells, fair };
   return { cells, untangle(motion.exchange, motion.distributed, vertices, motion.plane,
                     motion.settings.projector, sweepsARound) };
 }
@@ -300,7 +304,9 @@ void smooth(Motion& motion, const MoveGuard& guard)
     flags[vertex] = 1;
   }
   const bool isSurface = motion.mesh().dimension == 2 && motion.plane == Vector3{};
-  moveTo(motion, untangleRound(motion, std::move(flags), motion.mesh().points, 1, isSurface), {});
+  const double fair = motion.settings.smoothWorst ? fairQuality : noQuality;
+  moveTo(
+    motion, untangleRound(motion, std::move(flags), motion.mesh().points, 1, isSurface, fair), {});
 }
 
 /// Writes where vertices slid to, and how far those that were to move are from their targets.

@@ -22,6 +22,9 @@ struct MoveSettings
   bool mendCells = false;
   /// Cells that lost much of their shape are smoothed even if all vertices are at their targets.
   bool smoothCells = false;
+  /// Smoothing is for the worst cell where local operations have nothing to do; else for most
+  /// cells, whichever get worse.
+  bool smoothWorst = false;
 };
 
 /// Moves the vertices of `moves` as far to their targets as all cells stay valid, on all ranks;

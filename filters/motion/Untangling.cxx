@@ -29,6 +29,7 @@ LocalPatch makePatch(const SimplexMesh& mesh, const MovingVertices& vertices, co
   Patch& patch = local.patch;
   patch.mesh.dimension = mesh.dimension;
   patch.plane = plane;
+  patch.fairQuality = vertices.fairQuality;
   const auto patchVertex = [&](Index meshVertex)
   {
     Index& vertex = local.patchVertex[meshVertex];

@@ -19,6 +19,7 @@ struct MovingVertices
   const std::vector<Point3>& wanted;     ///< Where they are, or are to be.
   const std::vector<Point3>& start;      ///< Where they were in the unmoved mesh.
   const std::vector<Index>& cells;       ///< All cells at free vertices, and others.
+  double fairQuality;                    ///< See Patch.
 };
 
 /// Where a vertex of the piece is to go.

@@ -195,7 +195,7 @@ private:
     {
       return false;
     }
-    plan.offCreases = true;
+    plan.withOperations = true;
     cut(context_, state_, plan, NewVertices::MoveOntoCAD);
     return true;
   }
@@ -324,7 +324,7 @@ private:
     const std::vector<Point3> before = pointsToKeep(state_);
     Moves moves = movesOntoCAD(mesh(), boundary.projector, classification);
     moveOntoCAD(exchange_, state_.mesh, std::move(moves), classification,
-      { boundary.projector, boundary.boundary.onBoundary, false, true });
+      { boundary.projector, boundary.boundary.onBoundary, false, true, true });
     meshHasChanged(state_);
     scaleDensities(exchange_, state_, before);
   }

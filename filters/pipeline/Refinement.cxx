@@ -288,7 +288,7 @@ private:
   void refineOnce(RefinementPlan& plan)
   {
     const bool withOperations = options_.projectNewVertices && options_.minimumQuality;
-    plan.offCreases = withOperations;
+    plan.withOperations = withOperations;
     const double qualityBefore = withOperations ? qualityOf(exchange_, state_).minimum() : 1;
     if (state_.classification)
     {

@@ -16,6 +16,8 @@ namespace
 /// Parts of Newton's step.
 constexpr double shortestStep = 1.0 / 32;
 constexpr double longestStep = 8;
+/// See ShapeEnergy: where the worst cell counts most.
+constexpr int exponentForWorst = 16;
 
 std::uint64_t hashOf(GlobalId id)
 {
@@ -284,7 +286,11 @@ void PatchOptimiser::improve(Index vertex)
 {
   Point3& point = patch_.mesh.points[vertex];
   const EntityId entity = patch_.entities[vertex];
-  const ShapeEnergy energy = energyAt(vertex);
+  ShapeEnergy energy = energyAt(vertex);
+  if (patch_.fairQuality * energy.largestAt(point) <= 1)
+  {
+    energy.setExponent(exponentForWorst);
+  }
   double lowest = energy.at(point);
   if (!std::isfinite(lowest))
   {

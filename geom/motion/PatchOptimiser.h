@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace cadrefine
@@ -24,6 +25,8 @@ struct Patch
   std::vector<unsigned char> complete; ///< 1: all cells of the whole mesh round it are here.
   std::vector<EntityId> entities;      ///< The CAD entity to which a free vertex keeps.
   Vector3 plane{}; ///< Unit normal of a planar mesh; zero: triangles keep the side of `start`.
+  /// Where all cells at a vertex have this mean ratio, the worst of them counts most.
+  double fairQuality = std::numeric_limits<double>::infinity();
 };
 
 /// Where a vertex that keeps to a CAD face or edge may go from a point of it: nowhere at a pole.

@@ -137,23 +137,45 @@ double ShapeEnergy::lengths(const Term& term, const Point3& x) const
   return sum;
 }
 
+/// Infinite where the cell is inverted or flat.
+double ShapeEnergy::inverseRatioOf(const Term& term, const Point3& x) const
+{
+  const double h = regularised(dot(term.slope, x - term.others[0]), term.delta);
+  return h > 0 ? inverseRatio(dimension_, lengths(term, x), h)
+               : std::numeric_limits<double>::infinity();
+}
+
+double ShapeEnergy::raised(double eta) const
+{
+  double result = eta * eta;
+  for (int exponent = 2; exponent < exponent_; exponent *= 2)
+  {
+    result *= result;
+  }
+  return result;
+}
+
 double ShapeEnergy::at(const Point3& x) const
 {
   double sum = 0;
   for (const Term& term : terms_)
   {
-    const double h = regularised(dot(term.slope, x - term.others[0]), term.delta);
-    if (!(h > 0))
-    {
-      return std::numeric_limits<double>::infinity();
-    }
-    const double eta = inverseRatio(dimension_, lengths(term, x), h);
-    sum += eta * eta;
+    sum += raised(inverseRatioOf(term, x));
   }
   return sum;
 }
 
-/// With l = log eta: the derivatives of eta^2 are 2 eta^2 l' and 2 eta^2 (2 l' l'^T + l''), where
+double ShapeEnergy::largestAt(const Point3& x) const
+{
+  double largest = 0;
+  for (const Term& term : terms_)
+  {
+    largest = std::max(largest, inverseRatioOf(term, x));
+  }
+  return largest;
+}
+
+/// With l = log eta: the derivatives of eta^n are n eta^n l' and n eta^n (n l' l'^T + l''), where
 ///   l'  = L'/L - (p/r) s',   r = sqrt(s^2 + 4 delta^2),
 ///   l'' = L''/L - L' L'^T / L^2 + p s / r^3 s' s'^T.
 ShapeEnergy::Derivatives ShapeEnergy::derivativesAt(const Point3& x) const
@@ -174,14 +196,14 @@ ShapeEnergy::Derivatives ShapeEnergy::derivativesAt(const Point3& x) const
     const Vector3 ofLength = (1 / length) * lengthSlope;
     const Vector3 ofMeasure = (1 / r) * term.slope; // no powers of r, which overflow
     const Vector3 slope = ofLength - power * ofMeasure;
-    const double factor = 2 * eta * eta;
+    const double factor = exponent_ * raised(eta);
     for (int i = 0; i < 3; ++i)
     {
       sum.gradient[i] += factor * slope[i];
       sum.hessian[i][i] += factor * 2 * dimension_ / length;
       for (int j = 0; j < 3; ++j)
       {
-        sum.hessian[i][j] += factor * (2 * slope[i] * slope[j] - ofLength[i] * ofLength[j] +
+        sum.hessian[i][j] += factor * (exponent_ * slope[i] * slope[j] - ofLength[i] * ofLength[j] +
                                         power * (s / r) * ofMeasure[i] * ofMeasure[j]);
       }
     }

@@ -22,7 +22,8 @@ struct Directions
   static Directions along(const Vector3& tangent);
 };
 
-/// The sum of the squares of the regularised inverse mean ratios of the cells round a vertex x:
+/// The sum of the squares, or of a higher power, of the regularised inverse mean ratios of the
+/// cells round a vertex x:
 ///
 ///     eta = L(x) / h(s(x))^p,     h(s) = (s + sqrt(s^2 + 4 delta^2)) / 2,
 ///
@@ -31,8 +32,8 @@ struct Directions
 /// infinite where a cell is inverted or flat; with delta > 0 it is finite and smooth, and inverted
 /// cells pull x to where they are valid (J. M. Escobar, E. Rodriguez, R. Montenegro, G. Montero,
 /// J. M. Gonzalez-Yuste, "Simultaneous untangling and smoothing of tetrahedral meshes", CMAME 192,
-/// 2003). Squares, so that the worst cells count most. L is quadratic and s linear in x, so that
-/// derivatives are closed forms. Work linear in the number of cells.
+/// 2003). The higher the power, the more the worst cell counts. L is quadratic and s linear in x,
+/// so that derivatives are closed forms. Work linear in the number of cells.
 class ShapeEnergy
 {
 public:
@@ -45,6 +46,10 @@ public:
   void addTriangle(const Point3& a, const Point3& b, const Vector3& normal, double delta);
 
   double at(const Point3& x) const;
+  /// The largest regularised inverse mean ratio.
+  double largestAt(const Point3& x) const;
+  /// Of the inverse mean ratios: a power of two.
+  void setExponent(int exponent) { exponent_ = exponent; }
 
   /// A step of Newton's method from x in the given directions, with a shift where the second
   /// derivatives are not positive definite, no longer than half of the distance to the farthest
@@ -67,9 +72,12 @@ private:
   };
 
   double lengths(const Term& term, const Point3& x) const;
+  double inverseRatioOf(const Term& term, const Point3& x) const;
+  double raised(double eta) const;
   Derivatives derivativesAt(const Point3& x) const;
 
   int dimension_;
+  int exponent_ = 2;
   std::vector<Term> terms_;
 };
 

@@ -179,6 +179,42 @@ TEST_P(Validity, longestEdge)
   }
 }
 
+/// Thirty tetrahedra by gmsh, of mean ratio 0.53 and more, each with a facet on the
+/// sphere. Without moves of interior vertices 0.466 is left after four levels.
+TEST(CoarsestBall, keepsItsWorstCellUnderUniformRefinement)
+{
+  SimplexMesh mesh;
+  mesh.dimension = 3;
+  mesh.points = { { 0, 0, 1 }, { 0, 0, -1 }, { 0.87, 0, -0.5 }, { 0.87, 0, 0.5 },
+    { 0.59, 0.81, 0.01 }, { 0.12, 0.57, 0.82 }, { -0.85, -0.53, 0.07 }, { -0.32, 0.95, 0.03 },
+    { 0.63, -0.78, -0.08 }, { -0.86, 0.37, 0.36 }, { -0.89, 0.27, -0.37 }, { 0.08, 0.58, -0.81 },
+    { -0.61, -0.08, 0.79 }, { 0.01, -0.85, 0.52 }, { -0.14, -0.96, -0.24 }, { -0.45, -0.47, -0.76 },
+    { 0.44, -0.58, -0.68 }, { 0, 0, 0 } };
+  for (std::size_t v = 0; v < mesh.points.size(); ++v)
+  {
+    mesh.ids.push_back(static_cast<GlobalId>(v));
+  }
+  for (const auto& [a, b, c] : Simplices<3>{ { 11, 15, 1 }, { 8, 16, 14 }, { 1, 16, 2 },
+         { 4, 5, 7 }, { 4, 11, 2 }, { 7, 5, 9 }, { 7, 10, 11 }, { 13, 0, 3 }, { 7, 11, 4 },
+         { 3, 4, 2 }, { 15, 11, 10 }, { 14, 16, 15 }, { 8, 2, 16 }, { 13, 3, 8 }, { 6, 13, 14 },
+         { 2, 8, 3 }, { 13, 6, 12 }, { 9, 5, 12 }, { 6, 14, 15 }, { 4, 3, 5 }, { 11, 1, 2 },
+         { 12, 5, 0 }, { 13, 12, 0 }, { 13, 8, 14 }, { 1, 15, 16 }, { 9, 12, 6 }, { 7, 9, 10 },
+         { 10, 6, 15 }, { 9, 6, 10 }, { 5, 3, 0 } })
+  {
+    mesh.tetrahedra.push_back({ a, b, c, 17 });
+  }
+  const cadtest::TemporaryFolder folder;
+  const cadtest::FilterRun filters(cadtest::writeInto(folder, cadtest::sphere(1), ".step"));
+  auto data = filters.project(cadtest::toGrid(mesh));
+  for (int level = 0; level < 4; ++level)
+  {
+    data = filters.refineUniformly(data);
+    EXPECT_GT(cadtest::fieldValue(data, "MinimumQuality"), 0.47) << level;
+    EXPECT_EQ(cadtest::fieldValue(data, "UnprojectedVertices"), 0);
+  }
+  EXPECT_EQ(cadtest::fieldValue(data, "GlobalCells"), 30 * 4096) << "no operation helped";
+}
+
 /// Input with inverted cells: said to be so, with their number, and mended.
 class InvalidInput : public testing::Test
 {

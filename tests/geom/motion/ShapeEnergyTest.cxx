@@ -56,9 +56,10 @@ protected:
   }
 
   /// Where steps that lower the energy lead to.
-  Point3 minimised(Point3 x, double delta) const
+  Point3 minimised(const Point3& x, double delta) const { return minimised(x, energy(delta)); }
+
+  Point3 minimised(Point3 x, const ShapeEnergy& of) const
   {
-    const ShapeEnergy of = energy(delta);
     for (int k = 0; k < 60; ++k)
     {
       Vector3 step = of.step(x, directions());
@@ -82,6 +83,17 @@ TEST_P(OneCell, isTheSquareOfTheInverseMeanRatio)
     const Point3 x = apex(heights) + Vector3{ 0.1, 0, 0 };
     EXPECT_NEAR(energy(0).at(x) * quality(x) * quality(x), 1, 1e-13);
   }
+}
+
+TEST_P(OneCell, isAHigherPowerOnRequest)
+{
+  ShapeEnergy of = energy(0);
+  of.setExponent(16);
+  const Point3 x = apex(0.4) + Vector3{ 0.1, 0, 0 };
+  EXPECT_NEAR(of.at(x) * std::pow(quality(x), 16), 1, 1e-12);
+  EXPECT_NEAR(of.largestAt(x) * quality(x), 1, 1e-13);
+  EXPECT_TRUE(std::isinf(of.largestAt(apex(0))));
+  EXPECT_LT(distance(minimised(apex(0.4), of), apex(1)), 1e-6);
 }
 
 TEST_P(OneCell, isInfiniteForInvalidCellsUnlessItIsRegularised)
