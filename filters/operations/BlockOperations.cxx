@@ -7,10 +7,12 @@
 #include "refinement/DistributedRefinement.h"
 
 #include <cadrefine/base/IndicesWhere.h>
+#include <cadrefine/base/LargeMemory.h>
 #include <cadrefine/motion/MoveGuard.h>
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -185,6 +187,7 @@ std::pair<std::map<std::int64_t, Members>, Members> findMembers(const Distribute
 {
   std::map<std::int64_t, Members> members;
   Members others;
+  reserveLong(others.cells, ofCells.size());
   const auto sort = [&](std::int64_t block, std::vector<Index> Members::*list, std::size_t number)
   { ((block >= 0 ? members[block] : others).*list).push_back(static_cast<Index>(number)); };
   for (std::size_t c = 0; c < ofCells.size(); ++c)
@@ -258,6 +261,10 @@ OperationBlocks findOperationBlocks(RankExchange& exchange, const DistributedMes
 std::vector<int> ranksOfBlocks(
   RankExchange& exchange, const DistributedMesh& mesh, const OperationBlocks& blocks)
 {
+  if (exchange.size() == 1)
+  {
+    return {};
+  }
   const std::int64_t here = exchange.rank();
   const auto ofVertices = blocksOfVertices(exchange, mesh, blocks.ofCells);
   const SimplexMesh& piece = mesh.mesh();
@@ -313,6 +320,7 @@ OperationTrace operateOnBlocks(RankExchange& exchange, DistributedMesh& mesh,
     list.size(), BlockMesh(mesh, plane, ofVertices, classification, boundary, task.labels));
   std::vector<OperationResult> results(list.size());
   std::vector<FieldRows> rows(list.size());
+  std::vector<double> seconds(list.size(), 0);
   agreeOnFailure(exchange,
     [&]
     {
@@ -321,20 +329,30 @@ OperationTrace operateOnBlocks(RankExchange& exchange, DistributedMesh& mesh,
         {
           meshes[i].fill(*list[i].second, mesh.converted.cellIds[mesh.mesh().dimension]);
           const MeshBefore before = meshes[i].before();
+          const auto start = std::chrono::steady_clock::now();
           results[i] = task.work(meshes[i], rule);
+          seconds[i] =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
           rows[i] = findFieldRows(meshes[i].mesh(), before, task.rows);
         });
     });
 
   OperationTrace trace;
-  PieceMaker maker(mesh.mesh());
-  maker.keep(others);
+  trace.seconds = std::accumulate(seconds.begin(), seconds.end(), 0.0);
+  for (const OperationResult& result : results)
+  {
+    trace.operations += result.counts.operations();
+  }
+  trace.operations = exchange.sum(trace.operations);
+  if (trace.operations == 0)
+  {
+    return trace;
+  }
+  PieceMaker maker(mesh.mesh(), others);
   for (std::size_t i = 0; i < list.size(); ++i)
   {
     maker.add(meshes[i], results[i].added, rows[i], list[i].first);
-    trace.operations += results[i].counts.operations();
   }
-  trace.operations = exchange.sum(trace.operations);
   SimplexMesh made = maker.make(trace.cells);
   numberNewVertices(exchange, maker.blocks(), task.blocks.sizes.size(), mesh, made.ids);
   mesh.converted.cellIds = numberChildren(exchange, mesh, trace.cells);

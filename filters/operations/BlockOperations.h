@@ -60,12 +60,13 @@ struct OperationTask
 };
 
 /// What operations made of a mesh: it was refined (though some cells have no children), and of the
-/// vertices then these are left.
+/// vertices then these are left. Without operations the mesh is as it was, and the rest empty.
 struct OperationTrace
 {
   RefinementTrace cells;
   std::vector<Index> keptVertices;
   std::int64_t operations = 0; ///< Over all ranks.
+  double seconds = 0;          ///< Of the task's work, on this rank, of all threads together.
 };
 
 /// Works on the cells of each block (see improveCells), with the vertices that it shares with

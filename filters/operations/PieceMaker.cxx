@@ -1,5 +1,7 @@
 #include "operations/PieceMaker.h"
 
+#include <cadrefine/base/LargeMemory.h>
+
 #include <algorithm>
 #include <numeric>
 #include <utility>
@@ -9,27 +11,34 @@ namespace cadrefine
 namespace
 {
 
-/// By their parents, those of one in the order in which they came; where those of each begin.
+/// Of these cells those that are kept, and in the places of others their descendants, those of one
+/// in the order in which they came; where those of each begin. Sorts the descendants by parents.
 template<std::size_t Corners>
-void order(std::vector<Descendant<Corners>>& descendants, std::size_t parentCount,
-  Simplices<Corners>& cells, std::vector<Index>& firsts)
+void merge(const Simplices<Corners>& cells, const std::vector<Index>& kept,
+  std::vector<Descendant<Corners>>& descendants, Simplices<Corners>& result,
+  std::vector<Index>& firsts)
 {
-  firsts.assign(parentCount + 1, 0);
-  for (const auto& descendant : descendants)
+  std::stable_sort(descendants.begin(), descendants.end(),
+    [](const auto& a, const auto& b) { return a.parent < b.parent; });
+  reserveLong(result, kept.size() + descendants.size());
+  reserveLong(firsts, cells.size() + 1);
+  auto nextKept = kept.begin();
+  auto next = descendants.begin();
+  for (std::size_t c = 0; c < cells.size(); ++c)
   {
-    ++firsts[descendant.parent + 1];
+    const auto cell = static_cast<Index>(c);
+    firsts.push_back(static_cast<Index>(result.size()));
+    if (nextKept != kept.end() && *nextKept == cell)
+    {
+      result.push_back(cells[c]);
+      ++nextKept;
+    }
+    for (; next != descendants.end() && next->parent == cell; ++next)
+    {
+      result.push_back(next->corners);
+    }
   }
-  std::partial_sum(firsts.begin(), firsts.end(), firsts.begin());
-  std::vector<Index> next(firsts.begin(), firsts.end() - 1);
-  std::vector<Descendant<Corners>> ordered(descendants.size());
-  cells.resize(descendants.size());
-  for (const auto& descendant : descendants)
-  {
-    const Index place = next[descendant.parent]++;
-    ordered[place] = descendant;
-    cells[place] = descendant.corners;
-  }
-  descendants = std::move(ordered);
+  firsts.push_back(static_cast<Index>(result.size()));
 }
 
 /// Adds rows with other targets and sources.
@@ -71,23 +80,6 @@ WeightedRows inOrder(
 }
 
 } // namespace
-
-void PieceMaker::keep(const Members& others)
-{
-  const auto keepAll = [](const auto& cells, const std::vector<Index>& kept, auto& into)
-  {
-    for (const Index cell : kept)
-    {
-      into.push_back({ cell, cells[cell] });
-    }
-  };
-  if (mesh_.dimension == 3)
-  {
-    keepAll(mesh_.tetrahedra, others.cells, tetrahedra_);
-  }
-  keepAll(mesh_.triangles, mesh_.dimension == 3 ? others.triangles : others.cells, triangles_);
-  keepAll(mesh_.segments, others.segments, segments_);
-}
 
 void PieceMaker::add(const BlockMesh& block, const std::vector<AddedVertex>& added,
   const FieldRows& rows, std::int64_t number)
@@ -154,15 +146,17 @@ SimplexMesh PieceMaker::make(RefinementTrace& trace)
 {
   SimplexMesh result;
   result.dimension = mesh_.dimension;
-  result.points = points_;
+  result.points = std::move(points_);
   result.ids = mesh_.ids;
   result.vertices = mesh_.vertices;
   ChildRanges& firstChildren = trace.firstChildren;
   firstChildren[0].resize(mesh_.vertices.size() + 1);
   std::iota(firstChildren[0].begin(), firstChildren[0].end(), 0);
-  order(segments_, mesh_.segments.size(), result.segments, firstChildren[1]);
-  order(triangles_, mesh_.triangles.size(), result.triangles, firstChildren[2]);
-  order(tetrahedra_, mesh_.tetrahedra.size(), result.tetrahedra, firstChildren[3]);
+  merge(mesh_.segments, others_.segments, segments_, result.segments, firstChildren[1]);
+  merge(mesh_.triangles, mesh_.dimension == 3 ? others_.triangles : others_.cells, triangles_,
+    result.triangles, firstChildren[2]);
+  merge(mesh_.tetrahedra, mesh_.dimension == 3 ? others_.cells : std::vector<Index>(), tetrahedra_,
+    result.tetrahedra, firstChildren[3]);
   trace.parentEdges = parents_;
   placeRows(result, trace);
   return result;
@@ -181,16 +175,19 @@ void PieceMaker::placeRows(const SimplexMesh& made, RefinementTrace& trace) cons
   trace.ofVertices = inOrder(rows_.ofVertices, ofVertices, 0);
 
   std::vector<PlacedRow> ofCells;
+  const auto firstCell = static_cast<Index>(firstCellOfDimension(made, made.dimension));
+  const std::vector<Index>& firstChildren = trace.firstChildren[made.dimension];
   const auto find = [&](const auto& descendants)
   {
-    auto target = static_cast<Index>(firstCellOfDimension(made, made.dimension));
-    for (const auto& descendant : descendants)
+    Index sibling = 0;
+    for (std::size_t i = 0; i < descendants.size(); ++i)
     {
-      if (descendant.row >= 0)
+      const auto& [parent, corners, row] = descendants[i];
+      sibling = i > 0 && parent == descendants[i - 1].parent ? sibling + 1 : 0;
+      if (row >= 0)
       {
-        ofCells.push_back({ target, descendant.row });
+        ofCells.push_back({ firstCell + firstChildren[parent] + sibling, row });
       }
-      ++target;
     }
   };
   made.dimension == 3 ? find(tetrahedra_) : find(triangles_);

@@ -14,7 +14,7 @@
 namespace cadrefine
 {
 
-/// A simplex of the new mesh and what it comes from.
+/// A simplex that a block has made, and what it comes from.
 template<std::size_t Corners>
 struct Descendant
 {
@@ -27,10 +27,12 @@ struct Descendant
 class PieceMaker
 {
 public:
-  explicit PieceMaker(const SimplexMesh& mesh) : mesh_(mesh), points_(mesh.points) {}
+  /// `others` is in no block. Keeps references.
+  PieceMaker(const SimplexMesh& mesh, const Members& others)
+    : mesh_(mesh), others_(others), points_(mesh.points)
+  {
+  }
 
-  /// What is in no block.
-  void keep(const Members& others);
   /// A block of this number, to which these vertices were added, and whose fields follow these
   /// rows.
   void add(const BlockMesh& block, const std::vector<AddedVertex>& added, const FieldRows& rows,
@@ -41,7 +43,7 @@ public:
   const std::vector<std::int64_t>& blocks() const { return blocks_; }
 
   /// With all vertices, also those that no cell has any more; no ids of new ones. Writes where
-  /// cells and fields come from into the trace.
+  /// cells and fields come from into the trace. Once. Work: one look at each cell.
   SimplexMesh make(RefinementTrace& trace);
 
 private:
@@ -50,6 +52,7 @@ private:
   void addRows(const BlockMesh& block, const std::vector<Index>& vertices, const FieldRows& rows);
 
   const SimplexMesh& mesh_;
+  const Members& others_;
   std::vector<Point3> points_;
   std::vector<std::array<Index, 2>> parents_;
   std::vector<ClosestPoint> places_;

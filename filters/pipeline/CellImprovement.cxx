@@ -234,10 +234,6 @@ private:
     const std::vector<Index> off =
       indicesWhere(flags.size(), [&](std::size_t v) { return flags[v] != 0; });
     const bool anyOff = exchange_.any(!off.empty());
-    if (!anyOff && qualityOf(exchange_, state_).minimum() >= options_.minimumQuality)
-    {
-      return {};
-    }
     const auto owned = std::count_if(off.begin(), off.end(),
       [&](Index vertex) { return state_.mesh.shared.owner(vertex) == exchange_.rank(); });
     const std::vector<Index> cells = badCells(anyOff ? wantedPoints() : mesh().points);

@@ -92,6 +92,11 @@ std::int64_t operate(const PipelineContext& context, MeshState& state,
   const FieldNeeds& needs = state.mapping.needs();
   OperationTrace trace = operateOnBlocks(exchange, state.mesh, *state.classification, boundary,
     { blocks, ofCells, work, { needs.means, !needs.densities.empty() } }, state.parallelFor);
+  context.statistics.add("seconds operation kernels", trace.seconds);
+  if (trace.operations == 0)
+  {
+    return 0;
+  }
   meshHasChanged(state);
   if (!state.onBoundary.empty())
   {
