@@ -2,7 +2,7 @@
  * @class vtkSimplexMeshAlgorithm
  * @brief common base of the filters that work on triangles and tetrahedra
  *
- * Takes vtkUnstructuredGrid and vtkPolyData with triangles or tetrahedra, in serial or one piece on
+ * Takes vtkUnstructuredGrid and vtkPolyData with cells of area or volume, in serial or one piece on
  * each rank, and gives the same type. Cells of lower dimension (vertices, lines, triangles that
  * carry tags) are carried along; any other cell is an error that names it. Ghost cells are left
  * out. Global ids are used if every rank has them, and made from coordinates if not: pieces then

@@ -3,7 +3,7 @@
     mpirun -np N pvbatch plugin/cadrefine.py MESH CAD [options]
     pvpython plugin/cadrefine.py MESH CAD [options]
 
-MESH is any file with triangles or tetrahedra that ParaView reads, CAD an IGES, STEP or BREP file. See --help.
+MESH is any file with cells of area or volume that ParaView reads, CAD an IGES, STEP or BREP file. See --help.
 """
 
 import os

@@ -50,7 +50,7 @@ void measureMesh(const PipelineContext& context, MeshState& state, int recursion
 {
   if (state.mesh.mesh().dimension == 0)
   {
-    throw Error("the mesh has no triangles or tetrahedra; points alone have no geometric error");
+    throw Error("the mesh has no cells of area or volume; points alone have no geometric error");
   }
   ClassifiedBoundary& boundary = boundaryOf(context, state);
   const Progress::Part part(context.exchange.progress(), 0.2, 1);

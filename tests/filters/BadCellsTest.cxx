@@ -327,7 +327,7 @@ TEST_F(BadCells, noCells)
   Grid points = Grid::New();
   points->SetPoints(ball()->GetPoints());
   expectError(
-    filters.attempt<vtkAdaptToCAD>(points, [](vtkAdaptToCAD*) {}), "no triangles or tetrahedra");
+    filters.attempt<vtkAdaptToCAD>(points, [](vtkAdaptToCAD*) {}), "no cells of area or volume");
   EXPECT_EQ(cadtest::fieldValue(
               filters.run<vtkMeshValidity>(points, [](vtkMeshValidity*) {}), "InvalidCells"),
     0);

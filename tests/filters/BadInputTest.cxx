@@ -210,8 +210,8 @@ TEST_F(BadInput, pointsAloneCannotBeRefined)
   vtkNew<vtkUnstructuredGrid> points;
   points->SetPoints(goodMesh()->GetPoints());
   const auto projected = filters.project(points);
-  expectProjectedMeshFails<vtkRefineWithCAD>(projected, "no triangles or tetrahedra");
-  expectProjectedMeshFails<vtkCADGeometricError>(projected, "no triangles or tetrahedra");
+  expectProjectedMeshFails<vtkRefineWithCAD>(projected, "no cells of area or volume");
+  expectProjectedMeshFails<vtkCADGeometricError>(projected, "no cells of area or volume");
 }
 
 TEST_F(BadInput, cadInputWithoutModel)
