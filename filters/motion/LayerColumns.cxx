@@ -22,6 +22,9 @@ namespace
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Of a move: one that is in a plane leaves it by less.
 constexpr double inPlane = 1e-9;
+/// A column is so many times as high as the move of its wall, at most: over that the move may fade
+/// out, as no height changes by more than some hundredths, and the first one not by one.
+constexpr double reachOfMove = 100;
 
 double smaller(double a, double b)
 {
@@ -42,6 +45,7 @@ struct Front
   std::int64_t corner;
   std::int64_t level;
   double height;
+  double reach; ///< The column ends at this height.
 };
 
 /// A vertex that a column comes to, so many cells and so far above the wall.
@@ -116,11 +120,11 @@ public:
   }
 
   /// A column that stands on this corner of a facet, on both sides of it.
-  void start(const Facet& facet, int corner)
+  void start(const Facet& facet, int corner, double reach)
   {
     const GlobalId wall = mesh_.mesh().ids[facet.vertices[corner]];
-    climb(facet, { 2 * wall, {}, corner, 0, 0 });
-    goBeyond(facet, { 2 * wall + 1, {}, corner, 0, 0 });
+    climb(facet, { 2 * wall, {}, corner, 0, 0, reach });
+    goBeyond(facet, { 2 * wall + 1, {}, corner, 0, 0, reach });
   }
 
   /// Collective.
@@ -162,6 +166,10 @@ private:
       front.height += distance(points[side.vertices[front.corner]], points[vertex]);
       ++front.level;
       visited_.push_back({ vertex, front.column, front.level, front.height });
+      if (front.height >= front.reach)
+      {
+        return;
+      }
       side = stacks_.beyond(above);
       if (side.cell < 0)
       {
@@ -261,7 +269,7 @@ LayerColumns::LayerColumns(RankExchange& exchange, const DistributedMesh& mesh, 
       const Index v = facet.vertices[k];
       if (moves.fractions[v] > 0 && best[v].ids == idsOf(piece, facet))
       {
-        climb.start(facet, k);
+        climb.start(facet, k, reachOfMove * distance(moves.targets[v], piece.points[v]));
       }
     }
   }

@@ -15,8 +15,8 @@ namespace cadrefine
 /// Columns of vertices over the moving vertices of walls: up the edges of the wedges, hexahedra or
 /// quadrilaterals that stand on a boundary facet at such a vertex, on whatever ranks, to where the
 /// stack ends, or another column comes closer to its wall (counted in cells; ties by the ids of the
-/// walls' vertices). Of several facets at the vertex that counts whose normal is nearest to the
-/// direction of the move.
+/// walls' vertices), or the column is a hundred times as high as the move. Of several facets at the
+/// vertex that counts whose normal is nearest to the direction of the move.
 ///
 /// A wall's vertex takes its column along: the first vertex of it all the way, so that the height
 /// of the first cell stays, the others less and less (by 1 - 3 x^2 + 2 x^3 of the height over the
