@@ -147,34 +147,47 @@ void orderStacks(RankExchange& exchange, const SimplexMesh& mesh, RefinementPlan
   stacks.writeTo(plan.table);
 }
 
-/// Marks all edges of cells that would be cut badly. Returns whether there are any. Collective.
+[[noreturn]] void complainOfBadCut(const DistributedMesh& mesh, Index cell)
+{
+  throw Error(
+    "the cell with the id " + std::to_string(mesh.converted.cellIds[mesh.mesh().dimension][cell]) +
+    " is too distorted to be cut into valid cells; improve the mesh there, or refine only "
+    "other cells");
+}
+
+/// Marks all edges of cells that would be cut badly. Returns whether there are any. Throws Error
+/// for one all of whose edges are marked. Collective.
 bool markBadlyCut(RankExchange& exchange, const DistributedMesh& mesh, RefinementPlan& plan)
 {
   const SimplexMesh& piece = mesh.mesh();
   const std::vector<Index> bad = cellsCutBadly(piece, plan.table, plan.quads.table, plan.marks);
-  std::string problem;
-  std::size_t first = 0;
-  visitOwnShapes(piece,
-    [&](auto shape, const auto& cells)
+  const auto markAll = [&](const auto& edges)
+  {
+    bool anyNew = false;
+    for (const Index edge : edges)
     {
-      for (const Index cell : cellsOfShape(bad, first, cells.size()))
-      {
-        const auto& edges = (plan.table.*edgesOfCells(shape))[cell];
-        if (std::all_of(edges.begin(), edges.end(), [&](Index e) { return plan.marks[e] != 0; }))
+      anyNew = anyNew || !plan.marks[edge];
+      plan.marks[edge] = 1;
+    }
+    return anyNew;
+  };
+  agreeOnFailure(exchange,
+    [&]
+    {
+      std::size_t first = 0;
+      visitOwnShapes(piece,
+        [&](auto shape, const auto& cells)
         {
-          problem = "the cell with the id " +
-                    std::to_string(mesh.converted.cellIds[piece.dimension][first + cell]) +
-                    " is too distorted to be cut into valid cells; leave it out of the marked "
-                    "cells, or improve the mesh there";
-        }
-        for (const Index edge : edges)
-        {
-          plan.marks[edge] = 1;
-        }
-      }
-      first += cells.size();
+          for (const Index cell : cellsOfShape(bad, first, cells.size()))
+          {
+            if (!markAll((plan.table.*edgesOfCells(shape))[cell]))
+            {
+              complainOfBadCut(mesh, static_cast<Index>(first) + cell);
+            }
+          }
+          first += cells.size();
+        });
     });
-  exchange.agree(problem);
   return exchange.any(!bad.empty());
 }
 
@@ -243,6 +256,15 @@ RefinementPlan planUniform(RankExchange& exchange, const DistributedMesh& mesh)
 {
   RefinementPlan plan{ findEdges(exchange, mesh, 1), {}, true };
   plan.quads = findQuads(exchange, mesh, plan.table);
+  agreeOnFailure(exchange,
+    [&]
+    {
+      const auto bad = pyramidsCutBadly(mesh.mesh(), plan.table, plan.quads.table);
+      if (!bad.empty())
+      {
+        complainOfBadCut(mesh, bad.front());
+      }
+    });
   return plan;
 }
 

@@ -464,6 +464,19 @@ void splitOthers(const SimplexMesh& mesh, const EdgeTable& table, const QuadTabl
     });
 }
 
+bool areValid(const SimplexMesh& cells, const std::vector<Point3>& points)
+{
+  bool valid = true;
+  visitOwnShapes(cells,
+    [&](auto shape, const auto& all)
+    {
+      valid = valid && std::all_of(all.begin(), all.end(),
+                         [&](const auto& cell)
+                         { return stateAt(shape, cornersOf(cell, points), {}).valid; });
+    });
+  return valid;
+}
+
 void addQuadMidpoints(const QuadTable& quads, Midpoints& midpoints)
 {
   reserveLong(midpoints.ofQuad, quads.edges.size());
@@ -627,24 +640,40 @@ std::vector<Index> cellsCutBadly(
   cutOthers(mesh, cutting, midpoints, children,
     [&](Index cell)
     {
-      bool valid = children.cellCount(3) == 1; // not cut
-      if (!valid)
-      {
-        valid = true;
-        visitOwnShapes(children,
-          [&](auto shape, const auto& cells)
-          {
-            valid = valid && std::all_of(cells.begin(), cells.end(),
-                               [&](const auto& child)
-                               { return stateAt(shape, cornersOf(child, points), {}).valid; });
-          });
-      }
-      if (!valid)
+      const bool isCut = children.cellCount(3) > 1;
+      if (isCut && !areValid(children, points))
       {
         bad.push_back(cell);
       }
       clearCells(children);
     });
+  return bad;
+}
+
+std::vector<Index> pyramidsCutBadly(
+  const SimplexMesh& mesh, const EdgeTable& table, const QuadTable& quads)
+{
+  std::vector<Index> bad;
+  if (mesh.pyramids.empty())
+  {
+    return bad;
+  }
+  const EdgeMarks marks(table.edges.size(), 1);
+  const Midpoints midpoints = makeMidpoints(mesh, table, quads, marks, true);
+  std::vector<Point3> points = mesh.points;
+  appendNewPoints(mesh, midpoints, points);
+  SimplexMesh children;
+  for (std::size_t c = 0; c < mesh.pyramids.size(); ++c)
+  {
+    splitPyramidUniformly(mesh.pyramids[c], midpointsOf(table.ofPyramids[c], midpoints.ofEdge),
+      midpointsOf(quads.ofPyramids[c], midpoints.ofQuad)[0], children.pyramids,
+      children.tetrahedra);
+    if (!areValid(children, points))
+    {
+      bad.push_back(static_cast<Index>(mesh.tetrahedra.size() + c));
+    }
+    clearCells(children);
+  }
   return bad;
 }
 

@@ -79,6 +79,9 @@ SplitMesh splitMarked(const SimplexMesh& mesh, const EdgeTable& table, const Qua
 /// where a vertex in the middle does not see all sides, or a quadrilateral is cut in triangles.)
 std::vector<Index> cellsCutBadly(
   const SimplexMesh& mesh, const EdgeTable& table, const QuadTable& quads, const EdgeMarks& marks);
+/// The pyramids, numbered likewise, of which splitUniformly does: where the base is far from plane.
+std::vector<Index> pyramidsCutBadly(
+  const SimplexMesh& mesh, const EdgeTable& table, const QuadTable& quads);
 
 /// Regular splitting; every edge, quadrilateral and hexahedron must have a midpoint. Triangles and
 /// quadrilaterals give 4, hexahedra and wedges 8, tetrahedra 8: one at each corner and four round
