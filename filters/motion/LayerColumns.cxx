@@ -16,8 +16,11 @@
 
 namespace cadrefine
 {
+
 namespace
 {
+
+using ParentEdges = LayerColumns::ParentEdges;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Of a move: one that is in a plane leaves it by less.
@@ -46,15 +49,6 @@ struct Front
   std::int64_t level;
   double height;
   double reach; ///< The column ends at this height.
-};
-
-/// A vertex that a column comes to, so many cells and so far above the wall.
-struct Visited
-{
-  Index vertex;
-  GlobalId column;
-  std::int64_t level;
-  double height;
 };
 
 /// Which column has a vertex: that of the lowest level, of these the smallest one.
@@ -109,7 +103,7 @@ std::array<GlobalId, 4> idsOf(const SimplexMesh& mesh, const Facet& side)
 class Climb
 {
 public:
-  explicit Climb(const DistributedMesh& mesh) : mesh_(mesh), stacks_(mesh.mesh())
+  Climb(const DistributedMesh& mesh, const CellStacks& stacks) : mesh_(mesh), stacks_(stacks)
   {
     for (const Index vertex : mesh.shared.all)
     {
@@ -128,7 +122,7 @@ public:
   }
 
   /// Collective.
-  std::vector<Visited> run(RankExchange& exchange)
+  std::vector<ColumnVertex> run(RankExchange& exchange)
   {
     const auto isEmpty = [](const std::vector<Front>& fronts) { return fronts.empty(); };
     while (exchange.any(!std::all_of(outgoing_.begin(), outgoing_.end(), isEmpty)))
@@ -218,10 +212,10 @@ private:
   }
 
   const DistributedMesh& mesh_;
-  CellStacks stacks_;
+  const CellStacks& stacks_;
   std::vector<std::pair<GlobalId, Index>> vertexOf_; ///< Of the ids of shared vertices.
   std::vector<std::vector<Front>> outgoing_;
-  std::vector<Visited> visited_;
+  std::vector<ColumnVertex> visited_;
 };
 
 /// For each moving vertex the facet that its column stands on. Collective.
@@ -246,10 +240,69 @@ std::vector<BestFacet> findBestFacets(RankExchange& exchange, const DistributedM
   return best;
 }
 
+/// What the heights of first cells are found from.
+struct FirstCells
+{
+  const std::vector<Facet>& facets;
+  const CellStacks& stacks;
+  const Vector3& plane;
+};
+
+/// For each vertex of a wall that moves the height of the first cell over it, along the edge there;
+/// infinite elsewhere. Collective.
+std::vector<double> heightsOfFirstCells(
+  RankExchange& exchange, const DistributedMesh& mesh, const Moves& moves, const FirstCells& cells)
+{
+  const SimplexMesh& piece = mesh.mesh();
+  std::vector<double> heights(piece.points.size(), infinity);
+  for (const Facet& facet : cells.facets)
+  {
+    const Vector3 normal = unitNormal(piece, facet, cells.plane);
+    const bool isWall = std::any_of(facet.begin(), facet.end(),
+      [&](Index v)
+      {
+        const Vector3 move = moves.targets[v] - piece.points[v];
+        return moves.fractions[v] > 0 && std::abs(dot(move, normal)) > 0.5 * norm(move);
+      });
+    const Facet above = isWall ? cells.stacks.opposite(facet) : Facet{};
+    for (int k = 0; above.cell >= 0 && k < facet.corners(); ++k)
+    {
+      const Index v = facet.vertices[k];
+      heights[v] = std::min(heights[v], distance(piece.points[v], piece.points[above.vertices[k]]));
+    }
+  }
+  combineShared(exchange, mesh.shared, heights, smaller);
+  return heights;
+}
+
+/// What the first cell over each new vertex of a wall must be stretched by so that its height is
+/// the mean of those over the ends of its parent edge. Halfway between edges of the layer that are
+/// not parallel it is less. Collective.
+std::vector<double> stretchOfFirstCells(RankExchange& exchange, const DistributedMesh& mesh,
+  const Moves& moves, const FirstCells& cells, const ParentEdges& parents)
+{
+  constexpr double most = 1.5; // edges at 48 degrees to their middle
+  const auto heights = heightsOfFirstCells(exchange, mesh, moves, cells);
+  std::vector<double> wanted = heights;
+  std::vector<double> stretch(heights.size(), 1);
+  const std::size_t first = heights.size() - parents.size();
+  for (std::size_t n = 0; n < parents.size(); ++n)
+  {
+    const std::size_t v = first + n;
+    const double mean = 0.5 * (wanted[parents[n][0]] + wanted[parents[n][1]]);
+    if (heights[v] < infinity && mean < most * heights[v] && heights[v] < mean)
+    {
+      wanted[v] = mean;
+      stretch[v] = mean / heights[v];
+    }
+  }
+  return stretch;
+}
+
 } // namespace
 
 LayerColumns::LayerColumns(RankExchange& exchange, const DistributedMesh& mesh, const Moves& moves,
-  const std::vector<unsigned char>& fixed, const Vector3& plane)
+  const std::vector<unsigned char>& fixed, const Vector3& plane, const ParentEdges* parents)
   : mesh_(mesh), plane_(plane)
 {
   const SimplexMesh& piece = mesh.mesh();
@@ -260,8 +313,9 @@ LayerColumns::LayerColumns(RankExchange& exchange, const DistributedMesh& mesh, 
     return;
   }
   facets_ = findBoundaryFacets(exchange, mesh, fixed);
+  const CellStacks stacks(piece);
   const auto best = findBestFacets(exchange, mesh, moves, facets_, plane);
-  Climb climb(mesh);
+  Climb climb(mesh, stacks);
   for (const Facet& facet : facets_)
   {
     for (int k = 0; k < facet.corners(); ++k)
@@ -273,73 +327,119 @@ LayerColumns::LayerColumns(RankExchange& exchange, const DistributedMesh& mesh, 
       }
     }
   }
-  const std::vector<Visited> visited = climb.run(exchange);
+  const std::vector<ColumnVertex> visited = climb.run(exchange);
+  listColumns(exchange, visited, moves);
+  const auto spans = findSpans(exchange, visited, moves);
+  std::vector<double> stretch(piece.points.size(), 1);
+  if (parents)
+  {
+    stretch = stretchOfFirstCells(exchange, mesh, moves, { facets_, stacks, plane }, *parents);
+  }
+  const auto bases = findBases(exchange, stretch);
+  for (const auto& [vertex, column, level, height] : visited)
+  {
+    const Index c = numberOf(column);
+    const auto& [first, end] = spans[c];
+    if (height < end)
+    {
+      const double x = (height - first) / (end - first);
+      members_.push_back({ vertex, c, 1 - x * x * (3 - 2 * x),
+        (bases[c].stretch - 1) * (piece.points[vertex] - bases[c].point) });
+    }
+  }
+}
 
-  std::vector<Claim> claims(piece.points.size());
+Index LayerColumns::numberOf(GlobalId column) const
+{
+  return static_cast<Index>(
+    std::lower_bound(columns_.begin(), columns_.end(), column) - columns_.begin());
+}
+
+/// Those that came to vertices of this rank.
+void LayerColumns::listColumns(
+  RankExchange& exchange, const std::vector<ColumnVertex>& visited, const Moves& moves)
+{
+  std::transform(visited.begin(), visited.end(), std::back_inserter(columns_),
+    [](const ColumnVertex& v) { return v.column; });
+  std::sort(columns_.begin(), columns_.end());
+  columns_.erase(std::unique(columns_.begin(), columns_.end()), columns_.end());
+  std::vector<Index> numbers(columns_.size());
+  std::iota(numbers.begin(), numbers.end(), 0);
+  shared_ = findSharedVertices(exchange, columns_, numbers);
+
+  const SimplexMesh& mesh = mesh_.mesh();
+  std::vector<std::pair<GlobalId, Index>> moving;
+  for (std::size_t v = 0; v < mesh.ids.size(); ++v)
+  {
+    if (moves.fractions[v] > 0)
+    {
+      moving.emplace_back(mesh.ids[v], static_cast<Index>(v));
+    }
+  }
+  std::sort(moving.begin(), moving.end());
+  for (const GlobalId column : columns_)
+  {
+    const auto found =
+      std::lower_bound(moving.begin(), moving.end(), std::pair{ column / 2, Index{ 0 } });
+    walls_.push_back(found != moving.end() && found->first == column / 2 ? found->second : -1);
+  }
+}
+
+/// Collective.
+std::vector<LayerColumns::Span> LayerColumns::findSpans(
+  RankExchange& exchange, const std::vector<ColumnVertex>& visited, const Moves& moves) const
+{
+  std::vector<Claim> claims(mesh_.mesh().points.size());
   for (std::size_t v = 0; v < claims.size(); ++v)
   {
     claims[v] = moves.fractions[v] > 0 ? Claim{ 0, -1 } : Claim{};
   }
-  std::vector<GlobalId> columns;
   for (const auto& [vertex, column, level, height] : visited)
   {
     claims[vertex] = std::min(claims[vertex], Claim{ level, column });
-    columns.push_back(column);
   }
   combineShared(
-    exchange, mesh.shared, claims, [](const Claim& a, const Claim& b) { return std::min(a, b); });
-  std::sort(columns.begin(), columns.end());
-  columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
-  std::vector<Index> numbers(columns.size());
-  std::iota(numbers.begin(), numbers.end(), 0);
-  shared_ = findSharedVertices(exchange, columns, numbers);
-  const auto numberOf = [&](GlobalId column)
-  {
-    return static_cast<Index>(
-      std::lower_bound(columns.begin(), columns.end(), column) - columns.begin());
-  };
+    exchange, mesh_.shared, claims, [](const Claim& a, const Claim& b) { return std::min(a, b); });
 
-  // Where each column's first vertex is, and where it ends.
-  std::vector<double> firsts(columns.size(), infinity);
-  std::vector<double> ends(columns.size(), infinity);
-  std::vector<double> tops(columns.size(), 0);
+  std::vector<double> firsts(columns_.size(), infinity);
+  std::vector<double> lost(columns_.size(), infinity);
+  std::vector<double> tops(columns_.size(), 0);
   for (const auto& [vertex, column, level, height] : visited)
   {
     const Index c = numberOf(column);
     firsts[c] = std::min(firsts[c], height);
     tops[c] = std::max(tops[c], height);
-    const bool isLost = claims[vertex].column != column || claims[vertex].level != level;
-    ends[c] = isLost ? std::min(ends[c], height) : ends[c];
+    if (claims[vertex].column != column || claims[vertex].level != level)
+    {
+      lost[c] = std::min(lost[c], height);
+    }
   }
   combineShared(exchange, shared_, firsts, smaller);
-  combineShared(exchange, shared_, ends, smaller);
+  combineShared(exchange, shared_, lost, smaller);
   combineShared(exchange, shared_, tops, larger);
-  for (const auto& [vertex, column, level, height] : visited)
+  std::vector<Span> spans(columns_.size());
+  for (std::size_t c = 0; c < spans.size(); ++c)
   {
-    const Index c = numberOf(column);
-    const double end = std::min(ends[c], tops[c]);
-    if (height < end)
-    {
-      const double x = (height - firsts[c]) / (end - firsts[c]);
-      members_.push_back({ vertex, c, 1 - x * x * (3 - 2 * x) });
-    }
+    spans[c] = { firsts[c], std::min(lost[c], tops[c]) };
   }
+  return spans;
+}
 
-  std::vector<std::pair<GlobalId, Index>> vertexOf;
-  for (std::size_t v = 0; v < piece.ids.size(); ++v)
+/// Collective.
+std::vector<LayerColumns::Base> LayerColumns::findBases(
+  RankExchange& exchange, const std::vector<double>& stretch) const
+{
+  std::vector<Base> bases(walls_.size());
+  for (std::size_t c = 0; c < walls_.size(); ++c)
   {
-    if (moves.fractions[v] > 0)
+    if (walls_[c] >= 0)
     {
-      vertexOf.emplace_back(piece.ids[v], static_cast<Index>(v));
+      bases[c] = { mesh_.mesh().points[walls_[c]], stretch[walls_[c]], 1 };
     }
   }
-  std::sort(vertexOf.begin(), vertexOf.end());
-  for (const GlobalId column : columns)
-  {
-    const auto found =
-      std::lower_bound(vertexOf.begin(), vertexOf.end(), std::pair{ column / 2, Index{ 0 } });
-    walls_.push_back(found != vertexOf.end() && found->first == column / 2 ? found->second : -1);
-  }
+  combineShared(
+    exchange, shared_, bases, [](const Base& a, const Base& b) { return a.isSet ? a : b; });
+  return bases;
 }
 
 std::vector<Vector3> LayerColumns::movesOfWalls(RankExchange& exchange, const Moves& moves) const
@@ -393,12 +493,13 @@ std::vector<Index> LayerColumns::follow(RankExchange& exchange, Moves& moves,
   const auto blocked = findBlocked(exchange, ofWalls, classification);
   following_.clear();
   std::vector<Place> places(mesh_.mesh().points.size());
-  for (const Member& member : members_)
+  for (Member& member : members_)
   {
-    const auto& [vertex, column, part] = member;
+    auto& [vertex, column, part, stretch] = member;
     if (ofWalls[column] != Vector3{} && !blocked[vertex])
     {
-      const Point3 target = mesh_.mesh().points[vertex] + part * ofWalls[column];
+      const Vector3 move = ofWalls[column] + std::exchange(stretch, Vector3{});
+      const Point3 target = mesh_.mesh().points[vertex] + part * move;
       const EntityId entity = classification.entities[vertex];
       places[vertex] = { entity ? projector.nearestOn(entity, target).point : target, 1 };
       following_.push_back(member);
@@ -422,7 +523,7 @@ std::vector<Index> LayerColumns::follow(RankExchange& exchange, Moves& moves,
 template<class Use>
 void LayerColumns::forAllTied(const Use& use) const
 {
-  for (const auto& [vertex, column, part] : following_)
+  for (const auto& [vertex, column, part, stretch] : following_)
   {
     use(column, vertex);
   }

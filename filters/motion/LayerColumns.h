@@ -7,10 +7,21 @@
 #include <cadrefine/classification/Classification.h>
 #include <cadrefine/motion/MoveGuard.h>
 
+#include <array>
+#include <cstdint>
 #include <vector>
 
 namespace cadrefine
 {
+
+/// A vertex that a column comes to, so many cells and so far above the wall.
+struct ColumnVertex
+{
+  Index vertex;
+  GlobalId column;
+  std::int64_t level;
+  double height;
+};
 
 /// Columns of vertices over the moving vertices of walls: up the edges of the wedges, hexahedra or
 /// quadrilaterals that stand on a boundary facet at such a vertex, on whatever ranks, to where the
@@ -25,13 +36,20 @@ namespace cadrefine
 ///
 /// Work: linear in the cells that are not simplices. Messages: one to and from each neighbour for
 /// every time that columns cross between ranks, and a few more.
+///
+/// In a refined mesh a new vertex of a wall and the one over it are halfway between two pairs whose
+/// edges need not be parallel: the cells between are then stretched, so that the first one is as
+/// high as the mean of those beside it.
 class LayerColumns
 {
 public:
+  using ParentEdges = std::vector<std::array<Index, 2>>;
+
   /// None, where no rank has cells that stand on others, or `plane`, the normal of a planar mesh,
-  /// is zero in 2D. `fixed`: 1 for vertices on the boundary, over all ranks. Collective.
+  /// is zero in 2D. `fixed`: 1 for vertices on the boundary, over all ranks. `parents`: the
+  /// vertices between which the last ones are new (see SplitMesh); null: none are. Collective.
   LayerColumns(RankExchange& exchange, const DistributedMesh& mesh, const Moves& moves,
-    const std::vector<unsigned char>& fixed, const Vector3& plane);
+    const std::vector<unsigned char>& fixed, const Vector3& plane, const ParentEdges* parents);
 
   /// Whether some rank has cells that stand on others.
   bool any() const { return any_; }
@@ -51,8 +69,31 @@ private:
   {
     Index vertex;
     Index column;
-    double part; ///< Of the move of the wall's vertex.
+    double part;     ///< Of the move of the wall's vertex, and of what follows.
+    Vector3 stretch; ///< Once.
   };
+
+  /// Heights of a column's first vertex, and of where it ends.
+  struct Span
+  {
+    double first;
+    double end;
+  };
+
+  /// The wall's vertex of a column, and what the first cell over it is stretched by.
+  struct Base
+  {
+    Point3 point{};
+    double stretch = 1;
+    std::int64_t isSet = 0;
+  };
+
+  Index numberOf(GlobalId column) const;
+  void listColumns(
+    RankExchange& exchange, const std::vector<ColumnVertex>& visited, const Moves& moves);
+  std::vector<Span> findSpans(
+    RankExchange& exchange, const std::vector<ColumnVertex>& visited, const Moves& moves) const;
+  std::vector<Base> findBases(RankExchange& exchange, const std::vector<double>& stretch) const;
 
   /// The moves of the walls of all columns of this rank. Collective.
   std::vector<Vector3> movesOfWalls(RankExchange& exchange, const Moves& moves) const;
@@ -64,9 +105,10 @@ private:
   const DistributedMesh& mesh_;
   Vector3 plane_;
   bool any_ = false;
-  std::vector<Facet> facets_; ///< Of the mesh's boundary.
-  std::vector<Index> walls_;  ///< The vertex of each column's wall; -1: only other ranks start it.
-  SharedItems shared_;        ///< Columns.
+  std::vector<Facet> facets_;     ///< Of the mesh's boundary.
+  std::vector<GlobalId> columns_; ///< Ascending: twice the id of the wall's vertex, 1 more beyond.
+  std::vector<Index> walls_; ///< The vertex of each column's wall; -1: only other ranks start it.
+  SharedItems shared_;       ///< Columns.
   std::vector<Member> members_;
   std::vector<Member> following_; ///< Those of them that move.
 };
