@@ -89,23 +89,27 @@ std::vector<Value> taken(const std::vector<Value>& values, const std::vector<Pla
   return result;
 }
 
-/// Those on these faces; all where none are named. Collective.
+/// Those on these faces, or all where none are named, as cells are numbered: triangles first.
+/// Collective.
 ClassifiedFacets facetsAmong(
   const PipelineContext& context, MeshState& state, const std::vector<std::string>& faces)
 {
   const std::vector<EntityId> entities = entitiesOfFacets(context, state);
   const DistributedBoundary& boundary = state.boundary->boundary;
-  if (faces.empty())
+  std::vector<Index> chosen(entities.size());
+  std::iota(chosen.begin(), chosen.end(), 0);
+  if (!faces.empty())
   {
-    return { boundary.facetDimension(), boundary.facets, entities };
+    const EntitySelection selection = selectFaces(context, state, faces);
+    chosen = indicesWhere(entities.size(),
+      [&](std::size_t f) { return selection.contains(context.model.nurbs(), entities[f]); });
+    if (!context.exchange.any(!chosen.empty()))
+    {
+      throw Error("none of the boundary's facets lies on the chosen faces (Faces)");
+    }
   }
-  const EntitySelection selection = selectFaces(context, state, faces);
-  const std::vector<Index> chosen = indicesWhere(entities.size(),
-    [&](std::size_t f) { return selection.contains(context.model.nurbs(), entities[f]); });
-  if (!context.exchange.any(!chosen.empty()))
-  {
-    throw Error("none of the boundary's facets lies on the chosen faces (Faces)");
-  }
+  std::stable_partition(chosen.begin(), chosen.end(),
+    [&](Index facet) { return boundary.facets[facet].corners() < 4; });
   return { boundary.facetDimension(), taken(boundary.facets, chosen), taken(entities, chosen) };
 }
 
