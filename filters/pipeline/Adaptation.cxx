@@ -47,10 +47,6 @@ public:
 
   PipelineResult run(vtkPointSet* input)
   {
-    if (options_.quadraticCells)
-    {
-      checkForQuadraticCells(input);
-    }
     begin(input);
     std::string reason = reasonToStop();
     while (reason.empty())
@@ -133,6 +129,10 @@ private:
   void read(vtkPointSet* input, CellOrder order)
   {
     state_ = readMesh(exchange_, input, order);
+    if (options_.quadraticCells)
+    {
+      checkForQuadraticCells(exchange_, state_);
+    }
     state_.mapping.require(options_.fieldNeeds);
     state_.remembers = true;
   }

@@ -114,13 +114,7 @@ private:
     }
     if (options_.quadraticCells)
     {
-      checkForQuadraticCells(state_.prototype);
-    }
-    if (options_.quadraticCells && exchange_.any(state_.mesh.mesh().hasOtherThanSimplices()))
-    {
-      throw Error(
-        "quadratic cells (Quadratic Cells) are made of triangles and tetrahedra only, and "
-        "the mesh has other cells; switch Quadratic Cells off");
+      checkForQuadraticCells(exchange_, state_);
     }
   }
 
@@ -355,12 +349,17 @@ private:
 
 } // namespace
 
-void checkForQuadraticCells(vtkPointSet* data)
+void checkForQuadraticCells(RankExchange& exchange, const MeshState& state)
 {
-  if (vtkPolyData::SafeDownCast(data))
+  if (vtkPolyData::SafeDownCast(state.prototype))
   {
     throw Error("poly data cannot hold quadratic cells; make the mesh an unstructured grid first "
                 "(the filter Append Datasets does), or switch Quadratic Cells off");
+  }
+  if (exchange.any(state.mesh.mesh().hasOtherThanSimplices()))
+  {
+    throw Error("quadratic cells (Quadratic Cells) are made of triangles and tetrahedra only, and "
+                "the mesh has other cells; switch Quadratic Cells off");
   }
 }
 
