@@ -41,8 +41,8 @@ public:
 
   ///@{
   /**
-   * LONGEST_EDGE_BISECTION (default) of the marked cells, or UNIFORM_BISECTION: 4 triangles, 8
-   * tetrahedra for each marked or unmarked cell.
+   * LONGEST_EDGE_BISECTION (default) of the marked cells, or UNIFORM_BISECTION: 4 cells
+   * of area, 8 of volume (of a pyramid 10) for each marked or unmarked cell.
    */
   vtkSetMacro(Method, int);
   vtkGetMacro(Method, int);

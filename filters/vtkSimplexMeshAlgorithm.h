@@ -1,12 +1,13 @@
 /**
  * @class vtkSimplexMeshAlgorithm
- * @brief common base of the filters that work on triangles and tetrahedra
+ * @brief common base of the filters that work on meshes
  *
- * Takes vtkUnstructuredGrid and vtkPolyData with cells of area or volume, in serial or one piece on
- * each rank, and gives the same type. Cells of lower dimension (vertices, lines, triangles that
- * carry tags) are carried along; any other cell is an error that names it. Ghost cells are left
- * out. Global ids are used if every rank has them, and made from coordinates if not: pieces then
- * meet where coordinates are equal. Output points are in double precision.
+ * Takes vtkUnstructuredGrid and vtkPolyData with linear cells of area (triangles, quadrilaterals)
+ * or volume (tetrahedra, pyramids, wedges, hexahedra), in serial or one piece on each rank, and
+ * gives the same type. Cells of lower dimension, which carry tags, are carried along; any other
+ * cell is an error that names it. Ghost cells are left out. Global ids are used if every rank has
+ * them, and made from coordinates if not: pieces then meet where coordinates are equal. Output
+ * points are in double precision.
  *
  * Of a time series, the step that is asked for is worked on. Where only fields have changed since
  * the last run, the geometry is not worked on again: what was made of it is kept, and the fields

@@ -49,7 +49,8 @@ lower dimension carry tags):
   CASE/NAME.foam, CASE      OpenFOAM, with patches and zones; no other polyhedra
   Tags of gmsh are the cell arrays gmsh:physical and gmsh:geometrical, those of Medit medit:ref, of
   Exodus ObjectId. Names of groups are field data of the mesh, and are written with the groups.
-  Quadratic cells are taken by their corners, and made quadratic again at the end.
+  Quadratic cells are taken by their corners; meshes of triangles or tetrahedra are made quadratic
+  again at the end.
   Of a time series the first time step is read.
 
 formats of --output, all but .vtu and .pvtu with groups and their names:
@@ -73,7 +74,7 @@ table:
   step; vertices and cells of the mesh; vertices on the CAD; points looked up on the CAD in this
   step; global geometric error (area in 2D, volume in 3D); largest distance from the boundary to the
   CAD; inverted or degenerate cells; vertices that had to stop on the way to the CAD; least quality
-  of a cell (mean ratio, 1 is best); seconds of the step; what was done in it.
+  of a cell (mean ratio or scaled Jacobian, 1 is best); seconds of the step; what was done in it.
 
 environment:
   CADREFINE_PLUGIN     the plugin CADRefine.so, where it is neither built nor installed as usual
