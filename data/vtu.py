@@ -1,8 +1,8 @@
-"""Writes triangles and tetrahedra as a VTK XML file in readable text, every double to the last bit."""
+"""Writes triangles, tetrahedra and wedges as a VTK XML file in readable text, every double to the last bit."""
 
 import numpy as np
 
-VTK_TYPE = {3: 5, 4: 10}  # Corners of a cell to VTK's number: triangle, tetrahedron.
+VTK_TYPE = {3: 5, 4: 10, 6: 13}  # Corners of a cell to VTK's number: triangle, tetrahedron, wedge.
 
 
 def mean_ratio(points, cells):
@@ -19,7 +19,7 @@ def mean_ratio(points, cells):
 
 
 def write_vtu(path, points, blocks, cell_arrays=None):
-    """`blocks` are arrays of cells (n, 3) or (n, 4); `cell_arrays` integers, over the blocks in their order."""
+    """`blocks` are arrays of cells (n, 3), (n, 4) or (n, 6); `cell_arrays` integers, over the blocks in their order."""
     offsets = np.cumsum(np.concatenate([np.full(len(block), block.shape[1]) for block in blocks]))
     types = np.concatenate([np.full(len(block), VTK_TYPE[block.shape[1]]) for block in blocks])
     with open(path, "w", encoding="ascii", newline="\n") as file:

@@ -23,10 +23,12 @@ DRIVER = "plugin/cadrefine.py"
 VIEWS = {  # Case: the driver's options for its pictures, where its own are not the best.
     "naca": "--view -0.45 -0.85 0.3 --focus 0 0.55 0 0.3 -0.16 0.16",
     "bow": "--view -0.5 0.7 0.3",
+    "layers": "--view -0.45 -0.85 0.3",
 }
 FURTHER_PICTURES = {  # Case: commands in its folder that draw more.
     "tee": "pvpython {here}/groups.py mesh.vtu gmsh:physical groups.png -0.55 -0.7 0.45 "
            "1=inlet 2=outlet 3=branch 4=wall",
+    "layers": "pvpython {here}/section.py 0 -1 0 -0.06 0.16 -0.08 0.08 coarse.vtu=before.png mesh.vtu=after.png",
 }
 
 

@@ -3,7 +3,7 @@
 
 The section has some forty vertices, and the wing runs from wall to wall in a few strips along y. Each of their
 quadrilaterals is two triangles, over which wedges stand, each layer higher than the one below it by a constant factor,
-out to more than half a chord. Vertices of the wing are on the section already, its facets are chords.
+out to two fifths of a chord. Vertices of the wing are on the section already, its facets are chords.
 """
 
 import argparse
@@ -34,9 +34,9 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--around", type=int, default=41, help="vertices round the section (default %(default)s)")
     parser.add_argument("--strips", type=int, default=4, help="of cells along y (default %(default)s)")
-    parser.add_argument("--layers", type=int, default=16, help="(default %(default)s)")
-    parser.add_argument("--first", type=float, default=1e-3, help="height in chords (default %(default)s)")
-    parser.add_argument("--growth", type=float, default=1.35, help="of the height (default %(default)s)")
+    parser.add_argument("--layers", type=int, default=22, help="(default %(default)s)")
+    parser.add_argument("--first", type=float, default=1e-4, help="height of the first one in chords (default %(default)s)")
+    parser.add_argument("--growth", type=float, default=1.4, help="of the height (default %(default)s)")
     parser.add_argument("output", help="the .vtu file")
     arguments = parser.parse_args()
 
