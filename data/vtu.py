@@ -1,8 +1,8 @@
-"""Writes triangles, tetrahedra and wedges as a VTK XML file in readable text, every double to the last bit."""
+"""Writes cells of several shapes as a VTK XML file in readable text, every double to the last bit."""
 
 import numpy as np
 
-VTK_TYPE = {3: 5, 4: 10, 6: 13}  # Corners of a cell to VTK's number: triangle, tetrahedron, wedge.
+VTK_TYPE = {3: 5, 4: 10, 6: 13, 8: 12}  # Corners of a cell to VTK's number: triangle, tetrahedron, wedge, hexahedron.
 
 
 def mean_ratio(points, cells):
@@ -19,7 +19,7 @@ def mean_ratio(points, cells):
 
 
 def write_vtu(path, points, blocks, cell_arrays=None):
-    """`blocks` are arrays of cells (n, 3), (n, 4) or (n, 6); `cell_arrays` integers, over the blocks in their order."""
+    """`blocks` are arrays of cells, (n, corners); `cell_arrays` integers, over the blocks in their order."""
     offsets = np.cumsum(np.concatenate([np.full(len(block), block.shape[1]) for block in blocks]))
     types = np.concatenate([np.full(len(block), VTK_TYPE[block.shape[1]]) for block in blocks])
     with open(path, "w", encoding="ascii", newline="\n") as file:
