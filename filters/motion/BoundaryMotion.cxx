@@ -3,6 +3,7 @@
 #include "comm/CollectiveErrors.h"
 #include "comm/Threads.h"
 #include "mesh/MeshPlane.h"
+#include "motion/LayerColumns.h"
 #include "motion/Untangling.h"
 
 #include <cadrefine/base/IndicesWhere.h>
@@ -340,7 +341,7 @@ void moveOntoCAD(RankExchange& exchange, DistributedMesh& mesh, Moves moves,
   Motion motion{ exchange, mesh, classification, settings, forOnThreads(exchange), plane,
     mesh.mesh().points, Moves(mesh.mesh()),
     std::vector<unsigned char>(mesh.mesh().points.size(), 0), findHeld(exchange, mesh),
-    LayerColumns(exchange, mesh, moves, settings.fixed, plane, settings.parents), aimed };
+    LayerColumns(exchange, mesh, moves, settings.fixed, plane), aimed };
   motion.moves = std::move(moves);
 
   std::vector<Index> moving = aimed;

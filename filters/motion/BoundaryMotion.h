@@ -2,7 +2,6 @@
 #pragma once
 
 #include "mesh/DistributedMesh.h"
-#include "motion/LayerColumns.h"
 
 #include <cadrefine/classification/BoundaryProjector.h>
 #include <cadrefine/classification/Classification.h>
@@ -26,8 +25,6 @@ struct MoveSettings
   /// Smoothing is for the worst cell where local operations have nothing to do; else for most
   /// cells, whichever get worse.
   bool smoothWorst = false;
-  /// See LayerColumns.
-  const LayerColumns::ParentEdges* parents = nullptr;
 };
 
 /// Moves the vertices of `moves` as far to their targets as all cells stay valid, on all ranks;

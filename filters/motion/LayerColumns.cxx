@@ -20,8 +20,6 @@ namespace cadrefine
 namespace
 {
 
-using ParentEdges = LayerColumns::ParentEdges;
-
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Of a move: one that is in a plane leaves it by less.
 constexpr double inPlane = 1e-9;
@@ -240,69 +238,10 @@ std::vector<BestFacet> findBestFacets(RankExchange& exchange, const DistributedM
   return best;
 }
 
-/// What the heights of first cells are found from.
-struct FirstCells
-{
-  const std::vector<Facet>& facets;
-  const CellStacks& stacks;
-  const Vector3& plane;
-};
-
-/// For each vertex of a wall that moves the height of the first cell over it, along the edge there;
-/// infinite elsewhere. Collective.
-std::vector<double> heightsOfFirstCells(
-  RankExchange& exchange, const DistributedMesh& mesh, const Moves& moves, const FirstCells& cells)
-{
-  const SimplexMesh& piece = mesh.mesh();
-  std::vector<double> heights(piece.points.size(), infinity);
-  for (const Facet& facet : cells.facets)
-  {
-    const Vector3 normal = unitNormal(piece, facet, cells.plane);
-    const bool isWall = std::any_of(facet.begin(), facet.end(),
-      [&](Index v)
-      {
-        const Vector3 move = moves.targets[v] - piece.points[v];
-        return moves.fractions[v] > 0 && std::abs(dot(move, normal)) > 0.5 * norm(move);
-      });
-    const Facet above = isWall ? cells.stacks.opposite(facet) : Facet{};
-    for (int k = 0; above.cell >= 0 && k < facet.corners(); ++k)
-    {
-      const Index v = facet.vertices[k];
-      heights[v] = std::min(heights[v], distance(piece.points[v], piece.points[above.vertices[k]]));
-    }
-  }
-  combineShared(exchange, mesh.shared, heights, smaller);
-  return heights;
-}
-
-/// What the first cell over each new vertex of a wall must be stretched by so that its height is
-/// the mean of those over the ends of its parent edge. Halfway between edges of the layer that are
-/// not parallel it is less. Collective.
-std::vector<double> stretchOfFirstCells(RankExchange& exchange, const DistributedMesh& mesh,
-  const Moves& moves, const FirstCells& cells, const ParentEdges& parents)
-{
-  constexpr double most = 1.5; // edges at 48 degrees to their middle
-  const auto heights = heightsOfFirstCells(exchange, mesh, moves, cells);
-  std::vector<double> wanted = heights;
-  std::vector<double> stretch(heights.size(), 1);
-  const std::size_t first = heights.size() - parents.size();
-  for (std::size_t n = 0; n < parents.size(); ++n)
-  {
-    const std::size_t v = first + n;
-    const double mean = 0.5 * (wanted[parents[n][0]] + wanted[parents[n][1]]);
-    if (heights[v] < infinity && mean < most * heights[v] && heights[v] < mean)
-    {
-      wanted[v] = mean;
-      stretch[v] = mean / heights[v];
-    }
-  }
-  return stretch;
-}
-
 } // namespace
 
 LayerColumns::LayerColumns(RankExchange& exchange, const DistributedMesh& mesh, const Moves& moves,
-  const std::vector<unsigned char>& fixed, const Vector3& plane, const ParentEdges* parents)
+  const std::vector<unsigned char>& fixed, const Vector3& plane)
   : mesh_(mesh), plane_(plane)
 {
   const SimplexMesh& piece = mesh.mesh();
@@ -330,12 +269,6 @@ LayerColumns::LayerColumns(RankExchange& exchange, const DistributedMesh& mesh, 
   const std::vector<ColumnVertex> visited = climb.run(exchange);
   listColumns(exchange, visited, moves);
   const auto spans = findSpans(exchange, visited, moves);
-  std::vector<double> stretch(piece.points.size(), 1);
-  if (parents)
-  {
-    stretch = stretchOfFirstCells(exchange, mesh, moves, { facets_, stacks, plane }, *parents);
-  }
-  const auto bases = findBases(exchange, stretch);
   for (const auto& [vertex, column, level, height] : visited)
   {
     const Index c = numberOf(column);
@@ -343,8 +276,7 @@ LayerColumns::LayerColumns(RankExchange& exchange, const DistributedMesh& mesh, 
     if (height < end)
     {
       const double x = (height - first) / (end - first);
-      members_.push_back({ vertex, c, 1 - x * x * (3 - 2 * x),
-        (bases[c].stretch - 1) * (piece.points[vertex] - bases[c].point) });
+      members_.push_back({ vertex, c, 1 - x * x * (3 - 2 * x) });
     }
   }
 }
@@ -425,23 +357,6 @@ std::vector<LayerColumns::Span> LayerColumns::findSpans(
   return spans;
 }
 
-/// Collective.
-std::vector<LayerColumns::Base> LayerColumns::findBases(
-  RankExchange& exchange, const std::vector<double>& stretch) const
-{
-  std::vector<Base> bases(walls_.size());
-  for (std::size_t c = 0; c < walls_.size(); ++c)
-  {
-    if (walls_[c] >= 0)
-    {
-      bases[c] = { mesh_.mesh().points[walls_[c]], stretch[walls_[c]], 1 };
-    }
-  }
-  combineShared(
-    exchange, shared_, bases, [](const Base& a, const Base& b) { return a.isSet ? a : b; });
-  return bases;
-}
-
 std::vector<Vector3> LayerColumns::movesOfWalls(RankExchange& exchange, const Moves& moves) const
 {
   std::vector<Vector3> ofWalls(walls_.size(), Vector3{});
@@ -493,13 +408,12 @@ std::vector<Index> LayerColumns::follow(RankExchange& exchange, Moves& moves,
   const auto blocked = findBlocked(exchange, ofWalls, classification);
   following_.clear();
   std::vector<Place> places(mesh_.mesh().points.size());
-  for (Member& member : members_)
+  for (const Member& member : members_)
   {
-    auto& [vertex, column, part, stretch] = member;
+    const auto& [vertex, column, part] = member;
     if (ofWalls[column] != Vector3{} && !blocked[vertex])
     {
-      const Vector3 move = ofWalls[column] + std::exchange(stretch, Vector3{});
-      const Point3 target = mesh_.mesh().points[vertex] + part * move;
+      const Point3 target = mesh_.mesh().points[vertex] + part * ofWalls[column];
       const EntityId entity = classification.entities[vertex];
       places[vertex] = { entity ? projector.nearestOn(entity, target).point : target, 1 };
       following_.push_back(member);
@@ -523,7 +437,7 @@ std::vector<Index> LayerColumns::follow(RankExchange& exchange, Moves& moves,
 template<class Use>
 void LayerColumns::forAllTied(const Use& use) const
 {
-  for (const auto& [vertex, column, part, stretch] : following_)
+  for (const auto& [vertex, column, part] : following_)
   {
     use(column, vertex);
   }

@@ -7,7 +7,6 @@
 #include <cadrefine/classification/Classification.h>
 #include <cadrefine/motion/MoveGuard.h>
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -36,20 +35,13 @@ struct ColumnVertex
 ///
 /// Work: linear in the cells that are not simplices. Messages: one to and from each neighbour for
 /// every time that columns cross between ranks, and a few more.
-///
-/// In a refined mesh a new vertex of a wall and the one over it are halfway between two pairs whose
-/// edges need not be parallel: the cells between are then stretched, so that the first one is as
-/// high as the mean of those beside it.
 class LayerColumns
 {
 public:
-  using ParentEdges = std::vector<std::array<Index, 2>>;
-
   /// None, where no rank has cells that stand on others, or `plane`, the normal of a planar mesh,
-  /// is zero in 2D. `fixed`: 1 for vertices on the boundary, over all ranks. `parents`: the
-  /// vertices between which the last ones are new (see SplitMesh); null: none are. Collective.
+  /// is zero in 2D. `fixed`: 1 for vertices on the boundary, over all ranks. Collective.
   LayerColumns(RankExchange& exchange, const DistributedMesh& mesh, const Moves& moves,
-    const std::vector<unsigned char>& fixed, const Vector3& plane, const ParentEdges* parents);
+    const std::vector<unsigned char>& fixed, const Vector3& plane);
 
   /// Whether some rank has cells that stand on others.
   bool any() const { return any_; }
@@ -69,8 +61,7 @@ private:
   {
     Index vertex;
     Index column;
-    double part;     ///< Of the move of the wall's vertex, and of what follows.
-    Vector3 stretch; ///< Once.
+    double part; ///< Of the move of the wall's vertex.
   };
 
   /// Heights of a column's first vertex, and of where it ends.
@@ -80,20 +71,11 @@ private:
     double end;
   };
 
-  /// The wall's vertex of a column, and what the first cell over it is stretched by.
-  struct Base
-  {
-    Point3 point{};
-    double stretch = 1;
-    std::int64_t isSet = 0;
-  };
-
   Index numberOf(GlobalId column) const;
   void listColumns(
     RankExchange& exchange, const std::vector<ColumnVertex>& visited, const Moves& moves);
   std::vector<Span> findSpans(
     RankExchange& exchange, const std::vector<ColumnVertex>& visited, const Moves& moves) const;
-  std::vector<Base> findBases(RankExchange& exchange, const std::vector<double>& stretch) const;
 
   /// The moves of the walls of all columns of this rank. Collective.
   std::vector<Vector3> movesOfWalls(RankExchange& exchange, const Moves& moves) const;

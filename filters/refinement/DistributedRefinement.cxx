@@ -365,8 +365,7 @@ RefinementTrace refineOntoCAD(RankExchange& exchange, DistributedMesh& mesh,
     moves.add(static_cast<Index>(oldCount + hit.place), hit.where.point);
   }
   moveOntoCAD(exchange, mesh, std::move(moves), classification,
-    { projector, onBoundary, newVertices == NewVertices::MoveAndMend, true, plan.withOperations,
-      &trace.parentEdges });
+    { projector, onBoundary, newVertices == NewVertices::MoveAndMend, true, plan.withOperations });
   trace.onBoundary = std::move(onBoundary);
   return trace;
 }
