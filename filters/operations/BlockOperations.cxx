@@ -36,7 +36,8 @@ std::int64_t joined(std::int64_t a, std::int64_t b)
   return manyBlocks;
 }
 
-/// The block that all cells at a vertex, of all ranks, are of; none, or many, where it stays.
+/// The block that all cells at a vertex, of all ranks, are of; none, or many, where it stays, as at
+/// cells that are not simplices.
 std::vector<std::int64_t> blocksOfVertices(
   RankExchange& exchange, const DistributedMesh& mesh, const std::vector<std::int64_t>& ofCells)
 {
@@ -53,6 +54,17 @@ std::vector<std::int64_t> blocksOfVertices(
     }
   };
   visitCells(mesh.mesh(), joinAt);
+  visitOwnShapes(mesh.mesh(),
+    [&](auto shape, const auto& cells)
+    {
+      for (const auto& cell : cells)
+      {
+        for (const Index vertex : cell)
+        {
+          result[vertex] = isSimplex(shape) ? result[vertex] : manyBlocks;
+        }
+      }
+    });
   for (const auto& [vertex] : mesh.mesh().vertices)
   {
     result[vertex] = manyBlocks; // it is listed
@@ -109,10 +121,7 @@ std::vector<Index> usedVertices(const SimplexMesh& mesh)
       }
     }
   };
-  mark(mesh.tetrahedra);
-  mark(mesh.triangles);
-  mark(mesh.segments);
-  mark(mesh.vertices);
+  visitShapes(mesh, [&](auto, const auto& cells) { mark(cells); });
   return indicesWhere(used.size(), [&](std::size_t v) { return used[v] != 0; });
 }
 
@@ -146,10 +155,7 @@ void dropVertices(
       }
     }
   };
-  renumber(cells.tetrahedra);
-  renumber(cells.triangles);
-  renumber(cells.segments);
-  renumber(cells.vertices);
+  visitShapes(cells, [&](auto, auto& list) { renumber(list); });
   keepOnly(kept, cells.points);
   keepOnly(kept, cells.ids);
   keepOnly(kept, classification.entities);
@@ -174,6 +180,12 @@ void moveParameters(const std::vector<Point3>& before, const std::vector<Point3>
   }
 }
 
+/// Cells of the mesh's own dimension that are simplices.
+std::size_t simplexCount(const SimplexMesh& mesh)
+{
+  return visitCells(mesh, [](const auto& cells) { return cells.size(); });
+}
+
 /// The triangles that are no cells of the mesh's own dimension.
 std::size_t listedTriangles(const SimplexMesh& mesh)
 {
@@ -190,7 +202,7 @@ std::pair<std::map<std::int64_t, Members>, Members> findMembers(const Distribute
   reserveLong(others.cells, ofCells.size());
   const auto sort = [&](std::int64_t block, std::vector<Index> Members::*list, std::size_t number)
   { ((block >= 0 ? members[block] : others).*list).push_back(static_cast<Index>(number)); };
-  for (std::size_t c = 0; c < ofCells.size(); ++c)
+  for (std::size_t c = 0; c < simplexCount(mesh.mesh()); ++c)
   {
     sort(ofCells[c], &Members::cells, c);
   }
@@ -241,7 +253,8 @@ OperationBlocks findOperationBlocks(RankExchange& exchange, const DistributedMes
     flagVertices(piece, cellsAt(piece, flags, parallelFor), flags);
     combineShared(exchange, mesh.shared, flags, larger);
   }
-  std::vector<Index> cells = cellsAt(piece, flags, parallelFor);
+  std::vector<Index> cells =
+    cellsOfShape(cellsAt(piece, flags, parallelFor), 0, simplexCount(piece));
   cells.erase(std::remove_if(
                 cells.begin(), cells.end(), [&](Index cell) { return !settings.mayChange(cell); }),
     cells.end());
@@ -279,6 +292,7 @@ std::vector<int> ranksOfBlocks(
   {
     ofCells.push_back(blockOf(piece.triangles[t], ofVertices));
   }
+  ofCells.resize(firstCellOfDimension(piece, piece.dimension), noBlock); // listed quadrilaterals
   ofCells.insert(ofCells.end(), blocks.ofCells.begin(), blocks.ofCells.end());
   for (const std::int64_t block : ofCells)
   {

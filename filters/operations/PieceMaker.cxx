@@ -146,6 +146,7 @@ SimplexMesh PieceMaker::make(RefinementTrace& trace)
 {
   SimplexMesh result;
   result.dimension = mesh_.dimension;
+  result.wedgesAsDocumented = mesh_.wedgesAsDocumented;
   result.points = std::move(points_);
   result.ids = mesh_.ids;
   result.vertices = mesh_.vertices;
@@ -157,6 +158,18 @@ SimplexMesh PieceMaker::make(RefinementTrace& trace)
     result.triangles, firstChildren[2]);
   merge(mesh_.tetrahedra, mesh_.dimension == 3 ? others_.cells : std::vector<Index>(), tetrahedra_,
     result.tetrahedra, firstChildren[3]);
+  result.quadrilaterals = mesh_.quadrilaterals;
+  result.pyramids = mesh_.pyramids;
+  result.wedges = mesh_.wedges;
+  result.hexahedra = mesh_.hexahedra;
+  for (int d = 2; d < 4; ++d)
+  {
+    const std::size_t others = mesh_.cellCount(d) - (firstChildren[d].size() - 1);
+    for (std::size_t c = 0; c < others; ++c)
+    {
+      firstChildren[d].push_back(firstChildren[d].back() + 1);
+    }
+  }
   trace.parentEdges = parents_;
   placeRows(result, trace);
   return result;

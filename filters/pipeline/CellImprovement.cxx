@@ -149,10 +149,12 @@ private:
   }
 
   /// Whether cells may be cut: where vertices are off the CAD, or where a step has made the worst
-  /// cell worse. What the CAD's own angles give stays.
+  /// cell worse. What the CAD's own angles give stays. Beside other cells than simplices these
+  /// would be cut too.
   bool mayCut(const Left& left)
   {
-    if (mesh().dimension != 3 || options_.inRegion || left.count() == 0)
+    if (mesh().dimension != 3 || options_.inRegion || left.count() == 0 ||
+        exchange_.any(mesh().hasOtherThanSimplices()))
     {
       return false;
     }
@@ -338,9 +340,7 @@ private:
 void improveCells(
   const PipelineContext& context, MeshState& state, const CellImprovementOptions& options)
 {
-  const SimplexMesh& mesh = state.mesh.mesh();
-  if (mesh.dimension >= 2 && state.classification &&
-      !context.exchange.any(mesh.hasOtherThanSimplices()))
+  if (state.mesh.mesh().dimension >= 2 && state.classification)
   {
     CellImprovement(context, state, options).run();
   }

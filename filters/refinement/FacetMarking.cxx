@@ -84,7 +84,8 @@ private:
       const auto& mine = boundary_.facetEdges[f];
       const auto& its = boundary_.facetEdges[other];
       const auto shared = std::find_first_of(mine.begin(), mine.end(), its.begin(), its.end());
-      return isSmooth(classified_.classes.ofEdges[*shared], classified_.projector.model());
+      return shared != mine.end() && *shared >= 0 &&
+             isSmooth(classified_.classes.ofEdges[*shared], classified_.projector.model());
     }
     const auto& mine = boundary_.facets[f].vertices;
     const auto& its = boundary_.facets[other].vertices;
