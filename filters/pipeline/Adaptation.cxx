@@ -47,6 +47,10 @@ public:
 
   PipelineResult run(vtkPointSet* input)
   {
+    if (options_.quadraticCells)
+    {
+      checkForQuadraticCells(input);
+    }
     begin(input);
     std::string reason = reasonToStop();
     while (reason.empty())
@@ -129,10 +133,6 @@ private:
   void read(vtkPointSet* input, CellOrder order)
   {
     state_ = readMesh(exchange_, input, order);
-    if (options_.quadraticCells)
-    {
-      checkForQuadraticCells(exchange_, state_);
-    }
     state_.mapping.require(options_.fieldNeeds);
     state_.remembers = true;
   }

@@ -114,7 +114,13 @@ private:
     }
     if (options_.quadraticCells)
     {
-      checkForQuadraticCells(exchange_, state_);
+      checkForQuadraticCells(state_.prototype);
+    }
+    if (options_.quadraticCells && exchange_.any(state_.mesh.mesh().hasOtherThanSimplices()))
+    {
+      throw Error(
+        "quadratic cells (Quadratic Cells) are made of triangles and tetrahedra only, and "
+        "the mesh has other cells; switch Quadratic Cells off");
     }
   }
 
@@ -349,17 +355,12 @@ private:
 
 } // namespace
 
-void checkForQuadraticCells(RankExchange& exchange, const MeshState& state)
+void checkForQuadraticCells(vtkPointSet* data)
 {
-  if (vtkPolyData::SafeDownCast(state.prototype))
+  if (vtkPolyData::SafeDownCast(data))
   {
     throw Error("poly data cannot hold quadratic cells; make the mesh an unstructured grid first "
                 "(the filter Append Datasets does), or switch Quadratic Cells off");
-  }
-  if (exchange.any(state.mesh.mesh().hasOtherThanSimplices()))
-  {
-    throw Error("quadratic cells (Quadratic Cells) are made of triangles and tetrahedra only, and "
-                "the mesh has other cells; switch Quadratic Cells off");
   }
 }
 

@@ -46,8 +46,8 @@ struct RefinementOutcome
   bool refined = true;          ///< False: the mesh is as it was.
 };
 
-/// Throws Error for a mesh that cannot be made one of second order. Collective.
-void checkForQuadraticCells(RankExchange& exchange, const MeshState& state);
+/// Throws Error for a data set that cannot hold cells of second order.
+void checkForQuadraticCells(vtkPointSet* data);
 
 /// Refines a mesh (see refine and refineOntoCAD), which is classified if its new vertices are to be
 /// projected. What was measured of it is carried over like other arrays. Collective.

@@ -6,7 +6,7 @@ import time
 import cadrefine.options
 from cadrefine import output, plot
 from cadrefine import report as reporting
-from cadrefine import second_order, session
+from cadrefine import session
 from cadrefine.pictures import Pictures
 from cadrefine.pipeline import Pipeline
 from cadrefine.results import Results
@@ -52,10 +52,9 @@ def run(options, results, terminal, started):
     pipeline = Pipeline(terminal)
     pipeline.read_mesh(options.mesh)
     if pipeline.second_order:
-        options.quadratic = output.takes_quadratic(options.output) and not second_order.mixed
+        options.quadratic = output.takes_quadratic(options.output)
         terminal.say(f"{options.mesh}: quadratic cells are taken by their corners, and " + (
             "made quadratic again at the end" if options.quadratic else
-            "stay linear: only triangles and tetrahedra are made quadratic" if second_order.mixed else
             f"stay linear in {options.output}, whose format has no quadratic ones"))
     pipeline.check(options)
     pipeline.read_cad(options.cad, options.cad_unit)

@@ -19,7 +19,6 @@ HARMLESS = "Error reading InformationKey element for vtkDataArray::"
 # What the filters say of their properties, and what it is called here.
 WORDINGS = ((r"\(Region\)", "(--region)"), (r"\(Faces\)", "(--faces)"), (r"\(ConservedArrays\)", "(--conserve)"),
             (r"\bMaximumDistance\b", "--maximum-distance"), (r"\bchoose Quadratic Cells\b", "give --quadratic"),
-            (r"\(Quadratic Cells\)", "(--quadratic)"), (r"\bswitch Quadratic Cells off\b", "leave out --quadratic"),
             (r"set Unit of the CAD Reader to \w+ \(driver: (--cad-unit \w+)\)", r"give \1"))
 errors = []  # Of this rank since they were last taken.
 warnings = []  # Of this rank, each once.

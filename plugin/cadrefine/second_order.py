@@ -1,4 +1,4 @@
-"""Meshes of second order: the filters take them by their corners, and make those of simplices quadratic at the end."""
+"""Meshes of second order: the filters take them by their corners, and make them quadratic again at the end."""
 
 import numpy as np
 from paraview import simple
@@ -11,7 +11,6 @@ from cadrefine.pieces import of_all_ranks
 
 # VTK's types of cells of second order, and their linear types; corners come first.
 LINEAR = {**cells.LINEAR, **{kind: cells.LINEAR[reduced] for kind, reduced in cells.REDUCED.items()}}
-OTHERS = [kind for kind in (*cells.TYPES, *LINEAR) if LINEAR.get(kind, kind) in (9, 12, 13, 14)]  # Than simplices.
 
 # Run on every rank, in the process of the driver on rank 0.
 LOOK = """
@@ -23,7 +22,6 @@ from cadrefine import second_order
 self.GetOutput().ShallowCopy(second_order.by_corners(self.GetInputDataObject(0, 0)))
 """
 found = False  # After look(): whether any rank has such cells.
-mixed = False  # And whether any has other cells than simplices, so that all stay linear.
 
 
 def with_corners_alone(proxy):
@@ -37,10 +35,10 @@ def with_corners_alone(proxy):
 
 
 def look(data):
-    global found, mixed
-    has_types = data.IsA("vtkUnstructuredGrid") and data.GetNumberOfCells()
-    types = vtk_to_numpy(data.GetCellTypesArray()) if has_types else []
-    found, mixed = (max(of_all_ranks(int(np.isin(types, list(kinds)).any()))) == 1 for kinds in (LINEAR, OTHERS))
+    global found
+    here = data.IsA("vtkUnstructuredGrid") and data.GetNumberOfCells() \
+        and np.isin(vtk_to_numpy(data.GetCellTypesArray()), list(LINEAR)).any()
+    found = max(of_all_ranks(int(here))) == 1
 
 
 def by_corners(data):

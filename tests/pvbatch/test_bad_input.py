@@ -9,7 +9,6 @@ import unittest
 
 import driver
 import meshio
-import numpy as np
 
 RANKS = int(sys.argv.pop()) if sys.argv[-1].isdigit() else 1
 
@@ -221,22 +220,6 @@ class BadInput(Case):
         meshio.write(path, meshio.Mesh(mesh.points, {"triangle": mesh.cells_dict["triangle"].astype("int32")}),
                      binary=False)
         self.assert_fails(path, driver.data("three_arcs.igs"), "--quadratic", names="arcs.ply: poly data cannot hold")
-
-    def test_quadratic_cells_of_a_mesh_of_hexahedra(self):
-        """Linear ones are refused, those of second order stay linear."""
-        cube = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]])
-        edges = [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)]
-        corners = cube * [1.4, 1.4, 2] - [0.7, 0.7, 0]
-        linear, second_order = (os.path.join(self.folder, name) for name in ("linear.vtu", "second_order.vtu"))
-        meshio.write(linear, meshio.Mesh(corners, {"hexahedron": [list(range(8))]}))
-        points = np.vstack([corners, corners[np.array(edges)].mean(axis=1)])
-        meshio.write(second_order, meshio.Mesh(points, {"hexahedron20": [list(range(20))]}))
-        cad = driver.data("cylinder.brep")
-        self.assert_fails(linear, cad, "--quadratic",
-                          names="linear.vtu: quadratic cells (--quadratic) are made of triangles and tetrahedra")
-        run = driver.Run(RANKS, second_order, cad, "--steps", "0")
-        self.assertEqual(run.errors, [])
-        self.assertIn("stay linear: only triangles and tetrahedra", run.output)
 
     def test_folder_of_output_is_missing(self):
         path = os.path.join(self.folder, "none", "out.vtu")
