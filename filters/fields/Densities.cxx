@@ -69,50 +69,54 @@ double meanOf(const BezierForm<Count>& form)
   return std::accumulate(coefficients.begin(), coefficients.end(), 0.0) / Count;
 }
 
-double sizeOf(const CurvedTetrahedron& nodes, const Vector3&)
+/// Of cells with mid nodes on the way: pyramids have none.
+template<class Shape>
+double sizeOfCurved(Shape, const CurvedCell<Shape>& nodes, const Vector3& plane)
 {
-  return std::abs(meanOf(jacobianOf(nodes))) / 6;
-}
-
-double sizeOf(const CurvedTriangle& nodes, const Vector3& plane)
-{
-  return std::abs(meanOf(jacobianOf(nodes, plane))) / 2;
-}
-
-template<std::size_t Corners, std::size_t Edges>
-WeightedRows curvedRowsOf(const SimplexMesh& mesh, const Simplices<Corners>& cells,
-  const std::vector<std::array<Index, Edges>>& edges, const MidNodes& midNodes,
-  const Vector3& plane)
-{
-  WeightedRows rows;
-  auto place = static_cast<Index>(firstCellOfDimension(mesh, mesh.dimension));
-  for (std::size_t c = 0; c < cells.size(); ++c, ++place)
+  if constexpr (Shape::dimension == 2)
   {
-    const auto nodes =
-      gatherNodes(mesh, cells[c], edges[c], [&](Index edge) { return midNodes.points[edge]; });
-    SimplexPoints<Corners> corners;
-    std::copy_n(nodes.begin(), Corners, corners.begin());
-    const double curved = nodes == straightCell(corners) ? 0 : sizeOf(nodes, plane);
-    if (curved > 0)
-    {
-      rows.add(place, measure(corners) / curved);
-      rows.endRow(place);
-    }
+    return std::abs(meanOf(jacobianOf(nodes, plane))) / (isSimplex(Shape{}) ? 2 : 1);
   }
-  return rows;
+  else if constexpr (Shape::corners == 5)
+  {
+    return 0;
+  }
+  else
+  {
+    constexpr int parts = Shape::corners == 4 ? 6 : Shape::corners == 6 ? 2 : 1;
+    return std::abs(meanOf(jacobianOf(nodes))) / parts;
+  }
 }
 
 } // namespace
 
 WeightedRows densitiesOfCurved(const SimplexMesh& mesh, const MidNodes& nodes, const Vector3& plane)
 {
-  if (mesh.dimension == 3)
+  WeightedRows rows;
+  if (mesh.dimension == 2 && plane == Vector3{})
   {
-    return curvedRowsOf(mesh, mesh.tetrahedra, nodes.table.ofTetrahedra, nodes, plane);
+    return rows;
   }
-  return plane == Vector3{}
-           ? WeightedRows{}
-           : curvedRowsOf(mesh, mesh.triangles, nodes.table.ofTriangles, nodes, plane);
+  auto place = static_cast<Index>(firstCellOfDimension(mesh, mesh.dimension));
+  visitOwnShapes(mesh,
+    [&](auto shape, const auto& cells)
+    {
+      const auto& edgesOf = nodes.table.*edgesOfCells(shape);
+      for (std::size_t c = 0; c < cells.size(); ++c, ++place)
+      {
+        const auto points =
+          gatherNodes(mesh, cells[c], edgesOf[c], [&](Index edge) { return nodes.points[edge]; });
+        const auto corners = cornersOf(cells[c], mesh.points);
+        const double curved =
+          points == straightCell(shape, corners) ? 0 : sizeOfCurved(shape, points, plane);
+        if (curved > 0)
+        {
+          rows.add(place, sizeOf(shape, corners) / curved);
+          rows.endRow(place);
+        }
+      }
+    });
+  return rows;
 }
 
 WeightedRows densitiesOfMoved(const SimplexMesh& mesh, const std::vector<Point3>& before)

@@ -36,11 +36,17 @@ void settle(RankExchange& exchange, const DistributedMesh& mesh, const MarkedEdg
 {
   const SimplexMesh& piece = mesh.mesh();
   const Vector3 plane = piece.dimension == 2 ? planeNormal(exchange, piece) : Vector3{};
-  MidNodeGuard guard(piece, edges.table, moves, plane, forOnThreads(exchange));
-  while (exchange.any(guard.stepBack(moves)))
+  const auto combine = [&]
   {
     combineShared(exchange, edges.sharedEdges, moves.fractions,
       [](double a, double b) { return std::min(a, b); });
+  };
+  keepPyramidsStraight(edges.table, moves);
+  combine();
+  MidNodeGuard guard(piece, edges.table, moves, plane, forOnThreads(exchange));
+  while (exchange.any(guard.stepBack(moves)))
+  {
+    combine();
   }
 }
 

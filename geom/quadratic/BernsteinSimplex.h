@@ -1,4 +1,4 @@
-// Polynomials in Bezier form on triangles and tetrahedra.
+// Polynomials in Bezier form on segments, triangles and tetrahedra.
 #pragma once
 
 #include <algorithm>
@@ -13,6 +13,9 @@ namespace cadrefine
 template<int Corners, int Degree>
 struct BernsteinSimplex
 {
+  static constexpr int corners = Corners;
+  static constexpr int degree = Degree;
+
   using Tuple = std::array<int, Degree>;
 
   static constexpr int count()
@@ -58,6 +61,29 @@ struct BernsteinSimplex
       power += index == corner;
     }
     return power;
+  }
+
+  /// Whether the coefficient is the polynomial's value at a corner.
+  static constexpr bool isAtCorner(int place)
+  {
+    return tuples[place].front() == tuples[place].back();
+  }
+
+  static constexpr int placeOf(const Tuple& tuple) { return placeAfter(tuple, 0, 0); }
+
+  /// In how many orders the tuple can be written.
+  static constexpr int permutations(const Tuple& tuple)
+  {
+    int result = 1;
+    int rest = Degree;
+    for (int corner = 0; corner < Corners; ++corner)
+    {
+      for (int k = 1; k <= powerOf(tuple, corner); ++k)
+      {
+        result = result * rest-- / k;
+      }
+    }
+    return result;
   }
 
   /// Place of the tuple with the same powers but one less of `from` and one more of `to`.

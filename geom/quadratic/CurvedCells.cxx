@@ -1,7 +1,8 @@
 #include <cadrefine/quadratic/CurvedCells.h>
 
+#include <cadrefine/mesh/CellJacobian.h>
 #include <cadrefine/mesh/Orientation.h>
-#include <cadrefine/quadratic/BernsteinSimplex.h>
+#include <cadrefine/quadratic/BernsteinProduct.h>
 
 #include <algorithm>
 #include <cmath>
@@ -58,21 +59,23 @@ double determinant(const Vector3& a, const Vector3& b, const Vector3& c)
   return dot(a, cross(b, c));
 }
 
-/// Whether a polynomial is positive on a simplex, with rounding errors.
-template<int Corners, int Degree>
+/// Whether a polynomial on a product of simplices is positive, with rounding errors.
+template<class Basis>
 class PositivityTest
 {
 public:
-  using Basis = BernsteinSimplex<Corners, Degree>;
   using Coefficients = typename Basis::Coefficients;
 
   explicit PositivityTest(const BezierForm<Basis::count()>& form)
   {
     // Corners of the parameters, so that all edges are equally long.
-    std::array<std::array<double, Corners>, Corners> corners{};
-    for (int k = 0; k < Corners; ++k)
+    Corners corners{};
+    for (auto& ofFactor : corners)
     {
-      corners[k][k] = 1;
+      for (int k = 0; k < mostCorners; ++k)
+      {
+        ofFactor[k][k] = 1;
+      }
     }
     largest_ = 0;
     for (const double coefficient : form.coefficients)
@@ -103,19 +106,31 @@ public:
   }
 
 private:
+  static constexpr int mostCorners = 4;
+  /// Of the piece in each factor.
+  using Corners =
+    std::array<std::array<std::array<double, mostCorners>, mostCorners>, Basis::factors>;
+
   struct Piece
   {
     Coefficients coefficients;
-    std::array<std::array<double, Corners>, Corners> corners;
+    Corners corners;
     double rounding;
+  };
+
+  /// An edge of a piece, in one of the factors.
+  struct Edge
+  {
+    std::size_t factor;
+    int a;
+    int b;
   };
 
   static bool isPositiveAtCorners(const Piece& piece)
   {
     for (int t = 0; t < Basis::count(); ++t)
     {
-      const auto& tuple = Basis::tuples[t];
-      if (tuple.front() == tuple.back() && !(piece.coefficients[t] > piece.rounding))
+      if (Basis::isAtCorner(t) && !(piece.coefficients[t] > piece.rounding))
       {
         return false;
       }
@@ -123,44 +138,50 @@ private:
     return true;
   }
 
-  static double squaredLength(const Piece& piece, int a, int b)
+  static double squaredLength(const Piece& piece, const Edge& edge)
   {
     double sum = 0;
-    for (int k = 0; k < Corners; ++k)
+    for (int k = 0; k < mostCorners; ++k)
     {
-      const double difference = piece.corners[a][k] - piece.corners[b][k];
+      const auto& corners = piece.corners[edge.factor];
+      const double difference = corners[edge.a][k] - corners[edge.b][k];
       sum += difference * difference;
     }
     return sum;
   }
 
-  static std::array<int, 2> longestEdge(const Piece& piece)
+  static Edge longestEdge(const Piece& piece)
   {
-    std::array<int, 2> longest{ 0, 1 };
-    for (int a = 0; a < Corners; ++a)
+    Edge longest{ 0, 0, 1 };
+    for (std::size_t factor = 0; factor < Basis::factors; ++factor)
     {
-      for (int b = a + 1; b < Corners; ++b)
+      for (int a = 0; a < Basis::corners[factor]; ++a)
       {
-        if (squaredLength(piece, a, b) > squaredLength(piece, longest[0], longest[1]))
+        for (int b = a + 1; b < Basis::corners[factor]; ++b)
         {
-          longest = { a, b };
+          if (squaredLength(piece, { factor, a, b }) > squaredLength(piece, longest))
+          {
+            longest = { factor, a, b };
+          }
         }
       }
     }
     return longest;
   }
 
-  /// A coefficient takes part in `Degree` means, which round by half of epsilon of the result.
+  /// A coefficient takes part in as many means as the degree says, which round by half of epsilon
+  /// of the result.
   void halve(const Piece& piece)
   {
-    const auto [a, b] = longestEdge(piece);
+    const auto [factor, a, b] = longestEdge(piece);
     for (const auto& [kept, lost] : { std::array<int, 2>{ a, b }, std::array<int, 2>{ b, a } })
     {
-      Piece half{ Basis::half(piece.coefficients, kept, lost), piece.corners,
-        piece.rounding + Degree * epsilon * largest_ };
-      for (int k = 0; k < Corners; ++k)
+      Piece half{ Basis::half(piece.coefficients, factor, kept, lost), piece.corners,
+        piece.rounding + Basis::degrees[factor] * epsilon * largest_ };
+      const auto& corners = piece.corners[factor];
+      for (int k = 0; k < mostCorners; ++k)
       {
-        half.corners[lost][k] = 0.5 * (piece.corners[a][k] + piece.corners[b][k]);
+        half.corners[factor][lost][k] = 0.5 * (corners[a][k] + corners[b][k]);
       }
       pieces_.push_back(half);
     }
@@ -170,8 +191,8 @@ private:
   double largest_ = 0;
 };
 
-template<int Corners, int Degree, std::size_t Count>
-bool isPositive(const BezierForm<Count>& form)
+template<class Basis>
+bool isPositive(const BezierForm<Basis::count()>& form)
 {
   const auto isCertain = [&](double coefficient) { return coefficient > form.rounding; };
   if (!(form.rounding > smallestRounding && form.rounding <= std::numeric_limits<double>::max()))
@@ -179,27 +200,194 @@ bool isPositive(const BezierForm<Count>& form)
     return false;
   }
   return std::all_of(form.coefficients.begin(), form.coefficients.end(), isCertain) ||
-         PositivityTest<Corners, Degree>(form).run();
+         PositivityTest<Basis>(form).run();
 }
 
-template<std::size_t Corners, std::size_t Edges>
-std::array<Point3, Corners + Edges> addMiddles(
-  const std::array<Point3, Corners>& corners, const int (&edges)[Edges][2])
+template<class Shape>
+std::array<Point3, Shape::corners> cornersOf(Shape, const CurvedCell<Shape>& nodes)
 {
-  std::array<Point3, Corners + Edges> result;
-  std::copy(corners.begin(), corners.end(), result.begin());
-  std::transform(std::begin(edges), std::end(edges), result.begin() + Corners,
-    [&](const int(&edge)[2]) { return 0.5 * (corners[edge[0]] + corners[edge[1]]); });
+  std::array<Point3, Shape::corners> corners;
+  std::copy_n(nodes.begin(), Shape::corners, corners.begin());
+  return corners;
+}
+
+template<class Shape>
+bool isValidStraight(Shape, const std::array<Point3, Shape::corners>& corners, const Vector3& side)
+{
+  if constexpr (isSimplex(Shape{}) && Shape::dimension == 3)
+  {
+    return orientation(corners[0], corners[1], corners[2], corners[3]) > 0;
+  }
+  else if constexpr (isSimplex(Shape{}))
+  {
+    return turnOf(corners[0], corners[1], corners[2], side) > 0;
+  }
+  else if constexpr (Shape::dimension == 2)
+  {
+    return isValidQuadrilateral(corners, side);
+  }
+  else
+  {
+    return hasPositiveJacobian(corners);
+  }
+}
+
+/// Whether it is valid, if it is straight, or else by isPositive().
+template<class Shape, class IsPositive>
+bool isValidCell(
+  Shape shape, const CurvedCell<Shape>& nodes, const Vector3& side, const IsPositive& isPositive)
+{
+  const auto corners = cornersOf(shape, nodes);
+  return nodes == straightCell(shape, corners) ? isValidStraight(shape, corners, side)
+                                               : isPositive();
+}
+
+template<int Degree>
+using OnSegment = BernsteinSimplex<2, Degree>;
+template<int Degree>
+using OnTriangle = BernsteinSimplex<3, Degree>;
+
+/// Where the Bezier points of serendipity cells are, and the degree of the determinant.
+template<class Shape>
+struct SerendipityMap;
+
+template<>
+struct SerendipityMap<shapes::Quadrilateral>
+{
+  using Basis = BernsteinProduct<OnSegment<2>, OnSegment<2>>;
+  using Jacobian = BernsteinProduct<OnSegment<3>, OnSegment<3>>;
+  static constexpr int quadrilaterals[1][4] = { { 0, 1, 2, 3 } };
+
+  /// Place of the point halfway between those at two corners.
+  static constexpr int placeBetween(int a, int b)
+  {
+    constexpr int places[4] = { 0, 6, 8, 2 };
+    return (places[a] + places[b]) / 2;
+  }
+};
+
+template<>
+struct SerendipityMap<shapes::Hexahedron>
+{
+  using Basis = BernsteinProduct<OnSegment<2>, OnSegment<2>, OnSegment<2>>;
+  using Jacobian = BernsteinProduct<OnSegment<5>, OnSegment<5>, OnSegment<5>>;
+  static constexpr auto& quadrilaterals = shapes::Hexahedron::faces;
+
+  static constexpr int placeBetween(int a, int b)
+  {
+    constexpr int places[8] = { 0, 18, 24, 6, 2, 20, 26, 8 };
+    return (places[a] + places[b]) / 2;
+  }
+};
+
+template<>
+struct SerendipityMap<shapes::Wedge>
+{
+  using Basis = BernsteinProduct<OnTriangle<2>, OnSegment<2>>;
+  using Jacobian = BernsteinProduct<OnTriangle<4>, OnSegment<5>>;
+  static constexpr int quadrilaterals[3][4] = { { 0, 1, 4, 3 }, { 1, 2, 5, 4 }, { 2, 0, 3, 5 } };
+
+  static constexpr int placeBetween(int a, int b)
+  {
+    constexpr int places[3][3] = { { 0, 1, 2 }, { 1, 3, 4 }, { 2, 4, 5 } };
+    return 3 * places[a % 3][b % 3] + a / 3 + b / 3;
+  }
+};
+
+template<class Shape>
+using BezierPoints = BezierPolynomial<typename SerendipityMap<Shape>::Basis, Vector3>;
+
+/// Less the first node.
+template<class Shape>
+BezierPoints<Shape> bezierPointsOf(Shape, const CurvedCell<Shape>& nodes)
+{
+  using Map = SerendipityMap<Shape>;
+  BezierPoints<Shape> result;
+  const auto at = [&](int a, int b) -> Vector3&
+  { return result.coefficients[Map::placeBetween(a, b)]; };
+  Vector3 sumOfCorners{};
+  Vector3 sumOfEdges{};
+  for (int c = 0; c < static_cast<int>(Shape::corners); ++c)
+  {
+    at(c, c) = nodes[c] - nodes[0];
+    sumOfCorners = sumOfCorners + at(c, c);
+  }
+  std::size_t node = Shape::corners;
+  for (const auto& [a, b] : Shape::edges)
+  {
+    at(a, b) = 2.0 * (nodes[node++] - nodes[0]) - 0.5 * (at(a, a) + at(b, b));
+    sumOfEdges = sumOfEdges + at(a, b);
+  }
+  for (const auto& [a, b, c, d] : Map::quadrilaterals)
+  {
+    at(a, c) = 0.25 * (2.0 * (at(a, b) + at(b, c) + at(c, d) + at(d, a)) -
+                        (at(a, a) + at(b, b) + at(c, c) + at(d, d)));
+  }
+  if constexpr (Shape::corners == 8)
+  {
+    at(0, 6) = 0.25 * (sumOfEdges - sumOfCorners);
+  }
   return result;
 }
 
-template<std::size_t Corners, class Nodes>
-std::array<Point3, Corners> cornersOf(const Nodes& nodes)
+double oneNorm(const Vector3& vector)
 {
-  std::array<Point3, Corners> corners;
-  std::copy_n(nodes.begin(), Corners, corners.begin());
-  return corners;
+  return std::abs(vector[0]) + std::abs(vector[1]) + std::abs(vector[2]);
 }
+
+template<class Vectors>
+double largestNorm(const Vectors& vectors)
+{
+  return std::accumulate(vectors.begin(), vectors.end(), 0.0,
+    [](double largest, const Vector3& vector) { return std::max(largest, oneNorm(vector)); });
+}
+
+/// By how much a product of three factors can err, given what each is at most and how much it errs.
+double errorOfProduct(const std::array<double, 3>& most, const std::array<double, 3>& error)
+{
+  const auto [a, b, c] = most;
+  const auto [d, e, f] = error;
+  return d * b * c + a * e * c + a * b * f + d * e * c + d * b * f + a * e * f + d * e * f +
+         30 * epsilon * a * b * c;
+}
+
+template<class Basis>
+BezierForm<Basis::count()> formOf(
+  const BezierPolynomial<Basis, double>& polynomial, double rounding)
+{
+  return { polynomial.coefficients, rounding };
+}
+
+template<class Nodes>
+double errorOfDerivatives(const Nodes& nodes)
+{
+  double size = 0;
+  for (const Point3& node : nodes)
+  {
+    size = std::max(size, oneNorm(node - nodes[0]));
+  }
+  return 210 * epsilon * size;
+}
+
+template<class A, class B>
+auto crossProduct(const BezierPolynomial<A, Vector3>& a, const BezierPolynomial<B, Vector3>& b)
+{
+  return multiply(a, b, [](const Vector3& x, const Vector3& y) { return cross(x, y); });
+}
+
+template<class A, class B, class C>
+auto determinantOf(const BezierPolynomial<A, Vector3>& a, const BezierPolynomial<B, Vector3>& b,
+  const BezierPolynomial<C, Vector3>& c, double error)
+{
+  const auto product =
+    multiply(crossProduct(a, b), c, [](const Vector3& x, const Vector3& y) { return dot(x, y); });
+  return formOf(product, errorOfProduct({ largestNorm(a.coefficients), largestNorm(b.coefficients),
+                                          largestNorm(c.coefficients) },
+                           { error, error, error }));
+}
+
+template<class Shape>
+using JacobianBasis = typename SerendipityMap<Shape>::Jacobian;
 
 } // namespace
 
@@ -244,34 +432,71 @@ BezierForm<6> jacobianOf(const CurvedTriangle& nodes, const Vector3& side)
   return result;
 }
 
+BezierForm<16> jacobianOf(const CurvedQuadrilateral& nodes, const Vector3& side)
+{
+  const auto points = bezierPointsOf(shapes::Quadrilateral{}, nodes);
+  const auto a = derivative<0>(points, 1);
+  const auto b = derivative<1>(points, 1);
+  const double error = errorOfDerivatives(nodes);
+  const auto normals = crossProduct(a, b);
+  BezierPolynomial<JacobianBasis<shapes::Quadrilateral>, double> alongSide;
+  std::transform(normals.coefficients.begin(), normals.coefficients.end(),
+    alongSide.coefficients.begin(), [&](const Vector3& normal) { return dot(side, normal); });
+  return formOf(alongSide,
+    errorOfProduct({ largestNorm(a.coefficients), largestNorm(b.coefficients), oneNorm(side) },
+      { error, error, 0 }));
+}
+
+BezierForm<90> jacobianOf(const CurvedWedge& nodes)
+{
+  const auto points = bezierPointsOf(shapes::Wedge{}, nodes);
+  return determinantOf(derivative<0>(points, 1), derivative<0>(points, 2), derivative<1>(points, 1),
+    errorOfDerivatives(nodes));
+}
+
+BezierForm<216> jacobianOf(const CurvedHexahedron& nodes)
+{
+  const auto points = bezierPointsOf(shapes::Hexahedron{}, nodes);
+  return determinantOf(derivative<0>(points, 1), derivative<1>(points, 1), derivative<2>(points, 1),
+    errorOfDerivatives(nodes));
+}
+
 bool isValid(const CurvedTetrahedron& nodes)
 {
-  const auto corners = cornersOf<4>(nodes);
-  if (nodes == straightCell(corners))
-  {
-    return orientation(corners[0], corners[1], corners[2], corners[3]) > 0;
-  }
-  return isPositive<4, 3>(jacobianOf(nodes));
+  return isValidCell(shapes::Tetrahedron{}, nodes, {},
+    [&] { return isPositive<BernsteinProduct<BernsteinSimplex<4, 3>>>(jacobianOf(nodes)); });
+}
+
+bool isValid(const CurvedPyramid& nodes)
+{
+  return isValidCell(shapes::Pyramid{}, nodes, {}, [] { return false; });
+}
+
+bool isValid(const CurvedWedge& nodes)
+{
+  return isValidCell(shapes::Wedge{}, nodes, {},
+    [&] { return isPositive<JacobianBasis<shapes::Wedge>>(jacobianOf(nodes)); });
+}
+
+bool isValid(const CurvedHexahedron& nodes)
+{
+  return isValidCell(shapes::Hexahedron{}, nodes, {},
+    [&] { return isPositive<JacobianBasis<shapes::Hexahedron>>(jacobianOf(nodes)); });
 }
 
 bool isValid(const CurvedTriangle& nodes, const Vector3& side)
 {
-  const auto corners = cornersOf<3>(nodes);
-  if (nodes == straightCell(corners))
-  {
-    return turnOf(corners[0], corners[1], corners[2], side) > 0;
-  }
-  return isPositive<3, 2>(jacobianOf(nodes, normalized(side)));
+  return isValidCell(shapes::Triangle{}, nodes, side,
+    [&]
+    { return isPositive<BernsteinProduct<OnTriangle<2>>>(jacobianOf(nodes, normalized(side))); });
 }
 
-CurvedTetrahedron straightCell(const std::array<Point3, 4>& corners)
+bool isValid(const CurvedQuadrilateral& nodes, const Vector3& side)
 {
-  return addMiddles(corners, tetrahedronEdges);
-}
-
-CurvedTriangle straightCell(const std::array<Point3, 3>& corners)
-{
-  return addMiddles(corners, triangleEdges);
+  return isValidCell(shapes::Quadrilateral{}, nodes, side,
+    [&] {
+      return isPositive<JacobianBasis<shapes::Quadrilateral>>(jacobianOf(nodes, normalized(side)));
+    });
 }
 
 Point3 pointAt(const CurvedTriangle& nodes, const std::array<double, 3>& where)
@@ -282,6 +507,23 @@ Point3 pointAt(const CurvedTriangle& nodes, const std::array<double, 3>& where)
     const int next = (k + 1) % 3;
     result =
       result + where[k] * (2 * where[k] - 1) * nodes[k] + 4 * where[k] * where[next] * nodes[3 + k];
+  }
+  return result;
+}
+
+Point3 pointAt(const CurvedQuadrilateral& nodes, const Point2& where)
+{
+  Point3 result{};
+  const auto [u, v] = where;
+  const double atU[2] = { 1 - u, u };
+  const double atV[2] = { 1 - v, v };
+  for (int k = 0; k < 4; ++k)
+  {
+    const int i = k == 1 || k == 2;
+    const int j = k > 1;
+    const double corner = atU[i] * atV[j];
+    const double edge = 4 * (k % 2 == 0 ? u * (1 - u) * atV[j] : v * (1 - v) * atU[i]);
+    result = result + corner * (2 * (atU[i] + atV[j]) - 3) * nodes[k] + edge * nodes[4 + k];
   }
   return result;
 }

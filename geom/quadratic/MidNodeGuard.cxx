@@ -31,18 +31,6 @@ std::vector<Index> cellsWhere(const Edges& edgesOf, const std::vector<double>& f
     [&](std::size_t c) { return std::any_of(edgesOf[c].begin(), edgesOf[c].end(), moves); });
 }
 
-bool isCellValid(
-  const SimplexMesh&, const std::array<Index, 4>&, const Vector3&, const CurvedTetrahedron& nodes)
-{
-  return isValid(nodes);
-}
-
-bool isCellValid(const SimplexMesh& mesh, const std::array<Index, 3>& cell, const Vector3& plane,
-  const CurvedTriangle& nodes)
-{
-  return isValid(nodes, sideOfCell(mesh, cell, plane));
-}
-
 template<class Edges>
 bool stepBackWhere(const std::vector<Index>& cells, const std::vector<unsigned char>& invalid,
   const Edges& edgesOf, const std::vector<double>& before, std::vector<double>& fractions)
@@ -96,49 +84,60 @@ Point3 MidNodeMoves::position(Index edge) const
   return fraction == 0 ? middle : middle + fraction * (targets[edge] - middle);
 }
 
+void keepPyramidsStraight(const EdgeTable& table, MidNodeMoves& moves)
+{
+  for (const auto& edges : table.ofPyramids)
+  {
+    for (const Index edge : edges)
+    {
+      moves.fractions[edge] = 0;
+    }
+  }
+}
+
 MidNodeGuard::MidNodeGuard(const SimplexMesh& mesh, const EdgeTable& table,
   const MidNodeMoves& moves, const Vector3& plane, const ParallelFor& parallelFor)
   : mesh_(mesh), table_(table), plane_(plane), parallelFor_(parallelFor),
-    cells_(mesh.dimension == 3 ? cellsWhere(table.ofTetrahedra, moves.fractions)
-                               : cellsWhere(table.ofTriangles, moves.fractions)),
     seen_(moves.fractions.size(), -1.0)
 {
+  visitOwnShapes(mesh, [&](auto shape, const auto&)
+    { cells_.push_back(cellsWhere(table.*edgesOfCells(shape), moves.fractions)); });
 }
 
-template<std::size_t Count>
-bool MidNodeGuard::hasChanged(
-  const std::array<Index, Count>& edges, const MidNodeMoves& moves) const
-{
-  return std::any_of(
-    edges.begin(), edges.end(), [&](Index edge) { return moves.fractions[edge] != seen_[edge]; });
-}
-
-template<class Cells, class Edges>
+template<class Shape>
 std::vector<unsigned char> MidNodeGuard::findInvalid(
-  const Cells& cells, const Edges& edgesOf, const MidNodeMoves& moves) const
+  Shape shape, const std::vector<Index>& cells, const MidNodeMoves& moves) const
 {
-  std::vector<unsigned char> invalid(cells_.size(), 0);
+  std::vector<unsigned char> invalid(cells.size(), 0);
   const auto nodeAt = [&](Index edge) { return moves.position(edge); };
-  forEachIndex(parallelFor_, cells_.size(), fineGrain,
+  const auto hasChanged = [&](Index edge) { return moves.fractions[edge] != seen_[edge]; };
+  forEachIndex(parallelFor_, cells.size(), fineGrain,
     [&](std::size_t i)
     {
-      const auto& cell = cells[cells_[i]];
-      const auto& edges = edgesOf[cells_[i]];
-      invalid[i] = hasChanged(edges, moves) &&
-                   !isCellValid(mesh_, cell, plane_, gatherNodes(mesh_, cell, edges, nodeAt));
+      const Index c = cells[i];
+      const auto& edges = (table_.*edgesOfCells(shape))[c];
+      invalid[i] = std::any_of(edges.begin(), edges.end(), hasChanged) &&
+                   !isCellValid(shape, mesh_, (mesh_.*Shape::cells)[c], edges, plane_, nodeAt);
     });
   return invalid;
 }
 
 bool MidNodeGuard::stepBack(MidNodeMoves& moves)
 {
-  const std::vector<unsigned char> invalid =
-    mesh_.dimension == 3 ? findInvalid(mesh_.tetrahedra, table_.ofTetrahedra, moves)
-                         : findInvalid(mesh_.triangles, table_.ofTriangles, moves);
+  std::vector<std::vector<unsigned char>> invalid;
+  visitOwnShapes(mesh_, [&](auto shape, const auto&)
+    { invalid.push_back(findInvalid(shape, cells_[invalid.size()], moves)); });
   seen_ = moves.fractions;
-  return mesh_.dimension == 3
-           ? stepBackWhere(cells_, invalid, table_.ofTetrahedra, seen_, moves.fractions)
-           : stepBackWhere(cells_, invalid, table_.ofTriangles, seen_, moves.fractions);
+  bool any = false;
+  std::size_t s = 0;
+  visitOwnShapes(mesh_,
+    [&](auto shape, const auto&)
+    {
+      any |=
+        stepBackWhere(cells_[s], invalid[s], table_.*edgesOfCells(shape), seen_, moves.fractions);
+      ++s;
+    });
+  return any;
 }
 
 } // namespace cadrefine

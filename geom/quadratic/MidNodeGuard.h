@@ -24,6 +24,10 @@ struct MidNodeMoves
   Point3 position(Index edge) const;
 };
 
+/// Takes the mid nodes of pyramids back to the middle (see isValid). Over ranks take the minimum of
+/// the fractions of shared edges afterwards.
+void keepPyramidsStraight(const EdgeTable& table, MidNodeMoves& moves);
+
 /// Finds how far mid nodes can go so that all cells of the mesh's own dimension stay valid by the
 /// Bezier bounds of isValid.
 ///
@@ -46,8 +50,8 @@ public:
   static constexpr double firstStep = 1.0 / 128;
   static constexpr int maximumHalvings = 12;
 
-  /// `plane` is the unit normal of a planar mesh, from whose end its triangles should turn; where
-  /// it is zero, triangles keep the side of their straight normal. Keeps references to mesh and
+  /// `plane` is the unit normal of a planar mesh, from whose end its cells should turn; where it is
+  /// zero, cells of area keep the side of their straight normal. Keeps references to mesh and
   /// table. Work: one look at each cell; memory for those with a node that moves.
   MidNodeGuard(const SimplexMesh& mesh, const EdgeTable& table, const MidNodeMoves& moves,
     const Vector3& plane, const ParallelFor& parallelFor = serialFor);
@@ -57,18 +61,16 @@ public:
   bool stepBack(MidNodeMoves& moves);
 
 private:
-  template<class Cells, class Edges>
+  template<class Shape>
   std::vector<unsigned char> findInvalid(
-    const Cells& cells, const Edges& edgesOf, const MidNodeMoves& moves) const;
-  template<std::size_t Count>
-  bool hasChanged(const std::array<Index, Count>& edges, const MidNodeMoves& moves) const;
+    Shape shape, const std::vector<Index>& cells, const MidNodeMoves& moves) const;
 
   const SimplexMesh& mesh_;
   const EdgeTable& table_;
   Vector3 plane_;
   ParallelFor parallelFor_;
-  std::vector<Index> cells_; ///< Those with a node that moves.
-  std::vector<double> seen_; ///< The fractions at the last sweep.
+  std::vector<std::vector<Index>> cells_; ///< Of each shape those with a node that moves.
+  std::vector<double> seen_;              ///< The fractions at the last sweep.
 };
 
 } // namespace cadrefine

@@ -1,11 +1,13 @@
-// What makes a mesh of simplices one of second order.
+// What makes a mesh one of second order.
 #pragma once
 
+#include <cadrefine/mesh/CellState.h>
 #include <cadrefine/mesh/EdgeTable.h>
 #include <cadrefine/mesh/SimplexMesh.h>
 #include <cadrefine/quadratic/CurvedCells.h>
 
 #include <array>
+#include <iterator>
 #include <vector>
 
 namespace cadrefine
@@ -44,10 +46,24 @@ std::array<Point3, Corners + Edges> gatherNodes(const SimplexMesh& mesh,
   return nodes;
 }
 
-/// The side from which a triangle of a mesh is seen: `plane`, or where that is zero (in space) its
-/// own normal. Tetrahedra have none.
-Vector3 sideOfCell(
-  const SimplexMesh& mesh, const std::array<Index, 3>& triangle, const Vector3& plane);
+/// Whether the cell of second order is valid (see isValid); one of area as seen from `plane`, or
+/// where that is zero (in space) from the side of its straight normal.
+template<class Shape, class NodeAt>
+bool isCellValid(Shape shape, const SimplexMesh& mesh,
+  const std::array<Index, Shape::corners>& cell,
+  const std::array<Index, std::size(Shape::edges)>& edges, const Vector3& plane,
+  const NodeAt& nodeAt)
+{
+  const CurvedCell<Shape> nodes = gatherNodes(mesh, cell, edges, nodeAt);
+  if constexpr (Shape::dimension == 3)
+  {
+    return isValid(nodes);
+  }
+  else
+  {
+    return isValid(nodes, sideOf(shape, cornersOf(cell, mesh.points), plane));
+  }
+}
 
 /// Whether each cell of the mesh's own dimension is valid (see isValid). `plane` is the unit normal
 /// of a planar mesh, zero for others. Work: that of isValid for each cell.

@@ -22,6 +22,7 @@ cadrefine_geom_test(method_tests
     operations/TriangleOperationsTest.cxx
     quadratic/CurvedCellsTest.cxx
     quadratic/MidNodeGuardTest.cxx
+    quadratic/SerendipityCellsTest.cxx
     refinement/BisectionTest.cxx
     refinement/LongestEdgeMarkingTest.cxx
     refinement/UniformSplitTest.cxx

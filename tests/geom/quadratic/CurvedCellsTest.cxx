@@ -107,11 +107,13 @@ Nodes withRandomMidNodes(Nodes nodes, std::size_t corners, int dimension, std::m
 
 TEST(CurvedCells, straightOnesHaveAConstantJacobian)
 {
-  for (const double coefficient : jacobianOf(straightCell(corner)).coefficients)
+  for (const double coefficient :
+    jacobianOf(straightCell(shapes::Tetrahedron{}, corner)).coefficients)
   {
     EXPECT_EQ(coefficient, 1);
   }
-  for (const double coefficient : jacobianOf(straightCell(flatCorner), up).coefficients)
+  for (const double coefficient :
+    jacobianOf(straightCell(shapes::Triangle{}, flatCorner), up).coefficients)
   {
     EXPECT_EQ(coefficient, 1);
   }
@@ -121,7 +123,7 @@ TEST(CurvedCells, straightOnesHaveAConstantJacobian)
 TEST(CurvedCells, aTrianglesCoefficientsAreThoseOfTheClosedForm)
 {
   const double s = 0.1;
-  CurvedTriangle nodes = straightCell(flatCorner);
+  CurvedTriangle nodes = straightCell(shapes::Triangle{}, flatCorner);
   nodes[3][0] += s;
   const auto form = jacobianOf(nodes, up);
   // In the order 00 01 02 11 12 22: of a linear function the means of its values at the corners.
@@ -139,7 +141,7 @@ TEST(CurvedCells, aTrianglesCoefficientsAreThoseOfTheClosedForm)
 TEST(CurvedCells, aTetrahedronsCoefficientsAreThoseOfTheClosedForm)
 {
   const double s = 0.05;
-  CurvedTetrahedron nodes = straightCell(corner);
+  CurvedTetrahedron nodes = straightCell(shapes::Tetrahedron{}, corner);
   nodes[4][0] += s;
   nodes[5][1] += s;
   nodes[6][2] += s;
@@ -171,15 +173,15 @@ TEST(CurvedCells, aFoldedMidNodeMakesThemInvalid)
   for (const auto& [x, valid] : { std::pair{ 0.5, true }, { 0.26, true }, { 0.25, false },
          { 0.24, false }, { 0.74, true }, { 0.75, false } })
   {
-    CurvedTriangle triangle = straightCell(flatCorner);
+    CurvedTriangle triangle = straightCell(shapes::Triangle{}, flatCorner);
     triangle[3][0] = x;
     EXPECT_EQ(isValid(triangle, up), valid) << x;
     EXPECT_FALSE(isValid(triangle, -1.0 * up)) << x;
-    CurvedTetrahedron tetrahedron = straightCell(corner);
+    CurvedTetrahedron tetrahedron = straightCell(shapes::Tetrahedron{}, corner);
     tetrahedron[4][0] = x;
     EXPECT_EQ(isValid(tetrahedron), valid) << x;
   }
-  CurvedTetrahedron pushedIn = straightCell(corner);
+  CurvedTetrahedron pushedIn = straightCell(shapes::Tetrahedron{}, corner);
   pushedIn[9] = { 0.1, 0.1, 0.1 };
   EXPECT_FALSE(isValid(pushedIn));
 }
@@ -190,19 +192,19 @@ TEST(CurvedCells, straightOnesAreJudgedExactly)
   const double tiny = std::numeric_limits<double>::denorm_min();
   auto points = corner;
   points[3] = { 0, 0, tiny };
-  EXPECT_TRUE(isValid(straightCell(points)));
+  EXPECT_TRUE(isValid(straightCell(shapes::Tetrahedron{}, points)));
   points[3] = { 0.3, 0.3, 0 };
-  EXPECT_FALSE(isValid(straightCell(points)));
+  EXPECT_FALSE(isValid(straightCell(shapes::Tetrahedron{}, points)));
   const Triangle thin{ { { 0, 0, 0 }, { 1, 0, 0 }, { 0, tiny, 0 } } };
-  EXPECT_TRUE(isValid(straightCell(thin), up));
+  EXPECT_TRUE(isValid(straightCell(shapes::Triangle{}, thin), up));
   const Triangle flat{ { { 0, 0, 0 }, { 1, 0, 0 }, { 2, 0, 0 } } };
-  EXPECT_FALSE(isValid(straightCell(flat), up));
+  EXPECT_FALSE(isValid(straightCell(shapes::Triangle{}, flat), up));
 }
 
 TEST(CurvedCells, whatIsNotFiniteIsNotValid)
 {
   const cadtest::FloatingPointPause pause;
-  CurvedTetrahedron nodes = straightCell(corner);
+  CurvedTetrahedron nodes = straightCell(shapes::Tetrahedron{}, corner);
   nodes[7][1] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(isValid(nodes));
   nodes[7][1] = std::numeric_limits<double>::infinity();
@@ -213,11 +215,11 @@ TEST(CurvedCells, whatIsLostInRoundingIsNotValid)
 {
   auto points = corner;
   points[3] = { 0.3, 0.3, 1e-17 };
-  CurvedTetrahedron flat = straightCell(points);
+  CurvedTetrahedron flat = straightCell(shapes::Tetrahedron{}, points);
   flat[7][0] += 0.01;
   EXPECT_FALSE(isValid(flat));
   points[3][2] = 1e-3;
-  CurvedTetrahedron thicker = straightCell(points);
+  CurvedTetrahedron thicker = straightCell(shapes::Tetrahedron{}, points);
   thicker[7][0] += 0.01;
   EXPECT_TRUE(isValid(thicker));
 }
@@ -248,14 +250,14 @@ void expectAgreementWithSampling(
 
 TEST(CurvedCells, tetrahedraAreValidWhereSamplingSaysSo)
 {
-  expectAgreementWithSampling(
-    straightCell(corner), 4, 3, [](const CurvedTetrahedron& nodes) { return isValid(nodes); });
+  expectAgreementWithSampling(straightCell(shapes::Tetrahedron{}, corner), 4, 3,
+    [](const CurvedTetrahedron& nodes) { return isValid(nodes); });
 }
 
 TEST(CurvedCells, trianglesAreValidWhereSamplingSaysSo)
 {
-  expectAgreementWithSampling(
-    straightCell(flatCorner), 3, 2, [](const CurvedTriangle& nodes) { return isValid(nodes, up); });
+  expectAgreementWithSampling(straightCell(shapes::Triangle{}, flatCorner), 3, 2,
+    [](const CurvedTriangle& nodes) { return isValid(nodes, up); });
 }
 
 /// The computed coefficients against those in long double, of cells at odd places.
@@ -266,7 +268,7 @@ TEST(CurvedCells, roundingStaysBelowItsBound)
   for (int round = 0; round < 2000; ++round)
   {
     const Point3 away{ shift(random), shift(random), shift(random) };
-    auto nodes = withRandomMidNodes(straightCell(corner), 4, 3, random);
+    auto nodes = withRandomMidNodes(straightCell(shapes::Tetrahedron{}, corner), 4, 3, random);
     for (Point3& node : nodes)
     {
       node = node + away;
@@ -292,11 +294,11 @@ TEST(CurvedCells, roundingStaysBelowItsBound)
 TEST(CurvedCells, pointsOfATriangleAreThoseOfItsShapeFunctions)
 {
   std::mt19937 random(3);
-  const auto nodes = withRandomMidNodes(straightCell(flatCorner), 3, 3, random);
+  const auto nodes = withRandomMidNodes(straightCell(shapes::Triangle{}, flatCorner), 3, 3, random);
   EXPECT_EQ(pointAt(nodes, { 0, 1, 0 }), nodes[1]);
   EXPECT_EQ(pointAt(nodes, { 0, 0.5, 0.5 }), nodes[4]);
   EXPECT_EQ(pointAt(nodes, { 0.5, 0, 0.5 }), nodes[5]);
-  const Point3 straight = pointAt(straightCell(flatCorner), { 0.2, 0.3, 0.5 });
+  const Point3 straight = pointAt(straightCell(shapes::Triangle{}, flatCorner), { 0.2, 0.3, 0.5 });
   EXPECT_NEAR(straight[0], 0.3, 1e-15);
   EXPECT_NEAR(straight[1], 0.5, 1e-15);
 }
