@@ -24,22 +24,21 @@ namespace cadrefine
 namespace
 {
 
-constexpr int shapeCount = 8;
-
 /// A cell type that CADRefine takes, or with a shape of -1 one that it does not.
 struct CellKind
 {
   int shape = -1; ///< Place in the order in which visitShapes visits them.
   int dimension = -1;
   vtkIdType corners = 0;
-  bool secondOrder = false;
+  vtkIdType nodes = 0; ///< Of second order the mid nodes.
   bool inRows = false; ///< Of each four corners the last two are the other way round.
 };
 
 template<class Shape>
 constexpr CellKind kind(int shape, bool secondOrder = false)
 {
-  return { shape, Shape::dimension, static_cast<vtkIdType>(Shape::corners), secondOrder };
+  return { shape, Shape::dimension, static_cast<vtkIdType>(Shape::corners),
+    secondOrder ? static_cast<vtkIdType>(nodesOf(Shape{})) : 0 };
 }
 
 CellKind kindOf(int cellType)
@@ -63,15 +62,23 @@ CellKind kindOf(int cellType)
     case VTK_HEXAHEDRON:
       return kind<shapes::Hexahedron>(7);
     case VTK_PIXEL:
-      return { 3, 2, 4, false, true };
+      return { 3, 2, 4, 0, true };
     case VTK_VOXEL:
-      return { 7, 3, 8, false, true };
+      return { 7, 3, 8, 0, true };
     case VTK_QUADRATIC_EDGE:
       return kind<shapes::Segment>(1, true);
     case VTK_QUADRATIC_TRIANGLE:
       return kind<shapes::Triangle>(2, true);
+    case VTK_QUADRATIC_QUAD:
+      return kind<shapes::Quadrilateral>(3, true);
     case VTK_QUADRATIC_TETRA:
       return kind<shapes::Tetrahedron>(4, true);
+    case VTK_QUADRATIC_PYRAMID:
+      return kind<shapes::Pyramid>(5, true);
+    case VTK_QUADRATIC_WEDGE:
+      return kind<shapes::Wedge>(6, true);
+    case VTK_QUADRATIC_HEXAHEDRON:
+      return kind<shapes::Hexahedron>(7, true);
     default:
       return {};
   }
@@ -98,12 +105,6 @@ bool isGhost(vtkUnsignedCharArray* ghosts, vtkIdType cell)
                                   vtkDataSetAttributes::HIDDENCELL |
                                   vtkDataSetAttributes::REFINEDCELL;
   return ghosts && (ghosts->GetValue(cell) & marks);
-}
-
-/// Corners and mid nodes.
-vtkIdType pointsOf(const CellKind& kind)
-{
-  return kind.corners + (kind.secondOrder ? static_cast<vtkIdType>(nodesOf(kind.dimension)) : 0);
 }
 
 /// Whether the cell names as many points as it must, and such as there are.
@@ -138,7 +139,7 @@ void checkCell(int type, const CellKind& kind, CellOrder order, vtkIdType cell)
                 "quadrilaterals (the filters Tetrahedralize and Triangulate make simplices of "
                 "other cells)");
   }
-  if (kind.secondOrder && order == CellOrder::First)
+  if (kind.nodes > 0 && order == CellOrder::First)
   {
     throw Error(holds() +
                 "this filter takes linear cells: refine the linear mesh, and choose Quadratic "
@@ -181,11 +182,11 @@ void forEachCell(vtkPointSet* input, vtkIdType begin, vtkIdType end, const Use& 
   }
 }
 
-/// Numbers of cells by shape, and by dimension of those of second order among them.
+/// Numbers of cells by shape, and of those of second order among them.
 struct CellCounts
 {
   std::array<std::size_t, shapeCount> all{};
-  std::array<std::size_t, 4> secondOrder{};
+  std::array<std::size_t, shapeCount> secondOrder{};
 };
 
 /// Reads in parts, twice: what there is, then all of it to its place.
@@ -214,7 +215,7 @@ public:
           [&](vtkIdType, const CellKind& kind, const auto*)
           {
             ++mine.all[kind.shape];
-            mine.secondOrder[kind.dimension] += kind.secondOrder;
+            mine.secondOrder[kind.shape] += kind.nodes > 0;
           });
       });
     makeRoom(startsOf(counts.begin(), counts.end()));
@@ -246,7 +247,8 @@ private:
         const bool isSegment = type == VTK_POLY_LINE && count == 2;
         const CellKind kind = kindOf(isPolyVertex ? VTK_VERTEX : isSegment ? VTK_LINE : type);
         checkCell(type, kind, order_, cell);
-        checkPoints(points, count, isPolyVertex ? count : pointsOf(kind), cell, pointCount);
+        checkPoints(
+          points, count, isPolyVertex ? count : kind.corners + kind.nodes, cell, pointCount);
         for (vtkIdType part = 0; part < (isPolyVertex ? count : 1); ++part)
         {
           use(cell, kind, points + part);
@@ -264,10 +266,7 @@ private:
       for (int shape = 0; shape < shapeCount; ++shape)
       {
         sum.all[shape] += std::exchange(part->all[shape], sum.all[shape]);
-      }
-      for (int d = 0; d < 4; ++d)
-      {
-        sum.secondOrder[d] += std::exchange(part->secondOrder[d], sum.secondOrder[d]);
+        sum.secondOrder[shape] += std::exchange(part->secondOrder[shape], sum.secondOrder[shape]);
       }
     }
     return sum;
@@ -280,14 +279,14 @@ private:
     {
       std::size_t ofDimension = 0;
       visitShapes(mesh_, d,
-        [&](auto, auto& cells)
+        [&](auto ofCells, auto& cells)
         {
           resizeLong(cells, counts.all[shape], parallelFor_);
+          resizeLong(nodes_[shape], nodesOf(ofCells) * counts.secondOrder[shape], parallelFor_);
           firstOfShape_[shape] = ofDimension;
           ofDimension += counts.all[shape++];
         });
       resizeLong(cellOf_[d], ofDimension, parallelFor_);
-      resizeLong(nodes_[d], nodesOf(d) * counts.secondOrder[d], parallelFor_);
     }
   }
 
@@ -302,18 +301,19 @@ private:
   void write(vtkIdType number, const CellKind& kind, const Point* points, CellCounts& next)
   {
     const int d = kind.dimension;
-    if (kind.secondOrder)
-    {
-      writeNodes(d, points, nodes_[d].data() + nodesOf(d) * next.secondOrder[d]++);
-    }
     const std::size_t place = next.all[kind.shape]++;
     cellOf_[d][firstOfShape_[kind.shape] + place] = number;
     int shape = 0;
     visitShapes(mesh_,
-      [&](auto, auto& cells)
+      [&](auto ofCell, auto& cells)
       {
         if (shape++ == kind.shape)
         {
+          if (kind.nodes > 0)
+          {
+            const std::size_t first = nodesOf(ofCell) * next.secondOrder[kind.shape]++;
+            writeNodes(ofCell, points, nodes_[kind.shape].data() + first);
+          }
           auto& cell = cells[place];
           writeCorners(points, cell);
           for (std::size_t k = 2; kind.inRows && k < cell.size(); k += 4)

@@ -24,9 +24,16 @@ public:
   {
     EdgeTable table = buildEdgeTable(result_.mesh);
     pointOf_.assign(table.edges.size(), -1);
-    takeAll(table.ofSegments, nodes[1]);
-    takeAll(table.ofTriangles, nodes[2]);
-    takeAll(table.ofTetrahedra, nodes[3]);
+    auto ofShape = nodes.begin();
+    visitShapes(result_.mesh,
+      [&](auto shape, const auto&)
+      {
+        if constexpr (decltype(shape)::dimension > 0)
+        {
+          takeAll(shape, table.*edgesOfCells(shape), *ofShape);
+        }
+        ++ofShape;
+      });
     MidNodes& result = result_.midNodes.emplace();
     result.table = std::move(table);
     for (const vtkIdType point : pointOf_)
@@ -38,17 +45,31 @@ public:
   }
 
 private:
-  template<std::size_t Edges>
+  template<class Shape, std::size_t Edges>
   void takeAll(
-    const std::vector<std::array<Index, Edges>>& cells, const std::vector<vtkIdType>& nodes)
+    Shape, const std::vector<std::array<Index, Edges>>& cells, const std::vector<vtkIdType>& nodes)
   {
     auto node = nodes.begin();
     for (const auto& edges : cells)
     {
-      for (const Index edge : edges)
+      for (std::size_t e = 0; e < Edges; ++e)
       {
-        take(edge, *node++);
+        take(edges[placeOfEdge(Shape{}, e)], *node++);
       }
+    }
+  }
+
+  /// Where the mesh has an edge of the data set's cell.
+  template<class Shape>
+  std::size_t placeOfEdge(Shape, std::size_t edge) const
+  {
+    if constexpr (Shape::corners == 6)
+    {
+      return result_.mesh.wedgesAsDocumented ? edgesOfTurned[edge] : edge;
+    }
+    else
+    {
+      return edge;
     }
   }
 
@@ -74,14 +95,16 @@ private:
 bool isOfSecondOrder(
   RankExchange& exchange, const ConvertedMesh& converted, const NodesOfCells& nodes)
 {
-  constexpr int edges[4] = { 0, 1, 3, 6 };
   bool first = false;
   bool second = false;
-  for (int d = 1; d < 4; ++d)
-  {
-    first = first || edges[d] * converted.cellOf[d].size() > nodes[d].size();
-    second = second || !nodes[d].empty();
-  }
+  auto ofShape = nodes.begin();
+  visitShapes(converted.mesh,
+    [&](auto shape, const auto& cells)
+    {
+      first = first || nodesOf(shape) * cells.size() > ofShape->size();
+      second = second || !ofShape->empty();
+      ++ofShape;
+    });
   first = exchange.any(first);
   second = exchange.any(second);
   if (first && second)

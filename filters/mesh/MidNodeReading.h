@@ -8,29 +8,49 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <iterator>
 #include <vector>
 
 namespace cadrefine
 {
 
-/// The points that the data set's cells of second order name for their mid nodes, by dimension, in
-/// the order of triangleEdges and tetrahedronEdges.
-using NodesOfCells = std::array<std::vector<vtkIdType>, 4>;
+/// Of cells, in the order in which visitShapes visits them.
+constexpr int shapeCount = 8;
+
+/// The points that the data set's cells of second order name for their mid nodes, by shape, in the
+/// order of its edges.
+using NodesOfCells = std::array<std::vector<vtkIdType>, shapeCount>;
 
 /// Mid nodes of a cell of second order.
-constexpr std::size_t nodesOf(int dimension)
+template<class Shape>
+constexpr std::size_t nodesOf(Shape)
 {
-  return dimension * (dimension + 1) / 2;
+  if constexpr (Shape::dimension == 0)
+  {
+    return 0;
+  }
+  else
+  {
+    return std::size(Shape::edges);
+  }
 }
 
 /// Writes the mid nodes of a cell of second order, given its points; VTK has those of a
 /// tetrahedron in another order.
-template<class Point>
-void writeNodes(int dimension, const Point* points, vtkIdType* nodes)
+template<class Shape, class Point>
+void writeNodes(Shape, const Point* points, vtkIdType* nodes)
 {
-  constexpr int places[4][6] = { {}, { 2 }, { 3, 4, 5 }, { 4, 6, 7, 5, 8, 9 } };
-  std::transform(places[dimension], places[dimension] + nodesOf(dimension), nodes,
-    [&](int place) { return points[place]; });
+  const Point* first = points + Shape::corners;
+  if constexpr (Shape::dimension == 3 && isSimplex(Shape{}))
+  {
+    constexpr int places[6] = { 0, 2, 3, 1, 4, 5 };
+    std::transform(
+      std::begin(places), std::end(places), nodes, [&](int place) { return first[place]; });
+  }
+  else
+  {
+    std::copy_n(first, nodesOf(Shape{}), nodes);
+  }
 }
 
 /// Whether the cells that were read are of second order; throws Error on all ranks where some are

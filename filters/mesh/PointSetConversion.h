@@ -46,6 +46,9 @@ constexpr std::array<Index, 6> turned(const std::array<Index, 6>& wedge)
   return { wedge[3], wedge[4], wedge[5], wedge[0], wedge[1], wedge[2] };
 }
 
+/// Its edges by their places in the other.
+constexpr int edgesOfTurned[9] = { 3, 4, 5, 0, 1, 2, 6, 7, 8 };
+
 /// Reads cells of the shapes of SimplexMesh.h from a vtkUnstructuredGrid or vtkPolyData on each
 /// rank. Wedges may turn either way, but all the same. Cells that are marked as ghosts or hidden
 /// and points that no cell uses are left out, marks of points do not count; points with the same

@@ -85,26 +85,51 @@ vtkSmartPointer<vtkPointSet> makePolyData(const SimplexMesh& mesh, const Paralle
 
 /// The edges of a shape in the order in which VTK has their mid nodes.
 template<class Shape>
-std::vector<int> orderOfNodes(Shape)
+std::vector<int> orderOfNodes(Shape, const SimplexMesh&)
 {
   std::vector<int> order(std::size(Shape::edges));
   std::iota(order.begin(), order.end(), 0);
   return order;
 }
 
-std::vector<int> orderOfNodes(shapes::Tetrahedron)
+std::vector<int> orderOfNodes(shapes::Tetrahedron, const SimplexMesh&)
 {
   return { 0, 3, 1, 2, 4, 5 };
 }
 
-/// Each cell with the points of its mid nodes after its corners.
-template<class Shape, std::size_t Corners>
-auto withNodes(
-  Shape shape, const Simplices<Corners>& cells, const EdgeTable& table, Index firstNode)
+std::vector<int> orderOfNodes(shapes::Wedge, const SimplexMesh& mesh)
 {
+  return mesh.wedgesAsDocumented
+           ? std::vector<int>(std::begin(edgesOfTurned), std::end(edgesOfTurned))
+           : std::vector<int>{ 0, 1, 2, 3, 4, 5, 6, 7, 8 };
+}
+
+/// The cells of a shape as data sets have them.
+template<class Shape>
+const auto& asWritten(Shape, const SimplexMesh& mesh)
+{
+  return mesh.*Shape::cells;
+}
+
+Simplices<6> asWritten(shapes::Wedge, const SimplexMesh& mesh)
+{
+  Simplices<6> wedges = mesh.wedges;
+  if (mesh.wedgesAsDocumented)
+  {
+    std::transform(wedges.begin(), wedges.end(), wedges.begin(), turned);
+  }
+  return wedges;
+}
+
+/// Each cell with the points of its mid nodes after its corners.
+template<class Shape>
+auto withNodes(Shape shape, const SimplexMesh& mesh, const EdgeTable& table)
+{
+  const auto firstNode = static_cast<Index>(mesh.points.size());
+  const auto& cells = asWritten(shape, mesh);
   const auto& edgesOf = table.*edgesOfCells(shape);
-  const std::vector<int> order = orderOfNodes(shape);
-  Simplices<Corners + std::size(Shape::edges)> result(cells.size());
+  const std::vector<int> order = orderOfNodes(shape, mesh);
+  Simplices<Shape::corners + std::size(Shape::edges)> result(cells.size());
   for (std::size_t c = 0; c < cells.size(); ++c)
   {
     const auto node = std::copy(cells[c].begin(), cells[c].end(), result[c].begin());
@@ -117,24 +142,18 @@ auto withNodes(
 vtkSmartPointer<vtkCellArray> makeCells(
   const SimplexMesh& mesh, const MidNodes& midNodes, const ParallelFor& parallelFor)
 {
-  const auto firstNode = static_cast<Index>(mesh.points.size());
-  const auto quadratic = [&](auto shape)
-  { return withNodes(shape, mesh.*decltype(shape)::cells, midNodes.table, firstNode); };
+  const auto quadratic = [&](auto shape) { return withNodes(shape, mesh, midNodes.table); };
   return CellWriter(parallelFor)
     .write(mesh.vertices, quadratic(shapes::Segment{}), quadratic(shapes::Triangle{}),
-      quadratic(shapes::Tetrahedron{}));
+      quadratic(shapes::Quadrilateral{}), quadratic(shapes::Tetrahedron{}),
+      quadratic(shapes::Pyramid{}), quadratic(shapes::Wedge{}), quadratic(shapes::Hexahedron{}));
 }
 
 vtkSmartPointer<vtkCellArray> makeCells(const SimplexMesh& mesh, const ParallelFor& parallelFor)
 {
-  Simplices<6> wedges = mesh.wedges;
-  if (mesh.wedgesAsDocumented)
-  {
-    std::transform(wedges.begin(), wedges.end(), wedges.begin(), turned);
-  }
   return CellWriter(parallelFor)
     .write(mesh.vertices, mesh.segments, mesh.triangles, mesh.quadrilaterals, mesh.tetrahedra,
-      mesh.pyramids, wedges, mesh.hexahedra);
+      mesh.pyramids, asWritten(shapes::Wedge{}, mesh), mesh.hexahedra);
 }
 
 /// VTK's types of the shapes, in the order in which visitShapes visits them.

@@ -116,12 +116,6 @@ private:
     {
       checkForQuadraticCells(state_.prototype);
     }
-    if (options_.quadraticCells && exchange_.any(state_.mesh.mesh().hasOtherThanSimplices()))
-    {
-      throw Error(
-        "quadratic cells (Quadratic Cells) are made of triangles and tetrahedra only, and "
-        "the mesh has other cells; switch Quadratic Cells off");
-    }
   }
 
   NewVertices whatBecomesOfNewVertices()
