@@ -33,8 +33,9 @@ ErrorFacet makeErrorFacet(const SimplexMesh& mesh, const DistributedBoundary& bo
 CurvedErrorFacet makeCurvedFacet(const DistributedMesh& mesh, const DistributedBoundary& boundary,
   const BoundaryClasses& classes, const Classification& classification, std::size_t f)
 {
-  CurvedErrorFacet facet{ makeErrorFacet(mesh.mesh(), boundary, classes, classification, f), {},
-    {} };
+  CurvedErrorFacet facet{};
+  facet.straight = makeErrorFacet(mesh.mesh(), boundary, classes, classification, f);
+  facet.face = classes.facets[f].face;
   const MidNodes& midNodes = *mesh.converted.midNodes;
   const Facet& of = boundary.facets[f];
   for (int k = 0; k < of.edges(); ++k)

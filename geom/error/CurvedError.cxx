@@ -13,7 +13,8 @@ namespace
 /// A point of the facet and its place on the CAD.
 struct Sample
 {
-  std::array<double, 3> where; ///< Barycentric coordinates in the facet.
+  /// Barycentric coordinates in a triangle or segment, the two parameters of a quadrilateral.
+  std::array<double, 3> where;
   Point3 point;
   Point3 place;
   EntityId entity;
@@ -32,39 +33,63 @@ double areaBetween(const Sample& a, const Sample& b)
   return norm(cross(mean, 0.5 * ((b.point - a.point) + (b.place - a.place))));
 }
 
-double volumeBetween(const std::array<Sample, 3>& s)
+/// Positive on one side of the facet, negative on the other.
+double signedVolumeBetween(const Sample& a, const Sample& b, const Sample& c)
 {
-  const auto way = [&](int k) { return s[k].place - s[k].point; };
-  const Vector3 mean = (1.0 / 3) * (way(0) + way(1) + way(2));
-  const Vector3 e1 = s[1].point - s[0].point;
-  const Vector3 e2 = s[2].point - s[0].point;
-  const Vector3 f1 = way(1) - way(0);
-  const Vector3 f2 = way(2) - way(0);
+  const auto way = [](const Sample& s) { return s.place - s.point; };
+  const Vector3 mean = (1.0 / 3) * (way(a) + way(b) + way(c));
+  const Vector3 e1 = b.point - a.point;
+  const Vector3 e2 = c.point - a.point;
+  const Vector3 f1 = way(b) - way(a);
+  const Vector3 f2 = way(c) - way(a);
   const Vector3 area =
     cross(e1, e2) + 0.5 * (cross(e1, f2) + cross(f1, e2)) + (1.0 / 3) * cross(f1, f2);
-  return std::abs(dot(mean, area)) / 2;
+  return dot(mean, area) / 2;
 }
+
+double volumeBetween(const std::array<Sample, 3>& s)
+{
+  return std::abs(signedVolumeBetween(s[0], s[1], s[2]));
+}
+
+double volumeBetween(const std::array<Sample, 4>& s)
+{
+  return std::abs(signedVolumeBetween(s[0], s[1], s[2]) + signedVolumeBetween(s[0], s[2], s[3]) +
+                  signedVolumeBetween(s[0], s[1], s[3]) + signedVolumeBetween(s[1], s[2], s[3])) /
+         2;
+}
+
+const PartEdge innerEdge{ { EdgeClass::Smooth, -1 }, false };
 
 class CurvedFacetError
 {
 public:
   CurvedFacetError(const BoundaryProjector& projector, const CurvedErrorFacet& facet)
-    : projector_(projector), facet_(facet)
+    : projector_(projector), facet_(facet),
+      count_(projector.kind() == BoundaryKind::Segments ? 2 : facet.straight.corners.corners)
   {
-    const int corners = projector.kind() == BoundaryKind::Segments ? 2 : 3;
-    const int edges = corners == 2 ? 1 : 3;
-    for (int k = 0; k < corners; ++k)
+    constexpr Point2 ofSquare[4] = { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } };
+    for (int k = 0; k < count_; ++k)
     {
-      nodes_[k] = facet.straight.corners.points[k];
-      corners_[k] =
-        nodeSample(nodes_[k], facet.straight.corners.entities[k], facet.straight.offCAD[k]);
-      corners_[k].where[k] = 1;
+      const Point3& point = facet.straight.corners.points[k];
+      corners_[k] = nodeSample(point, facet.straight.corners.entities[k], facet.straight.offCAD[k]);
+      if (count_ == 4)
+      {
+        quadrilateral_[k] = point;
+        quadrilateral_[4 + k] = facet.nodes[k];
+        corners_[k].where = { ofSquare[k][0], ofSquare[k][1], 0 };
+      }
+      else
+      {
+        triangle_[k] = point;
+        triangle_[3 + k] = facet.nodes[k];
+        corners_[k].where[k] = 1;
+      }
     }
-    for (int k = 0; k < edges; ++k)
+    for (int k = 0; k < (count_ == 2 ? 1 : count_); ++k)
     {
-      nodes_[3 + k] = facet.nodes[k];
       middles_[k] = nodeSample(facet.nodes[k], facet.entities[k], facet.offCAD[k]);
-      middles_[k].where[k] = middles_[k].where[(k + 1) % 3] = 0.5;
+      middles_[k].where = 0.5 * (corners_[k].where + corners_[(k + 1) % count_].where);
       count(middles_[k], true);
     }
   }
@@ -72,14 +97,20 @@ public:
   FacetError measure(int depth)
   {
     const auto edge = [&](int k) { return PartEdge{ facet_.straight.edges[k], true }; };
-    if (projector_.kind() == BoundaryKind::Segments)
+    const auto& [a, b, c, d] = corners_;
+    const auto& [e, f, g, h] = middles_;
+    if (count_ == 2)
     {
-      addSegment(corners_[0], middles_[0], edge(0), depth);
-      addSegment(middles_[0], corners_[1], edge(0), depth);
+      addSegment(a, e, edge(0), depth);
+      addSegment(e, b, edge(0), depth);
+    }
+    else if (count_ == 3)
+    {
+      addChildren<3>({ a, b, c }, { e, f, g }, { edge(0), edge(1), edge(2) }, depth);
     }
     else
     {
-      addChildren(corners_, middles_, { edge(0), edge(1), edge(2) }, depth);
+      addChildren(corners_, middles_, { edge(0), edge(1), edge(2), edge(3) }, depth);
     }
     error_.lastLevel = error_.measure - coarser_;
     return error_;
@@ -99,11 +130,17 @@ private:
     return sample;
   }
 
+  Point3 facetAt(const std::array<double, 3>& where) const
+  {
+    return count_ == 4 ? pointAt(quadrilateral_, Point2{ where[0], where[1] })
+                       : pointAt(triangle_, where);
+  }
+
   /// The point in the middle of the parameters of `a` and `b`.
   Sample between(const Sample& a, const Sample& b, const PartEdge& edge)
   {
     Sample sample{ 0.5 * (a.where + b.where), {}, {}, {} };
-    sample.point = sample.place = pointAt(nodes_, sample.where);
+    sample.point = sample.place = facetAt(sample.where);
     const ClosestPoint where =
       projector_.project(edge.edgeClass, sample.point, { a.entity, b.entity });
     if (where.entity)
@@ -135,7 +172,10 @@ private:
     addSegment(middle, b, edge, depth - 1);
   }
 
-  void addTriangle(const std::array<Sample, 3>& c, const std::array<PartEdge, 3>& edges, int depth)
+  /// A part with these corners.
+  template<std::size_t Corners>
+  void addPart(
+    const std::array<Sample, Corners>& c, const std::array<PartEdge, Corners>& edges, int depth)
   {
     if (depth == 0)
     {
@@ -143,27 +183,56 @@ private:
       return;
     }
     coarser_ += depth == 1 ? volumeBetween(c) : 0;
-    addChildren(c,
-      { between(c[0], c[1], edges[0]), between(c[1], c[2], edges[1]),
-        between(c[2], c[0], edges[2]) },
-      edges, depth - 1);
+    std::array<Sample, Corners> middles;
+    for (std::size_t k = 0; k < Corners; ++k)
+    {
+      middles[k] = between(c[k], c[(k + 1) % Corners], edges[k]);
+    }
+    addChildren(c, middles, edges, depth - 1);
   }
 
-  void addChildren(const std::array<Sample, 3>& c, const std::array<Sample, 3>& m,
-    const std::array<PartEdge, 3>& edges, int depth)
+  template<std::size_t Corners>
+  void addChildren(const std::array<Sample, Corners>& c, const std::array<Sample, Corners>& m,
+    const std::array<PartEdge, Corners>& edges, int depth)
   {
-    const PartEdge inner{ { EdgeClass::Smooth, -1 }, false };
-    addTriangle({ c[0], m[0], m[2] }, { edges[0], inner, edges[2] }, depth);
-    addTriangle({ m[0], c[1], m[1] }, { edges[0], edges[1], inner }, depth);
-    addTriangle({ m[2], m[1], c[2] }, { inner, edges[1], edges[2] }, depth);
-    addTriangle(m, { inner, inner, inner }, depth);
+    if constexpr (Corners == 4)
+    {
+      const Sample centre = middleOf(c);
+      for (int k = 0; k < 4; ++k)
+      {
+        const int previous = (k + 3) % 4;
+        addPart<4>({ c[k], m[k], centre, m[previous] },
+          { edges[k], innerEdge, innerEdge, edges[previous] }, depth);
+      }
+    }
+    else
+    {
+      addPart<3>({ c[0], m[0], m[2] }, { edges[0], innerEdge, edges[2] }, depth);
+      addPart<3>({ m[0], c[1], m[1] }, { edges[0], edges[1], innerEdge }, depth);
+      addPart<3>({ m[2], m[1], c[2] }, { innerEdge, edges[1], edges[2] }, depth);
+      addPart<3>(m, { innerEdge, innerEdge, innerEdge }, depth);
+    }
+  }
+
+  /// Of a quadrilateral.
+  Sample middleOf(const std::array<Sample, 4>& c)
+  {
+    Sample a = c[0];
+    Sample b = c[2];
+    if (facet_.face >= 0)
+    {
+      a.entity = b.entity = { 2, facet_.face };
+    }
+    return between(a, b, innerEdge);
   }
 
   const BoundaryProjector& projector_;
   const CurvedErrorFacet& facet_;
-  CurvedTriangle nodes_{}; ///< Of a segment 0, 1 and 3.
-  std::array<Sample, 3> corners_{};
-  std::array<Sample, 3> middles_{};
+  int count_;                 ///< Of corners.
+  CurvedTriangle triangle_{}; ///< Of a segment 0, 1 and 3.
+  CurvedQuadrilateral quadrilateral_{};
+  std::array<Sample, 4> corners_{};
+  std::array<Sample, 4> middles_{};
   FacetError error_;
   double coarser_ = 0; ///< The measure of one level less.
 };
