@@ -28,9 +28,9 @@ SMALLEST = 5  # Percentile at the end that the colour scale begins at.
 COLOURS = ((0.36, 0.60, 0.80), (0.67, 0.85, 0.91), (0.90, 0.96, 0.90), (1.0, 0.93, 0.62), (0.99, 0.68, 0.38),
            (0.93, 0.39, 0.24), (0.80, 0.13, 0.13))
 VALUES = "values"  # Name of the array that colours.
-QUADRATIC_TRIANGLE = 22
+QUADRATIC = (22, 23)  # Types of facets.
 GREY = (0.87, 0.88, 0.90, 1.0)  # Of what has no value.
-LEVEL = 3  # Quadratic triangles are drawn by 4^LEVEL flat ones each.
+LEVEL = 3  # Quadratic facets are drawn by 4^LEVEL flat ones each.
 
 
 class Colours:
@@ -178,7 +178,7 @@ def edges(grid, camera):
 
 
 def is_quadratic(grid):
-    return grid.GetNumberOfCells() > 0 and grid.GetCellType(0) == QUADRATIC_TRIANGLE
+    return grid.GetNumberOfCells() > 0 and grid.GetCellType(0) in QUADRATIC
 
 
 def straight_edges(grid):
@@ -192,9 +192,12 @@ def straight_edges(grid):
 
 
 def curved_edges(grid):
-    """The same of quadratic triangles, each edge in 2^LEVEL pieces."""
-    triangles = vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 6)
-    nodes = np.vstack([triangles[:, [0, 3, 1]], triangles[:, [1, 4, 2]], triangles[:, [2, 5, 0]]])
+    """The same of quadratic facets, each edge in 2^LEVEL pieces."""
+    numbers, starts = (vtk_to_numpy(array) for array in (
+        grid.GetCells().GetConnectivityArray(), grid.GetCells().GetOffsetsArray()))
+    nodes = np.vstack([
+        numbers[starts[:-1][np.diff(starts) == 2 * corners, np.newaxis] + [k, corners + k, (k + 1) % corners]]
+        for corners in (3, 4) for k in range(corners)])
     t = np.linspace(0, 1, 2**LEVEL + 1)
     shape = np.array([(1 - t) * (1 - 2 * t), 4 * t * (1 - t), t * (2 * t - 1)])
     points = np.einsum("nt,enx->etx", shape, vtk_to_numpy(grid.GetPoints().GetData())[nodes]).reshape(-1, 3)

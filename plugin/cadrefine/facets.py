@@ -13,7 +13,8 @@ from cadrefine.merge import merged_grid
 from cadrefine.output import gathered
 from cadrefine.pipeline import field_values
 
-CELL_TYPES = {2: (5, 22), 3: (10, 24)}  # Of a mesh's dimension, VTK's types of simplices, linear and quadratic.
+# Of a mesh's dimension, VTK's types of cells, linear and quadratic.
+CELL_TYPES = {2: (5, 9, 22, 23), 3: (10, 12, 13, 14, 24, 25, 26, 27)}
 FACE = 2  # CADDimension of what lies on a CAD face.
 
 # Runs on every rank.
