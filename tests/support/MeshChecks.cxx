@@ -1,5 +1,8 @@
 #include "MeshChecks.h"
 
+#include <cadrefine/mesh/CellJacobian.h>
+#include <cadrefine/mesh/CellState.h>
+#include <cadrefine/mesh/Facets.h>
 #include <cadrefine/mesh/Orientation.h>
 #include <cadrefine/mesh/Quality.h>
 
@@ -16,102 +19,81 @@ namespace
 
 using Side = std::vector<Index>; // ascending
 
-template<std::size_t Corners>
-void countSides(const Simplices<Corners>& cells, std::map<Side, int>& counts)
-{
-  for (const auto& cell : cells)
-  {
-    for (std::size_t left = 0; left < Corners; ++left)
-    {
-      Side side;
-      for (std::size_t k = 0; k < Corners; ++k)
-      {
-        if (k != left)
-        {
-          side.push_back(cell[k]);
-        }
-      }
-      std::sort(side.begin(), side.end());
-      ++counts[side];
-    }
-  }
-}
-
 /// How often each side of the cells of the mesh's own dimension is met.
 std::map<Side, int> sidesOf(const SimplexMesh& mesh)
 {
   std::map<Side, int> counts;
-  if (mesh.dimension == 3)
-  {
-    countSides(mesh.tetrahedra, counts);
-  }
-  else
-  {
-    countSides(mesh.triangles, counts);
-  }
+  forEachSide(mesh,
+    [&](const Facet& facet)
+    {
+      Side side(facet.begin(), facet.end());
+      std::sort(side.begin(), side.end());
+      ++counts[side];
+    });
   return counts;
 }
 
 std::set<std::array<Index, 2>> edgesOf(const SimplexMesh& mesh)
 {
   std::set<std::array<Index, 2>> edges;
-  for (const auto& cell : mesh.tetrahedra)
+  for (const int dimension : { 2, 3 })
   {
-    for (const auto& edge : tetrahedronEdges)
-    {
-      edges.insert({ cell[edge[0]], cell[edge[1]] });
-    }
-  }
-  for (const auto& cell : mesh.triangles)
-  {
-    for (const auto& edge : triangleEdges)
-    {
-      edges.insert({ cell[edge[0]], cell[edge[1]] });
-    }
+    visitShapes(mesh, dimension,
+      [&](auto shape, const auto& cells)
+      {
+        if constexpr (decltype(shape)::dimension > 1)
+        {
+          for (const auto& cell : cells)
+          {
+            for (const auto& edge : decltype(shape)::edges)
+            {
+              edges.insert({ cell[edge[0]], cell[edge[1]] });
+            }
+          }
+        }
+      });
   }
   return edges;
 }
 
-double signedMeasure(const SimplexMesh& mesh, const std::array<Index, 4>& cell)
+double signedMeasure(shapes::Tetrahedron, const std::array<Point3, 4>& p)
 {
-  const auto& p = mesh.points;
-  return sixfoldVolume(p[cell[0]], p[cell[1]], p[cell[2]], p[cell[3]]) / 6;
+  return sixfoldVolume(p[0], p[1], p[2], p[3]) / 6;
 }
 
-/// Signed in the plane z = 0.
-double signedMeasure(const SimplexMesh& mesh, const std::array<Index, 3>& cell)
+template<class Shape, std::size_t Corners>
+double signedMeasure(Shape, const std::array<Point3, Corners>& p)
 {
-  const auto& p = mesh.points;
-  const Vector3 area = twofoldAreaVector(p[cell[0]], p[cell[1]], p[cell[2]]);
-  return area[0] == 0 && area[1] == 0 ? area[2] / 2 : norm(area) / 2;
-}
-
-int signOf(const SimplexMesh& mesh, const std::array<Index, 4>& cell)
-{
-  const auto& p = mesh.points;
-  return orientation(p[cell[0]], p[cell[1]], p[cell[2]], p[cell[3]]);
-}
-
-/// Signed in the plane z = 0; in space, 1 where the triangle has an area.
-int signOf(const SimplexMesh& mesh, const std::array<Index, 3>& cell)
-{
-  const auto& p = mesh.points;
-  const auto signs = normalSigns(p[cell[0]], p[cell[1]], p[cell[2]]);
-  return signs[0] == 0 && signs[1] == 0 ? signs[2] : 1;
-}
-
-template<std::size_t Corners>
-testing::AssertionResult areAllPositive(const SimplexMesh& mesh, const Simplices<Corners>& cells)
-{
-  for (std::size_t c = 0; c < cells.size(); ++c)
+  if constexpr (Shape::dimension == 3)
   {
-    if (signOf(mesh, cells[c]) <= 0)
-    {
-      return testing::AssertionFailure()
-             << "cell " << c << " has the measure " << signedMeasure(mesh, cells[c]);
-    }
+    return volume(p);
   }
-  return testing::AssertionSuccess();
+  else // signed in the plane z = 0
+  {
+    const Vector3 area = Corners == 4 ? cross(p[2] - p[0], p[Corners - 1] - p[1])
+                                      : twofoldAreaVector(p[0], p[1], p[2]);
+    return area[0] == 0 && area[1] == 0 ? area[2] / 2 : norm(area) / 2;
+  }
+}
+
+bool isPositive(shapes::Tetrahedron, const std::array<Point3, 4>& p)
+{
+  return orientation(p[0], p[1], p[2], p[3]) > 0;
+}
+
+/// Signed in the plane z = 0; in space, where the triangle has an area.
+bool isPositive(shapes::Triangle, const std::array<Point3, 3>& p)
+{
+  const auto signs = normalSigns(p[0], p[1], p[2]);
+  return signs[0] != 0 || signs[1] != 0 || signs[2] > 0;
+}
+
+template<class Shape, std::size_t Corners>
+bool isPositive(Shape shape, const std::array<Point3, Corners>& p)
+{
+  const bool isFlat =
+    std::all_of(p.begin(), p.end(), [&](const Point3& point) { return point[2] == p[0][2]; });
+  return stateAt(shape, p, sideOf(shape, p, isFlat ? Vector3{ 0, 0, 1 } : Vector3{})).valid;
 }
 
 } // namespace
@@ -119,18 +101,14 @@ testing::AssertionResult areAllPositive(const SimplexMesh& mesh, const Simplices
 double measureOf(const SimplexMesh& mesh)
 {
   double sum = 0;
-  if (mesh.dimension == 3)
-  {
-    for (const auto& cell : mesh.tetrahedra)
+  visitOwnShapes(mesh,
+    [&](auto shape, const auto& cells)
     {
-      sum += signedMeasure(mesh, cell);
-    }
-    return sum;
-  }
-  for (const auto& cell : mesh.triangles)
-  {
-    sum += signedMeasure(mesh, cell);
-  }
+      for (const auto& cell : cells)
+      {
+        sum += signedMeasure(shape, cornersOf(cell, mesh.points));
+      }
+    });
   return sum;
 }
 
@@ -147,15 +125,29 @@ double volumeInside(const SimplexMesh& mesh)
 
 testing::AssertionResult areCellsValid(const SimplexMesh& mesh)
 {
-  return mesh.dimension == 3 ? areAllPositive(mesh, mesh.tetrahedra)
-                             : areAllPositive(mesh, mesh.triangles);
+  testing::AssertionResult result = testing::AssertionSuccess();
+  visitOwnShapes(mesh,
+    [&](auto shape, const auto& cells)
+    {
+      for (std::size_t c = 0; result && c < cells.size(); ++c)
+      {
+        const auto corners = cornersOf(cells[c], mesh.points);
+        if (!isPositive(shape, corners))
+        {
+          result = testing::AssertionFailure()
+                   << "cell " << c << " with " << corners.size() << " corners, from ("
+                   << corners[0][0] << ", " << corners[0][1] << ", " << corners[0][2]
+                   << ") on, has the measure " << signedMeasure(shape, corners);
+        }
+      }
+    });
+  return result;
 }
 
 testing::AssertionResult isValid(const SimplexMesh& mesh)
 {
-  return mesh.tetrahedra.empty() && mesh.triangles.empty()
-           ? testing::AssertionFailure() << "there are no cells"
-           : areCellsValid(mesh);
+  return mesh.cellCount(mesh.dimension) == 0 ? testing::AssertionFailure() << "there are no cells"
+                                             : areCellsValid(mesh);
 }
 
 testing::AssertionResult isWatertight(

@@ -13,21 +13,22 @@
 namespace cadtest
 {
 
-/// Volume of the tetrahedra, or area of the triangles, cells added up with their sign (triangles in
-/// space: always positive).
+/// Volume or area of the cells of the mesh's own dimension, added up with their sign (cells of area
+/// in space: always positive).
 double measureOf(const cadrefine::SimplexMesh& mesh);
 
 /// Volume inside the facets of a closed surface (outward normals), by the divergence theorem.
 double volumeInside(const cadrefine::SimplexMesh& mesh);
 
-/// No cell of the mesh's own dimension is inverted or flat, by exact orientation (triangles are
-/// turned to z where all of a cell lies at one height; in space they have an area).
+/// No cell of the mesh's own dimension is inverted or flat, simplices by exact orientation
+/// (triangles and quadrilaterals are turned to z where all of a cell lies at one height; in space
+/// they have an area).
 testing::AssertionResult areCellsValid(const cadrefine::SimplexMesh& mesh);
 /// The same, and there are cells.
 testing::AssertionResult isValid(const cadrefine::SimplexMesh& mesh);
 
 /// Every side of a cell is met twice, but for those on the boundary (`onBoundary` says so of their
-/// vertices), which are met once, or of triangles any number of times: sheets may meet there.
+/// vertices), which are met once, or of cells of area any number of times: sheets may meet there.
 testing::AssertionResult isWatertight(const cadrefine::SimplexMesh& mesh,
   const std::function<bool(const std::vector<cadrefine::Point3>&)>& onBoundary);
 

@@ -1,0 +1,521 @@
+#include "MixedMeshes.h"
+
+#include <cadrefine/mesh/Facets.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+namespace cadtest
+{
+
+using namespace cadrefine;
+
+namespace
+{
+
+constexpr double pi = 3.14159265358979323846;
+
+void shuffleIds(SimplexMesh& mesh, std::mt19937_64& random)
+{
+  mesh.ids.resize(mesh.points.size());
+  std::iota(mesh.ids.begin(), mesh.ids.end(), GlobalId{ 0 });
+  std::shuffle(mesh.ids.begin(), mesh.ids.end(), random);
+}
+
+/// One vertex for each place.
+template<class Place>
+class Lattice
+{
+public:
+  explicit Lattice(SimplexMesh& mesh) : mesh_(mesh) {}
+
+  template<class PointAt>
+  Index at(const Place& place, const PointAt& pointAt)
+  {
+    const auto [entry, isNew] = vertices_.emplace(place, static_cast<Index>(mesh_.points.size()));
+    if (isNew)
+    {
+      mesh_.points.push_back(pointAt());
+    }
+    return entry->second;
+  }
+
+private:
+  SimplexMesh& mesh_;
+  std::map<Place, Index> vertices_;
+};
+
+using GridPlace = std::array<int, 3>;
+
+/// The six sides of a grid of n * n * n boxes: use(corners) of each square on them, which turn
+/// counter-clockwise as seen from outside.
+template<class Use>
+void forSquares(int n, const Use& use)
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const int u = (axis + 1) % 3;
+    const int v = (axis + 2) % 3;
+    for (const int end : { 0, n })
+    {
+      for (int i = 0; i < n; ++i)
+      {
+        for (int j = 0; j < n; ++j)
+        {
+          const auto at = [&](int a, int b)
+          {
+            GridPlace place{};
+            place[axis] = end;
+            place[u] = a;
+            place[v] = b;
+            return place;
+          };
+          std::array<GridPlace, 4> corners{ at(i, j), at(i + 1, j), at(i + 1, j + 1),
+            at(i, j + 1) };
+          if (end == 0)
+          {
+            std::reverse(corners.begin(), corners.end());
+          }
+          use(corners);
+        }
+      }
+    }
+  }
+}
+
+/// A place on the grid's sides as one round the origin, in the cube from -1 to 1.
+Vector3 fromMiddle(const GridPlace& place, int n)
+{
+  return { std::tan(pi / 4 * (2.0 * place[0] / n - 1)), std::tan(pi / 4 * (2.0 * place[1] / n - 1)),
+    std::tan(pi / 4 * (2.0 * place[2] / n - 1)) };
+}
+
+double radiusNear(double radius, double offset, const GridPlace& place)
+{
+  return radius * (1 + offset * ((place[0] + 2 * place[1] + 3 * place[2]) % 3 - 1));
+}
+
+using Diagonal = std::optional<std::array<Index, 2>>; ///< None: the side is a quadrilateral.
+
+/// How the hexahedra's sides are cut, as far as that is settled.
+class Sides
+{
+public:
+  static std::array<Index, 4> keyOf(std::array<Index, 4> side)
+  {
+    std::sort(side.begin(), side.end());
+    return side;
+  }
+
+  bool isSettled(const std::array<Index, 4>& side) const { return of_.count(keyOf(side)) > 0; }
+  Diagonal at(const std::array<Index, 4>& side) const { return of_.at(keyOf(side)); }
+  bool mayBeWhole(const std::array<Index, 4>& side) const
+  {
+    return !isSettled(side) || !at(side).has_value();
+  }
+  void settle(const std::array<Index, 4>& side, const Diagonal& diagonal)
+  {
+    of_.emplace(keyOf(side), diagonal);
+  }
+  /// From which corner of the side the diagonal starts, 0 or 1; -1: it must not have one.
+  int startOf(const std::array<Index, 4>& side) const
+  {
+    const Diagonal diagonal = at(side);
+    return !diagonal ? -1 : side[0] == (*diagonal)[0] || side[0] == (*diagonal)[1] ? 0 : 1;
+  }
+
+private:
+  std::map<std::array<Index, 4>, Diagonal> of_;
+};
+
+constexpr int lowSides[3][4] = { { 0, 1, 2, 3 }, { 0, 3, 7, 4 }, { 0, 4, 5, 1 } };
+constexpr int highSides[3][4] = { { 4, 5, 6, 7 }, { 1, 2, 6, 5 }, { 3, 7, 6, 2 } };
+
+std::array<Index, 4> sideOf(const std::array<Index, 8>& cell, const int (&corners)[4])
+{
+  return { cell[corners[0]], cell[corners[1]], cell[corners[2]], cell[corners[3]] };
+}
+
+int directionOf(BoxKind kind)
+{
+  return kind == BoxKind::Wedges ? 0 : kind == BoxKind::WedgesAlongX ? 1 : 2;
+}
+
+/// Makes mixed meshes of hexahedra.
+class Mixing
+{
+public:
+  Mixing(const SimplexMesh& hexahedra, std::uint64_t seed) : coarse_(hexahedra), random_(seed)
+  {
+    mesh_.points = hexahedra.points;
+  }
+
+  SimplexMesh run(const std::function<BoxKind(std::size_t)>& kindOf)
+  {
+    std::vector<BoxKind> kinds;
+    for (std::size_t c = 0; c < coarse_.hexahedra.size(); ++c)
+    {
+      kinds.push_back(settled(coarse_.hexahedra[c], kindOf(c)));
+    }
+    for (std::size_t c = 0; c < kinds.size(); ++c)
+    {
+      add(coarse_.hexahedra[c], kinds[c]);
+    }
+    shuffleIds(mesh_, random_);
+    return std::move(mesh_);
+  }
+
+private:
+  BoxKind settled(const std::array<Index, 8>& cell, BoxKind kind)
+  {
+    if (kind == BoxKind::Fan)
+    {
+      return kind;
+    }
+    const bool hasEnds = kind != BoxKind::Hexahedron;
+    const auto low = sideOf(cell, lowSides[directionOf(kind)]);
+    const auto high = sideOf(cell, highSides[directionOf(kind)]);
+    const auto isEnd = [&](const std::array<Index, 4>& side)
+    {
+      return hasEnds &&
+             (Sides::keyOf(side) == Sides::keyOf(low) || Sides::keyOf(side) == Sides::keyOf(high));
+    };
+    for (const auto& face : shapes::Hexahedron::faces)
+    {
+      const auto side = sideOf(cell, face);
+      if (!isEnd(side) && !sides_.mayBeWhole(side))
+      {
+        return BoxKind::Fan;
+      }
+    }
+    int start = static_cast<int>(random_() % 2);
+    if (hasEnds)
+    {
+      const int below = sides_.isSettled(low) ? sides_.startOf(low) : start;
+      const int above = sides_.isSettled(high) ? sides_.startOf(high) : below;
+      start = sides_.isSettled(low) ? below : above;
+      if (start < 0 || above != start)
+      {
+        return BoxKind::Fan;
+      }
+      sides_.settle(low, std::array<Index, 2>{ low[start], low[start + 2] });
+      sides_.settle(high, std::array<Index, 2>{ high[start], high[start + 2] });
+    }
+    for (const auto& face : shapes::Hexahedron::faces)
+    {
+      sides_.settle(sideOf(cell, face), {});
+    }
+    return kind;
+  }
+
+  void add(const std::array<Index, 8>& cell, BoxKind kind)
+  {
+    if (kind == BoxKind::Hexahedron)
+    {
+      mesh_.hexahedra.push_back(cell);
+    }
+    else if (kind == BoxKind::Fan)
+    {
+      addFan(cell);
+    }
+    else
+    {
+      const auto a = sideOf(cell, lowSides[directionOf(kind)]);
+      const auto b = sideOf(cell, highSides[directionOf(kind)]);
+      const int i = sides_.startOf(a);
+      const int last = (i + 3) % 4;
+      mesh_.wedges.push_back({ a[i], a[i + 1], a[i + 2], b[i], b[i + 1], b[i + 2] });
+      mesh_.wedges.push_back({ a[i], a[i + 2], a[last], b[i], b[i + 2], b[last] });
+    }
+  }
+
+  void addFan(const std::array<Index, 8>& cell)
+  {
+    const auto middle = static_cast<Index>(mesh_.points.size());
+    Point3 sum{};
+    for (const Index v : cell)
+    {
+      sum = sum + 0.125 * coarse_.points[v];
+    }
+    mesh_.points.push_back(sum);
+    for (const auto& face : shapes::Hexahedron::faces)
+    {
+      auto side = sideOf(cell, face);
+      std::reverse(side.begin(), side.end());
+      if (!sides_.isSettled(side))
+      {
+        const int start = static_cast<int>(random_() % 2);
+        sides_.settle(
+          side, random_() % 2 ? Diagonal{} : std::array<Index, 2>{ side[start], side[start + 2] });
+      }
+      const int i = sides_.startOf(side);
+      if (i < 0)
+      {
+        mesh_.pyramids.push_back({ side[0], side[1], side[2], side[3], middle });
+      }
+      else
+      {
+        mesh_.tetrahedra.push_back({ side[i], side[i + 1], side[i + 2], middle });
+        mesh_.tetrahedra.push_back({ side[i], side[i + 2], side[(i + 3) % 4], middle });
+      }
+    }
+  }
+
+  const SimplexMesh& coarse_;
+  std::mt19937_64 random_;
+  SimplexMesh mesh_;
+  Sides sides_;
+};
+
+/// Some of the quadrilaterals from `first` on become two triangles.
+void halveSome(SimplexMesh& mesh, std::size_t first, std::mt19937_64& random)
+{
+  Simplices<4> left(
+    mesh.quadrilaterals.begin(), mesh.quadrilaterals.begin() + static_cast<std::ptrdiff_t>(first));
+  for (std::size_t q = first; q < mesh.quadrilaterals.size(); ++q)
+  {
+    const auto& v = mesh.quadrilaterals[q];
+    const auto i = static_cast<std::size_t>(random() % 4);
+    if (i > 1)
+    {
+      left.push_back(v);
+    }
+    else
+    {
+      mesh.triangles.push_back({ v[i], v[i + 1], v[i + 2] });
+      mesh.triangles.push_back({ v[i], v[i + 2], v[(i + 3) % 4] });
+    }
+  }
+  mesh.quadrilaterals = left;
+}
+
+} // namespace
+
+SimplexMesh hexahedraMesh(int n, double jitter, std::uint64_t seed)
+{
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> move(-jitter / n, jitter / n);
+  SimplexMesh mesh;
+  Lattice<GridPlace> lattice(mesh);
+  for (int box = 0; box < n * n * n; ++box)
+  {
+    auto& cell = mesh.hexahedra.emplace_back();
+    for (int k = 0; k < 8; ++k)
+    {
+      const GridPlace place{ box % n + (k % 4 == 1 || k % 4 == 2), box / n % n + (k % 4 > 1),
+        box / n / n + k / 4 };
+      cell[k] = lattice.at(place,
+        [&]
+        {
+          const bool isInner =
+            std::all_of(place.begin(), place.end(), [n](int i) { return i > 0 && i < n; });
+          Point3 point{ 1.0 * place[0] / n, 1.0 * place[1] / n, 1.0 * place[2] / n };
+          return isInner ? point + Vector3{ move(random), move(random), move(random) } : point;
+        });
+    }
+  }
+  shuffleIds(mesh, random);
+  return mesh;
+}
+
+SimplexMesh quadrilateralsMesh(int n, double jitter, std::uint64_t seed)
+{
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> move(-jitter / n, jitter / n);
+  SimplexMesh mesh;
+  mesh.dimension = 2;
+  Lattice<std::array<int, 2>> lattice(mesh);
+  for (int box = 0; box < n * n; ++box)
+  {
+    auto& cell = mesh.quadrilaterals.emplace_back();
+    for (int k = 0; k < 4; ++k)
+    {
+      const std::array<int, 2> place{ box % n + (k == 1 || k == 2), box / n + (k > 1) };
+      cell[k] = lattice.at(place,
+        [&]
+        {
+          const bool isInner =
+            std::all_of(place.begin(), place.end(), [n](int i) { return i > 0 && i < n; });
+          Point3 point{ 1.0 * place[0] / n, 1.0 * place[1] / n, 0 };
+          return isInner ? point + Vector3{ move(random), move(random), 0 } : point;
+        });
+    }
+  }
+  shuffleIds(mesh, random);
+  return mesh;
+}
+
+SimplexMesh mixedMesh(const SimplexMesh& hexahedra,
+  const std::function<BoxKind(std::size_t)>& kindOf, std::uint64_t seed)
+{
+  return Mixing(hexahedra, seed).run(kindOf);
+}
+
+SimplexMesh randomlyMixedMesh(const SimplexMesh& hexahedra, std::uint64_t seed)
+{
+  std::mt19937_64 random(seed);
+  if (hexahedra.dimension == 2)
+  {
+    SimplexMesh mesh = hexahedra;
+    halveSome(mesh, 0, random);
+    return mesh;
+  }
+  return mixedMesh(
+    hexahedra, [&](std::size_t) { return static_cast<BoxKind>(random() % 5); }, seed);
+}
+
+SimplexMesh hexahedralBallMesh(
+  double radius, double offset, int n, const std::vector<double>& parts)
+{
+  constexpr double inner = 0.4; // of the radius
+  SimplexMesh mesh = hexahedraMesh(n, 0, 1);
+  for (Point3& point : mesh.points)
+  {
+    for (double& x : point)
+    {
+      x = inner * radius * std::tan(pi / 4 * (2 * x - 1)) * std::sqrt(0.5);
+    }
+  }
+  std::map<Point3, Index> vertexAt;
+  for (std::size_t v = 0; v < mesh.points.size(); ++v)
+  {
+    vertexAt.emplace(mesh.points[v], static_cast<Index>(v));
+  }
+  // Those of the middle have their own places.
+  Lattice<std::pair<std::size_t, GridPlace>> lattice(mesh);
+  const auto cornerAt = [&](const GridPlace& place)
+  {
+    Index best = 0;
+    const Point3 wanted = inner * radius * std::sqrt(0.5) * fromMiddle(place, n);
+    for (const auto& [point, vertex] : vertexAt)
+    {
+      best = distance(point, wanted) < distance(mesh.points[best], wanted) ? vertex : best;
+    }
+    return best;
+  };
+  const auto at = [&](std::size_t level, const GridPlace& place)
+  {
+    const Index below = cornerAt(place);
+    return level == 0 ? below
+                      : lattice.at({ level, place },
+                          [&]
+                          {
+                            const double part = parts[level - 1];
+                            const double r = radiusNear(radius, offset, place);
+                            return (1 - part) * mesh.points[below] +
+                                   part * r * normalized(mesh.points[below]);
+                          });
+  };
+  for (std::size_t level = 0; level < parts.size(); ++level)
+  {
+    forSquares(n,
+      [&](const std::array<GridPlace, 4>& s)
+      {
+        mesh.hexahedra.push_back(
+          { at(level, s[0]), at(level, s[1]), at(level, s[2]), at(level, s[3]), at(level + 1, s[0]),
+            at(level + 1, s[1]), at(level + 1, s[2]), at(level + 1, s[3]) });
+      });
+  }
+  std::mt19937_64 random(1);
+  shuffleIds(mesh, random);
+  return mesh;
+}
+
+SimplexMesh hexahedralShellMesh(
+  double radius, double offset, int n, const std::vector<double>& heights)
+{
+  SimplexMesh mesh;
+  Lattice<std::pair<std::size_t, GridPlace>> lattice(mesh);
+  const auto at = [&](std::size_t level, const GridPlace& place)
+  {
+    return lattice.at({ level, place },
+      [&]
+      {
+        const double wall = radiusNear(radius, offset, place);
+        const double r = level == 0                ? wall
+                         : level <= heights.size() ? wall + heights[level - 1]
+                                                   : 3 * radius;
+        return r * normalized(fromMiddle(place, n));
+      });
+  };
+  for (std::size_t level = 0; level <= heights.size(); ++level)
+  {
+    forSquares(n,
+      [&](const std::array<GridPlace, 4>& s)
+      {
+        mesh.hexahedra.push_back(
+          { at(level, s[0]), at(level, s[1]), at(level, s[2]), at(level, s[3]), at(level + 1, s[0]),
+            at(level + 1, s[1]), at(level + 1, s[2]), at(level + 1, s[3]) });
+      });
+  }
+  std::mt19937_64 random(1);
+  shuffleIds(mesh, random);
+  return mesh;
+}
+
+SimplexMesh quadrilateralRingMesh(
+  double radius, double offset, int corners, const std::vector<double>& heights)
+{
+  SimplexMesh mesh;
+  mesh.dimension = 2;
+  for (std::size_t level = 0; level <= heights.size() + 1; ++level)
+  {
+    for (int c = 0; c < corners; ++c)
+    {
+      const double angle = 2 * pi * c / corners;
+      const double wall = radius * (1 + offset * (c % 3 - 1));
+      const double r = level == 0                ? wall
+                       : level <= heights.size() ? wall + heights[level - 1]
+                                                 : 3 * radius;
+      mesh.points.push_back({ r * std::cos(angle), r * std::sin(angle), 0 });
+    }
+  }
+  for (std::size_t level = 0; level <= heights.size(); ++level)
+  {
+    const auto first = static_cast<Index>(level) * corners;
+    for (Index a = 0; a < corners; ++a)
+    {
+      const Index b = (a + 1) % corners;
+      mesh.quadrilaterals.push_back(
+        { first + a, first + corners + a, first + corners + b, first + b });
+    }
+  }
+  std::mt19937_64 random(1);
+  halveSome(mesh, heights.size() * static_cast<std::size_t>(corners), random);
+  shuffleIds(mesh, random);
+  return mesh;
+}
+
+SimplexMesh withListedBoundary(SimplexMesh mesh)
+{
+  for (const Facet& facet : findOuterFacets(mesh))
+  {
+    const auto& v = facet.vertices;
+    switch (facet.corners())
+    {
+      case 2:
+        mesh.segments.push_back({ v[0], v[1] });
+        break;
+      case 3:
+        mesh.triangles.push_back({ v[0], v[1], v[2] });
+        break;
+      default:
+        mesh.quadrilaterals.push_back(v);
+    }
+  }
+  return mesh;
+}
+
+SimplexMesh withMixedOrder(SimplexMesh mesh, std::uint64_t seed)
+{
+  std::mt19937_64 random(seed);
+  visitShapes(mesh, [&](auto, auto& cells) { std::shuffle(cells.begin(), cells.end(), random); });
+  return mesh;
+}
+
+} // namespace cadtest
