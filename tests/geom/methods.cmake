@@ -24,6 +24,7 @@ cadrefine_geom_test(method_tests
     quadratic/MidNodeGuardTest.cxx
     quadratic/SerendipityCellsTest.cxx
     refinement/BisectionTest.cxx
+    refinement/CellCuttingTest.cxx
     refinement/LongestEdgeMarkingTest.cxx
     refinement/UniformSplitTest.cxx
   LINKS CADRefineFloatingPoint CADRefineTestSupport)
