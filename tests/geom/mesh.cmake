@@ -10,6 +10,7 @@ cadrefine_geom_test(mesh_tests
     mesh/OrientationTest.cxx
     mesh/OverlapTest.cxx
     mesh/PieceLimitTest.cxx
+    mesh/QuadTableTest.cxx
     mesh/QualitySummaryTest.cxx
     mesh/QualityTest.cxx
     mesh/RadixOrderTest.cxx

@@ -8,6 +8,7 @@ cadrefine_geom_test(method_tests
     classification/FaceFinderTest.cxx
     error/CurvedErrorTest.cxx
     error/GeometricErrorTest.cxx
+    motion/CellStacksTest.cxx
     motion/MoveGuardTest.cxx
     motion/PatchOptimiserTest.cxx
     motion/ShapeEnergyTest.cxx
