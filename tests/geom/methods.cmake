@@ -27,5 +27,6 @@ cadrefine_geom_test(method_tests
     refinement/BisectionTest.cxx
     refinement/CellCuttingTest.cxx
     refinement/LongestEdgeMarkingTest.cxx
+    refinement/MixedSplitTest.cxx
     refinement/UniformSplitTest.cxx
   LINKS CADRefineFloatingPoint CADRefineTestSupport)

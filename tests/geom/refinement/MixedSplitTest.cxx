@@ -1,0 +1,711 @@
+// Meshes of all shapes, split uniformly or where cells are marked.
+
+#include "MeshChecks.h"
+#include "MixedMeshes.h"
+
+#include <cadrefine/mesh/Facets.h>
+#include <cadrefine/refinement/Split.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <random>
+#include <set>
+#include <tuple>
+
+namespace
+{
+
+using namespace cadrefine;
+
+using IdPair = std::array<GlobalId, 2>;
+
+/// Sorted by size and corners.
+using CellsByPlace = std::multiset<std::vector<Point3>>;
+
+std::vector<GlobalId> followingIds(const SimplexMesh& mesh, const Midpoints& midpoints)
+{
+  std::vector<GlobalId> ids(midpoints.parentEdges.size());
+  std::iota(ids.begin(), ids.end(), static_cast<GlobalId>(mesh.points.size()));
+  return ids;
+}
+
+SplitMesh uniformly(const SimplexMesh& mesh)
+{
+  const EdgeTable table = buildEdgeTable(mesh);
+  const QuadTable quads = buildQuadTable(table);
+  const EdgeMarks marks(table.edges.size(), 1);
+  const Midpoints midpoints = makeMidpoints(mesh, table, quads, marks, true);
+  return splitUniformly(mesh, table, quads, midpoints, followingIds(mesh, midpoints));
+}
+
+/// As one rank refines it: the marks closed, stacks in order, badly cut cells cut whole.
+struct Marking
+{
+  Marking(const SimplexMesh& mesh, const std::vector<unsigned char>& cellMarks, bool keepLayers)
+    : table(buildEdgeTable(mesh)), quads(buildQuadTable(table)), marks(table.edges.size(), 0)
+  {
+    if (keepLayers)
+    {
+      EdgeStacks stacks(table, mesh.ids);
+      stacks.spread();
+      EXPECT_FALSE(stacks.spread());
+      stacks.writeTo(table);
+    }
+    markLongestEdges(mesh, table, cellMarks, keepLayers, marks);
+    MarkClosure(table, mesh.dimension, keepLayers, marks).closeAll();
+  }
+
+  SplitMesh split(const SimplexMesh& mesh) const
+  {
+    const Midpoints midpoints = makeMidpoints(mesh, table, quads, marks, false);
+    return splitMarked(mesh, table, quads, marks, midpoints, followingIds(mesh, midpoints));
+  }
+
+  std::set<IdPair> ids(const SimplexMesh& mesh) const
+  {
+    std::set<IdPair> result;
+    for (std::size_t e = 0; e < marks.size(); ++e)
+    {
+      if (marks[e])
+      {
+        result.insert({ mesh.ids[table.edges[e][0]], mesh.ids[table.edges[e][1]] });
+      }
+    }
+    return result;
+  }
+
+  EdgeTable table;
+  QuadTable quads;
+  EdgeMarks marks;
+};
+
+CellsByPlace byPlace(const SimplexMesh& mesh)
+{
+  CellsByPlace all;
+  visitShapes(mesh,
+    [&](auto, const auto& cells)
+    {
+      for (const auto& cell : cells)
+      {
+        std::vector<Point3> corners;
+        for (const Index v : cell)
+        {
+          corners.push_back(mesh.points[v]);
+        }
+        std::sort(corners.begin(), corners.end());
+        all.insert(corners);
+      }
+    });
+  return all;
+}
+
+bool onBox(const SimplexMesh& mesh, const std::vector<Point3>& side)
+{
+  return cadtest::onUnitCube(side, mesh.dimension);
+}
+
+void expectSound(const SimplexMesh& mesh)
+{
+  EXPECT_TRUE(cadtest::isValid(mesh));
+  EXPECT_TRUE(cadtest::isWatertight(
+    mesh, [&](const std::vector<Point3>& side) { return onBox(mesh, side); }));
+  EXPECT_TRUE(cadtest::hasNoHangingVertex(mesh));
+  EXPECT_NEAR(cadtest::measureOf(mesh), 1, 1e-13);
+}
+
+/// The cells of the boundary are those that are listed.
+void expectBoundaryListed(const SimplexMesh& mesh)
+{
+  std::set<std::set<Index>> outer;
+  for (const Facet& side : findOuterFacets(mesh))
+  {
+    outer.emplace(side.begin(), side.end());
+  }
+  std::set<std::set<Index>> listed;
+  visitShapes(mesh, mesh.dimension - 1,
+    [&](auto, const auto& cells)
+    {
+      for (const auto& cell : cells)
+      {
+        listed.emplace(cell.begin(), cell.end());
+      }
+    });
+  EXPECT_EQ(listed, outer);
+}
+
+/// Cells with their corners turned about.
+SimplexMesh withTurnedCells(SimplexMesh mesh, std::uint64_t seed)
+{
+  std::mt19937_64 random(seed);
+  for (auto& h : mesh.hexahedra)
+  {
+    for (auto turns = random() % 4; turns > 0; --turns)
+    {
+      h = { h[1], h[2], h[3], h[0], h[5], h[6], h[7], h[4] };
+    }
+    for (auto turns = random() % 3; turns > 0; --turns)
+    {
+      h = { h[0], h[4], h[5], h[1], h[3], h[7], h[6], h[2] };
+    }
+  }
+  for (auto& w : mesh.wedges)
+  {
+    for (auto turns = random() % 3; turns > 0; --turns)
+    {
+      w = { w[1], w[2], w[0], w[4], w[5], w[3] };
+    }
+    if (random() % 2)
+    {
+      w = { w[3], w[5], w[4], w[0], w[2], w[1] };
+    }
+  }
+  for (auto& p : mesh.pyramids)
+  {
+    for (auto turns = random() % 4; turns > 0; --turns)
+    {
+      p = { p[1], p[2], p[3], p[0], p[4] };
+    }
+  }
+  for (auto& q : mesh.quadrilaterals)
+  {
+    for (auto turns = random() % 4; turns > 0; --turns)
+    {
+      q = { q[1], q[2], q[3], q[0] };
+    }
+  }
+  return mesh;
+}
+
+class MixedSplit : public testing::TestWithParam<int>
+{
+protected:
+  static SimplexMesh mesh(std::uint64_t seed, double jitter = 0.1)
+  {
+    const SimplexMesh boxes = GetParam() == 3 ? cadtest::hexahedraMesh(2 + seed % 2, jitter, seed)
+                                              : cadtest::quadrilateralsMesh(4, jitter, seed);
+    return cadtest::withListedBoundary(cadtest::randomlyMixedMesh(boxes, seed));
+  }
+
+  static std::vector<unsigned char> someCells(const SimplexMesh& mesh, std::uint64_t seed)
+  {
+    std::mt19937_64 random(seed);
+    std::vector<unsigned char> marks(mesh.cellCount(mesh.dimension));
+    std::generate(marks.begin(), marks.end(), [&] { return random() % 6 == 0; });
+    marks[seed % marks.size()] = 1;
+    return marks;
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Dimensions, MixedSplit, testing::Values(2, 3));
+
+TEST_P(MixedSplit, meshesToStartFromAreSound)
+{
+  std::size_t shapes[4]{};
+  for (std::uint64_t seed = 0; seed < 6; ++seed)
+  {
+    const SimplexMesh mesh = this->mesh(seed);
+    expectSound(mesh);
+    expectBoundaryListed(mesh);
+    std::size_t* count = shapes;
+    visitOwnShapes(mesh, [&](auto, const auto& cells) { *count++ += cells.size(); });
+  }
+  for (int k = 0; k < (GetParam() == 3 ? 4 : 2); ++k)
+  {
+    EXPECT_GT(shapes[k], 10u) << "shape " << k;
+  }
+}
+
+TEST_P(MixedSplit, uniformLevelsAreSound)
+{
+  for (std::uint64_t seed = 0; seed < 4; ++seed)
+  {
+    SCOPED_TRACE(seed);
+    SimplexMesh mesh = this->mesh(seed);
+    for (int level = 0; level < 2; ++level)
+    {
+      const SplitMesh split = uniformly(mesh);
+      const SimplexMesh& fine = split.mesh;
+      EXPECT_EQ(fine.tetrahedra.size(), 8 * mesh.tetrahedra.size() + 4 * mesh.pyramids.size());
+      EXPECT_EQ(fine.pyramids.size(), 6 * mesh.pyramids.size());
+      EXPECT_EQ(fine.wedges.size(), 8 * mesh.wedges.size());
+      EXPECT_EQ(fine.hexahedra.size(), 8 * mesh.hexahedra.size());
+      EXPECT_EQ(fine.triangles.size(), 4 * mesh.triangles.size());
+      EXPECT_EQ(fine.quadrilaterals.size(), 4 * mesh.quadrilaterals.size());
+      EXPECT_EQ(fine.segments.size(), 2 * mesh.segments.size());
+      mesh = fine;
+      expectSound(mesh);
+      expectBoundaryListed(mesh);
+    }
+  }
+}
+
+/// Children, in the order in which they are named, fill their parents.
+TEST_P(MixedSplit, namesChildrenOfEachCell)
+{
+  const auto measures = [](const SimplexMesh& mesh)
+  {
+    std::vector<double> all;
+    visitOwnShapes(mesh,
+      [&](auto shape, const auto& cells)
+      {
+        for (const auto& cell : cells)
+        {
+          SimplexMesh one;
+          one.dimension = mesh.dimension;
+          one.points = mesh.points;
+          (one.*decltype(shape)::cells) = { cell };
+          all.push_back(cadtest::measureOf(one));
+        }
+      });
+    return all;
+  };
+  const SimplexMesh mesh = this->mesh(3, 0); // sides are plane
+  const auto before = measures(mesh);
+  const auto expectFilled = [&](const SplitMesh& split)
+  {
+    const int d = mesh.dimension;
+    const auto after = measures(split.mesh);
+    ASSERT_EQ(split.firstChildren[d].size(), before.size() + 1);
+    ASSERT_EQ(static_cast<std::size_t>(split.firstChildren[d].back()), after.size());
+    for (std::size_t c = 0; c < before.size(); ++c)
+    {
+      double sum = 0;
+      for (Index k = split.firstChildren[d][c]; k < split.firstChildren[d][c + 1]; ++k)
+      {
+        sum += after[split.children[d].empty() ? k : split.children[d][k]];
+      }
+      EXPECT_NEAR(sum, before[c], 1e-15) << "cell " << c;
+    }
+  };
+  expectFilled(uniformly(mesh));
+  for (const bool keepLayers : { false, true })
+  {
+    expectFilled(Marking(mesh, someCells(mesh, 4), keepLayers).split(mesh));
+  }
+}
+
+/// Bit for bit; corners of cells in another turn make the same vertices, too.
+TEST_P(MixedSplit, uniformSplitDoesNotDependOnTheOrderOfCellsAndCorners)
+{
+  const SimplexMesh mesh = this->mesh(5);
+  const auto expected = byPlace(uniformly(mesh).mesh);
+  for (std::uint64_t seed = 0; seed < 3; ++seed)
+  {
+    const SimplexMesh other = withTurnedCells(cadtest::withMixedOrder(mesh, seed), seed);
+    EXPECT_EQ(byPlace(uniformly(other).mesh), expected);
+  }
+}
+
+TEST_P(MixedSplit, markedLevelsAreSound)
+{
+  for (const bool keepLayers : { false, true })
+  {
+    for (std::uint64_t seed = 0; seed < 6; ++seed)
+    {
+      SCOPED_TRACE("seed " + std::to_string(seed) + (keepLayers ? ", layers kept" : ""));
+      SimplexMesh mesh = this->mesh(seed, 0.05);
+      for (int level = 0; level < 3; ++level)
+      {
+        const std::size_t before = mesh.cellCount();
+        const Marking marking(mesh, someCells(mesh, seed), keepLayers);
+        if (!cellsCutBadly(mesh, marking.table, marking.quads, marking.marks).empty())
+        {
+          break; // what then happens is for all ranks to decide
+        }
+        mesh = marking.split(mesh).mesh;
+        EXPECT_GT(mesh.cellCount(), before);
+        expectSound(mesh);
+        expectBoundaryListed(mesh);
+      }
+    }
+  }
+}
+
+TEST_P(MixedSplit, markedSplitDoesNotDependOnTheOrderOfCells)
+{
+  for (const bool keepLayers : { false, true })
+  {
+    const SimplexMesh mesh = this->mesh(7);
+    const auto cellMarks = someCells(mesh, 8);
+    std::set<std::vector<Index>> marked;
+    const auto visitMarks = [](const SimplexMesh& any, const auto& visit)
+    {
+      std::size_t c = 0;
+      visitOwnShapes(any,
+        [&](auto, const auto& cells)
+        {
+          for (const auto& cell : cells)
+          {
+            visit(c++, std::vector<Index>(cell.begin(), cell.end()));
+          }
+        });
+    };
+    visitMarks(mesh,
+      [&](std::size_t c, const std::vector<Index>& cell)
+      {
+        if (cellMarks[c])
+        {
+          marked.insert(cell);
+        }
+      });
+    const auto expected = byPlace(Marking(mesh, cellMarks, keepLayers).split(mesh).mesh);
+    for (std::uint64_t seed = 0; seed < 3; ++seed)
+    {
+      const SimplexMesh other = cadtest::withMixedOrder(mesh, seed);
+      std::vector<unsigned char> marks(cellMarks.size());
+      visitMarks(other,
+        [&](std::size_t c, const std::vector<Index>& cell) { marks[c] = marked.count(cell) > 0; });
+      EXPECT_EQ(byPlace(Marking(other, marks, keepLayers).split(other).mesh), expected);
+    }
+  }
+}
+
+/// The rules as they are written in LongestEdgeMarking.h, with sets.
+class LeastMixedMarking
+{
+public:
+  LeastMixedMarking(const SimplexMesh& mesh, bool keepLayers) : mesh_(mesh), keepLayers_(keepLayers)
+  {
+    visitShapes(mesh,
+      [&](auto shape, const auto& cells)
+      {
+        if constexpr (decltype(shape)::dimension > 1)
+        {
+          for (const auto& cell : cells)
+          {
+            addCell(shape, cell, decltype(shape)::dimension == mesh_.dimension);
+          }
+        }
+      });
+    standAlike();
+  }
+
+  std::set<IdPair> close(const std::vector<unsigned char>& cellMarks)
+  {
+    for (std::size_t c = 0; c < cellMarks.size(); ++c)
+    {
+      if (cellMarks[c])
+      {
+        markCell(cells_[c]);
+      }
+    }
+    for (std::size_t before = 0; before != marked_.size();)
+    {
+      before = marked_.size();
+      for (const auto& edges : groups_)
+      {
+        if (isMarked(edges))
+        {
+          marked_.insert(longest(edges));
+        }
+      }
+      for (const auto& [a, b] : pairs_)
+      {
+        if (isMarked({ a, b }))
+        {
+          marked_.insert({ a, b });
+        }
+      }
+    }
+    return marked_;
+  }
+
+private:
+  using Edges = std::vector<IdPair>;
+  struct Rank
+  {
+    double squaredLength;
+    IdPair ids;
+    bool operator<(const Rank& other) const
+    {
+      return std::tie(squaredLength, ids) < std::tie(other.squaredLength, other.ids);
+    }
+  };
+
+  struct Cell
+  {
+    Edges all;
+    Edges triangles; ///< Of a wedge.
+    std::vector<Edges> directions;
+  };
+
+  IdPair edge(Index a, Index b)
+  {
+    if (mesh_.ids[b] < mesh_.ids[a])
+    {
+      std::swap(a, b);
+    }
+    const IdPair ids{ mesh_.ids[a], mesh_.ids[b] };
+    ranks_.emplace(ids, Rank{ squaredNorm(mesh_.points[b] - mesh_.points[a]), ids });
+    return ids;
+  }
+
+  template<class Shape, class Corners>
+  void addCell(Shape, const Corners& corners, bool isOwn)
+  {
+    Cell cell;
+    for (const auto& [i, k] : Shape::edges)
+    {
+      cell.all.push_back(edge(corners[i], corners[k]));
+    }
+    if constexpr (Shape::corners == 3 || (Shape::corners == 4 && Shape::dimension == 3))
+    {
+      groups_.push_back(cell.all);
+    }
+    if constexpr (Shape::dimension == 3)
+    {
+      for (const auto& [a, b, c, d] : Shape::faces)
+      {
+        if (d < 0)
+        {
+          groups_.push_back({ edge(corners[a], corners[b]), edge(corners[b], corners[c]),
+            edge(corners[c], corners[a]) });
+        }
+      }
+    }
+    if constexpr (Shape::corners == 6)
+    {
+      for (int k = 0; k < 3; ++k)
+      {
+        const IdPair low = edge(corners[k], corners[(k + 1) % 3]);
+        const IdPair high = edge(corners[3 + k], corners[3 + (k + 1) % 3]);
+        stacked_.emplace_back(low, high);
+        cell.triangles.push_back(low);
+        cell.triangles.push_back(high);
+      }
+    }
+    if constexpr (!isSimplex(Shape{}) && (Shape::corners == 8 || Shape::dimension == 2))
+    {
+      addDirections(Shape{}, corners, cell);
+    }
+    if (isOwn)
+    {
+      cells_.push_back(cell);
+    }
+  }
+
+  /// Edges that are parallel in the unit cell.
+  template<class Shape, class Corners>
+  void addDirections(Shape, const Corners& corners, Cell& cell)
+  {
+    constexpr int at[8][3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 }, { 0, 0, 1 },
+      { 1, 0, 1 }, { 1, 1, 1 }, { 0, 1, 1 } };
+    cell.directions.resize(Shape::dimension);
+    for (const auto& [i, k] : Shape::edges)
+    {
+      for (int d = 0; d < Shape::dimension; ++d)
+      {
+        if (at[i][d] != at[k][d])
+        {
+          cell.directions[d].push_back(edge(corners[i], corners[k]));
+        }
+      }
+    }
+    for (int thin = 0; keepLayers_ && thin < Shape::dimension; ++thin)
+    {
+      candidates_.push_back({ cell, thin, {}, Shape::dimension == mesh_.dimension });
+      auto& over = candidates_.back().pairs;
+      for (const auto& [i, k] : Shape::edges)
+      {
+        for (const auto& [m, n] : Shape::edges)
+        {
+          // One step apart in the thin direction, alike in the others.
+          const auto isOver = [&](int a, int b)
+          {
+            bool same = at[a][thin] == 0 && at[b][thin] == 1;
+            for (int d = 0; d < 3; ++d)
+            {
+              same = same && (d == thin || at[a][d] == at[b][d]);
+            }
+            return same;
+          };
+          if ((isOver(i, m) && isOver(k, n)) || (isOver(i, n) && isOver(k, m)))
+          {
+            over.emplace_back(edge(corners[i], corners[k]), edge(corners[m], corners[n]));
+          }
+        }
+      }
+    }
+  }
+
+  /// The largest rank of each stack; then which cells are thin.
+  void standAlike()
+  {
+    for (bool changed = keepLayers_; changed;)
+    {
+      changed = false;
+      for (const auto& [a, b] : stacked_)
+      {
+        const Rank largest = std::max(ranks_.at(a), ranks_.at(b));
+        for (const IdPair& each : { a, b })
+        {
+          changed = changed || ranks_.at(each) < largest;
+          ranks_.at(each) = largest;
+        }
+      }
+    }
+    if (keepLayers_)
+    {
+      pairs_ = stacked_;
+    }
+    for (const auto& candidate : candidates_)
+    {
+      if (candidate.isOfLayers && thinDirection(candidate.cell) == candidate.thin)
+      {
+        pairs_.insert(pairs_.end(), candidate.pairs.begin(), candidate.pairs.end());
+      }
+    }
+  }
+
+  int thinDirection(const Cell& cell) const
+  {
+    std::vector<double> sums;
+    for (const Edges& edges : cell.directions)
+    {
+      sums.push_back(0);
+      for (const IdPair& each : edges)
+      {
+        sums.back() += ranks_.at(each).squaredLength;
+      }
+    }
+    for (std::size_t d = 0; d < sums.size(); ++d)
+    {
+      bool isThin = true;
+      for (std::size_t other = 0; other < sums.size(); ++other)
+      {
+        isThin = isThin && (other == d || 4 * sums[d] < sums[other]);
+      }
+      if (isThin)
+      {
+        return static_cast<int>(d);
+      }
+    }
+    return -1;
+  }
+
+  void markCell(const Cell& cell)
+  {
+    if (cell.directions.empty())
+    {
+      marked_.insert(longest(keepLayers_ && !cell.triangles.empty() ? cell.triangles : cell.all));
+      return;
+    }
+    const int thin = keepLayers_ ? thinDirection(cell) : -1;
+    for (int d = 0; d < static_cast<int>(cell.directions.size()); ++d)
+    {
+      if (d != thin)
+      {
+        marked_.insert(cell.directions[d].begin(), cell.directions[d].end());
+      }
+    }
+  }
+
+  bool isMarked(const Edges& edges) const
+  {
+    return std::any_of(
+      edges.begin(), edges.end(), [&](const IdPair& each) { return marked_.count(each) > 0; });
+  }
+
+  IdPair longest(const Edges& edges) const
+  {
+    return *std::max_element(edges.begin(), edges.end(),
+      [&](const IdPair& a, const IdPair& b)
+      {
+        const Rank& first = ranks_.at(a);
+        const Rank& second = ranks_.at(b);
+        return first < second || (!(second < first) && a < b);
+      });
+  }
+
+  struct Candidate
+  {
+    Cell cell;
+    int thin;
+    std::vector<std::pair<IdPair, IdPair>> pairs;
+    bool isOfLayers = false;
+  };
+
+  const SimplexMesh& mesh_;
+  bool keepLayers_;
+  std::map<IdPair, Rank> ranks_;
+  std::vector<Cell> cells_; ///< Of the mesh's own dimension.
+  std::vector<Edges> groups_;
+  std::vector<std::pair<IdPair, IdPair>> stacked_;
+  std::vector<std::pair<IdPair, IdPair>> pairs_;
+  std::vector<Candidate> candidates_;
+  std::set<IdPair> marked_;
+};
+
+TEST_P(MixedSplit, marksAreTheLeastFixpoint)
+{
+  for (const bool keepLayers : { false, true })
+  {
+    for (std::uint64_t seed = 0; seed < 12; ++seed)
+    {
+      SCOPED_TRACE("seed " + std::to_string(seed) + (keepLayers ? ", layers kept" : ""));
+      SimplexMesh mesh = this->mesh(seed, seed % 3 == 0 ? 0 : 0.15);
+      std::mt19937_64 random(seed);
+      const double flatness = seed % 2 ? 0.3 : 1;
+      for (Point3& point : mesh.points)
+      {
+        point[1] *= flatness; // thin cells
+      }
+      const auto cellMarks = someCells(mesh, seed);
+      const auto found = Marking(mesh, cellMarks, keepLayers).ids(mesh);
+      EXPECT_EQ(found, LeastMixedMarking(mesh, keepLayers).close(cellMarks));
+      EXPECT_FALSE(found.empty());
+    }
+  }
+}
+
+/// Layers round a sphere: cells over each other are cut alike, along the wall alone, into cells of
+/// layers.
+TEST(Layers, areCutAlongTheWallAlone)
+{
+  const std::vector<double> heights{ 0.01, 0.03, 0.07, 0.15 };
+  for (const auto kind : { cadtest::BoxKind::Hexahedron, cadtest::BoxKind::Wedges })
+  {
+    const SimplexMesh boxes = cadtest::hexahedralShellMesh(2, 0.005, 3, heights);
+    const std::size_t layerBoxes = heights.size() * 54;
+    SimplexMesh mesh = cadtest::mixedMesh(
+      boxes, [&](std::size_t c) { return c < layerBoxes ? kind : cadtest::BoxKind::Fan; }, 1);
+    std::mt19937_64 random(2);
+    for (int level = 0; level < 3; ++level)
+    {
+      std::vector<unsigned char> marks(mesh.cellCount(3));
+      std::generate(marks.begin(), marks.end(), [&] { return random() % 12 == 0; });
+      const Marking marking(mesh, marks, true);
+      ASSERT_TRUE(cellsCutBadly(mesh, marking.table, marking.quads, marking.marks).empty());
+      const SplitMesh split = marking.split(mesh);
+      Index cell = static_cast<Index>(mesh.tetrahedra.size() + mesh.pyramids.size());
+      const auto end = static_cast<Index>(mesh.cellCount(3));
+      const auto firstOfLayers =
+        static_cast<Index>(split.mesh.tetrahedra.size() + split.mesh.pyramids.size());
+      for (; cell < end; ++cell)
+      {
+        for (Index k = split.firstChildren[3][cell]; k < split.firstChildren[3][cell + 1]; ++k)
+        {
+          EXPECT_GE(split.children[3][k], firstOfLayers) << "a pyramid or a tetrahedron";
+        }
+      }
+      mesh = split.mesh;
+      EXPECT_TRUE(cadtest::isValid(mesh));
+      EXPECT_TRUE(cadtest::hasNoHangingVertex(mesh));
+      EXPECT_TRUE(cadtest::isWatertight(mesh,
+        [](const std::vector<Point3>& side)
+        {
+          return std::all_of(side.begin(), side.end(),
+            [](const Point3& p) { return norm(p) < 2.011 || norm(p) > 4; });
+        }));
+    }
+    // As many in each layer.
+    EXPECT_EQ(mesh.wedges.size() % heights.size(), 0u);
+    EXPECT_EQ(mesh.hexahedra.size() % heights.size(), 0u);
+    EXPECT_GT(mesh.wedges.size() + mesh.hexahedra.size(), 2 * layerBoxes);
+  }
+}
+
+} // namespace
