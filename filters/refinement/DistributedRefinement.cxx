@@ -161,16 +161,7 @@ bool markBadlyCut(RankExchange& exchange, const DistributedMesh& mesh, Refinemen
 {
   const SimplexMesh& piece = mesh.mesh();
   const std::vector<Index> bad = cellsCutBadly(piece, plan.table, plan.quads.table, plan.marks);
-  const auto markAll = [&](const auto& edges)
-  {
-    bool anyNew = false;
-    for (const Index edge : edges)
-    {
-      anyNew = anyNew || !plan.marks[edge];
-      plan.marks[edge] = 1;
-    }
-    return anyNew;
-  };
+  std::vector<Index> toMark; // at once: a cell whose neighbours mark all its edges has another try
   agreeOnFailure(exchange,
     [&]
     {
@@ -180,14 +171,21 @@ bool markBadlyCut(RankExchange& exchange, const DistributedMesh& mesh, Refinemen
         {
           for (const Index cell : cellsOfShape(bad, first, cells.size()))
           {
-            if (!markAll((plan.table.*edgesOfCells(shape))[cell]))
+            const auto& edges = (plan.table.*edgesOfCells(shape))[cell];
+            if (std::all_of(
+                  edges.begin(), edges.end(), [&](Index edge) { return plan.marks[edge] != 0; }))
             {
               complainOfBadCut(mesh, static_cast<Index>(first) + cell);
             }
+            toMark.insert(toMark.end(), edges.begin(), edges.end());
           }
           first += cells.size();
         });
     });
+  for (const Index edge : toMark)
+  {
+    plan.marks[edge] = 1;
+  }
   return exchange.any(!bad.empty());
 }
 
