@@ -93,9 +93,22 @@ void readCell(int type, vtkIdList* points, SimplexMesh& mesh)
 {
   switch (type)
   {
+    case VTK_HEXAHEDRON:
+    case VTK_QUADRATIC_HEXAHEDRON:
+    case VTK_TRIQUADRATIC_HEXAHEDRON:
+      return readCell(points, mesh.hexahedra);
+    case VTK_WEDGE:
+    case VTK_QUADRATIC_WEDGE:
+      return readCell(points, mesh.wedges);
+    case VTK_PYRAMID:
+    case VTK_QUADRATIC_PYRAMID:
+      return readCell(points, mesh.pyramids);
     case VTK_TETRA:
     case VTK_QUADRATIC_TETRA:
       return readCell(points, mesh.tetrahedra);
+    case VTK_QUAD:
+    case VTK_QUADRATIC_QUAD:
+      return readCell(points, mesh.quadrilaterals);
     case VTK_TRIANGLE:
     case VTK_QUADRATIC_TRIANGLE:
       return readCell(points, mesh.triangles);
@@ -169,20 +182,28 @@ vtkSmartPointer<vtkUnstructuredGrid> toGrid(const SimplexMesh& mesh)
   insertCells(mesh.vertices, VTK_VERTEX, grid);
   insertCells(mesh.segments, VTK_LINE, grid);
   insertCells(mesh.triangles, VTK_TRIANGLE, grid);
+  insertCells(mesh.quadrilaterals, VTK_QUAD, grid);
   insertCells(mesh.tetrahedra, VTK_TETRA, grid);
+  insertCells(mesh.pyramids, VTK_PYRAMID, grid);
+  insertCells(mesh.wedges, VTK_WEDGE, grid);
+  insertCells(mesh.hexahedra, VTK_HEXAHEDRON, grid);
   return grid;
 }
 
 vtkSmartPointer<vtkPolyData> toPolyData(const SimplexMesh& mesh)
 {
-  vtkNew<vtkCellArray> triangles;
+  vtkNew<vtkCellArray> polygons;
   for (const auto& [a, b, c] : mesh.triangles)
   {
-    triangles->InsertNextCell({ a, b, c });
+    polygons->InsertNextCell({ a, b, c });
+  }
+  for (const auto& [a, b, c, d] : mesh.quadrilaterals)
+  {
+    polygons->InsertNextCell({ a, b, c, d });
   }
   auto result = vtkSmartPointer<vtkPolyData>::New();
   result->SetPoints(pointsOf(mesh));
-  result->SetPolys(triangles);
+  result->SetPolys(polygons);
   return result;
 }
 
@@ -200,7 +221,7 @@ SimplexMesh toMesh(vtkPointSet* dataSet)
     dataSet->GetCellPoints(c, points);
     readCell(dataSet->GetCellType(c), points, mesh);
   }
-  mesh.dimension = mesh.tetrahedra.empty() ? 2 : 3;
+  mesh.dimension = mesh.cellCount(3) == 0 ? 2 : 3;
   return mesh;
 }
 
@@ -272,8 +293,10 @@ testing::AssertionResult areSame(vtkPointSet* a, vtkPointSet* b)
   {
     return testing::AssertionFailure() << "other points";
   }
-  if (first.vertices != second.vertices || first.segments != second.segments ||
-      first.triangles != second.triangles || first.tetrahedra != second.tetrahedra)
+  bool sameCells = true;
+  visitShapes(first, [&](auto shape, const auto& cells)
+    { sameCells = sameCells && cells == second.*decltype(shape)::cells; });
+  if (!sameCells)
   {
     return testing::AssertionFailure() << "other cells";
   }

@@ -19,9 +19,9 @@ class vtkUnstructuredGrid;
 namespace cadtest
 {
 
-/// All cells of the mesh: vertices, segments, triangles, tetrahedra. No arrays.
+/// All cells of the mesh, those of lower dimensions first. No arrays.
 vtkSmartPointer<vtkUnstructuredGrid> toGrid(const cadrefine::SimplexMesh& mesh);
-/// The triangles of the mesh. No arrays.
+/// The triangles and quadrilaterals of the mesh. No arrays.
 vtkSmartPointer<vtkPolyData> toPolyData(const cadrefine::SimplexMesh& mesh);
 /// Points and cells of a data set (of cells of second order the corners); the points' numbers are
 /// the ids.

@@ -341,20 +341,46 @@ cadrefine::SimplexMesh toMesh(const CanonicalMesh& canonical)
   }
   for (const auto& [id, bytes] : canonical.cells)
   {
-    std::int64_t numbers[6];
+    std::int64_t numbers[10];
     std::memcpy(numbers, bytes.data(), sizeof(std::int64_t) * 2);
-    std::memcpy(numbers, bytes.data(), sizeof(std::int64_t) * (2 + numbers[1]));
-    const auto at = [&](int k) { return vertexOf.at(numbers[2 + k]); };
-    if (numbers[0] == VTK_TETRA)
+    const auto count = std::min<std::int64_t>(numbers[1], 8);
+    std::memcpy(numbers, bytes.data(), sizeof(std::int64_t) * (2 + count));
+    const auto add = [&](auto& cells)
     {
-      mesh.tetrahedra.push_back({ at(0), at(1), at(2), at(3) });
-    }
-    else if (numbers[0] == VTK_TRIANGLE)
+      auto& cell = cells.emplace_back();
+      for (std::size_t k = 0; k < cell.size(); ++k)
+      {
+        cell[k] = vertexOf.at(numbers[2 + k]);
+      }
+    };
+    switch (numbers[0])
     {
-      mesh.triangles.push_back({ at(0), at(1), at(2) });
+      case VTK_HEXAHEDRON:
+        add(mesh.hexahedra);
+        break;
+      case VTK_WEDGE:
+        add(mesh.wedges);
+        break;
+      case VTK_PYRAMID:
+        add(mesh.pyramids);
+        break;
+      case VTK_TETRA:
+        add(mesh.tetrahedra);
+        break;
+      case VTK_QUAD:
+        add(mesh.quadrilaterals);
+        break;
+      case VTK_TRIANGLE:
+        add(mesh.triangles);
+        break;
+      case VTK_LINE:
+        add(mesh.segments);
+        break;
+      default: // vertices, cells of second order
+        break;
     }
   }
-  mesh.dimension = mesh.tetrahedra.empty() ? 2 : 3;
+  mesh.dimension = mesh.cellCount(3) == 0 ? 2 : 3;
   return mesh;
 }
 

@@ -173,6 +173,37 @@ testing::AssertionResult isWatertight(
                        : testing::AssertionSuccess();
 }
 
+testing::AssertionResult isBoundedByListedCells(const SimplexMesh& mesh)
+{
+  auto sides = sidesOf(mesh);
+  testing::AssertionResult result = testing::AssertionSuccess();
+  visitShapes(mesh, mesh.dimension - 1,
+    [&](auto, const auto& cells)
+    {
+      for (const auto& cell : cells)
+      {
+        Side side(cell.begin(), cell.end());
+        std::sort(side.begin(), side.end());
+        const int count = sides.count(side) ? sides[side]++ : -1;
+        if (count != 1)
+        {
+          result = testing::AssertionFailure()
+                   << "a listed cell with vertex " << side[0] << " is a side of "
+                   << (count < 0 ? "no" : std::to_string(count)) << " cells";
+        }
+      }
+    });
+  for (const auto& [side, count] : sides)
+  {
+    if (count != 2)
+    {
+      result = testing::AssertionFailure()
+               << "a side with vertex " << side[0] << " is met " << count << " times";
+    }
+  }
+  return result;
+}
+
 bool onUnitCube(const std::vector<Point3>& points, int dimension)
 {
   for (int k = 0; k < dimension; ++k)

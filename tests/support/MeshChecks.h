@@ -32,6 +32,10 @@ testing::AssertionResult isValid(const cadrefine::SimplexMesh& mesh);
 testing::AssertionResult isWatertight(const cadrefine::SimplexMesh& mesh,
   const std::function<bool(const std::vector<cadrefine::Point3>&)>& onBoundary);
 
+/// Every side of a cell is met twice, but for those that are listed as cells, which are met once;
+/// all listed cells of their dimension are such.
+testing::AssertionResult isBoundedByListedCells(const cadrefine::SimplexMesh& mesh);
+
 /// Whether these points lie on one side of the unit cube, or (dimension 2) of the unit square.
 bool onUnitCube(const std::vector<cadrefine::Point3>& points, int dimension);
 

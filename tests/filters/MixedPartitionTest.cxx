@@ -1,0 +1,280 @@
+// Meshes of all shapes: the same mesh, bit for bit, on any number of ranks and however it is split.
+
+#include "DataSets.h"
+#include "FilterRun.h"
+#include "MeshChecks.h"
+#include "MixedMeshes.h"
+#include "ParallelTest.h"
+#include "Partition.h"
+#include "SamePieces.h"
+#include "TestShapes.h"
+
+#include <vtkAdaptToCAD.h>
+#include <vtkCADBoundary.h>
+#include <vtkFieldData.h>
+#include <vtkPolyData.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+namespace cadrefine
+{
+
+namespace
+{
+
+using cadtest::BoxKind;
+
+const std::vector<double> heights{ 0.02, 0.06, 0.15, 0.5 };
+
+/// Of the shells round a sphere those of layers; the outermost is of another kind.
+SimplexMesh layers(BoxKind kind)
+{
+  constexpr int n = 2;
+  const SimplexMesh boxes = cadtest::hexahedralShellMesh(2, 0.02, n, heights);
+  return cadtest::withListedBoundary(cadtest::mixedMesh(
+    boxes, [=](std::size_t c) { return c < heights.size() * 6 * n * n ? kind : BoxKind::Fan; }, 1));
+}
+
+SimplexMesh hexahedralBall()
+{
+  return cadtest::withListedBoundary(cadtest::hexahedralBallMesh(2, 0.02, 2, { 0.6, 1 }));
+}
+
+SimplexMesh mixedBall()
+{
+  return cadtest::withListedBoundary(
+    cadtest::randomlyMixedMesh(cadtest::hexahedralBallMesh(2, 0.02, 2, { 0.6, 1 }), 3));
+}
+
+SimplexMesh ring()
+{
+  return cadtest::withListedBoundary(cadtest::quadrilateralRingMesh(2, 0.01, 12, heights));
+}
+
+vtkSmartPointer<vtkPointSet> surface()
+{
+  SimplexMesh mesh = mixedBall();
+  std::fill(mesh.ids.begin(), mesh.ids.end(), -1);
+  SimplexMesh result;
+  result.dimension = 2;
+  const auto vertexOf = [&](Index v)
+  {
+    if (mesh.ids[v] < 0)
+    {
+      mesh.ids[v] = static_cast<GlobalId>(result.points.size());
+      result.points.push_back(mesh.points[v]);
+    }
+    return static_cast<Index>(mesh.ids[v]);
+  };
+  visitShapes(mesh, 2,
+    [&](auto shape, const auto& cells)
+    {
+      for (auto cell : cells)
+      {
+        std::transform(cell.begin(), cell.end(), cell.begin(), vertexOf);
+        (result.*decltype(shape)::cells).push_back(cell);
+      }
+    });
+  return cadtest::toPolyData(result);
+}
+
+SimplexMesh withTurnedWedges(SimplexMesh mesh)
+{
+  for (auto& w : mesh.wedges)
+  {
+    w = { w[3], w[4], w[5], w[0], w[1], w[2] };
+  }
+  return mesh;
+}
+
+template<SimplexMesh (*mesh)()>
+vtkSmartPointer<vtkPointSet> gridOf()
+{
+  return cadtest::toGrid(mesh());
+}
+
+SimplexMesh wedgeLayers()
+{
+  return layers(BoxKind::Wedges);
+}
+
+SimplexMesh hexahedralLayers()
+{
+  return layers(BoxKind::Hexahedron);
+}
+
+/// As VTK's documentation draws them.
+SimplexMesh documentedWedges()
+{
+  return withTurnedWedges(wedgeLayers());
+}
+
+struct Problem
+{
+  std::string name;
+  vtkSmartPointer<vtkPointSet> (*mesh)();
+  double threshold; ///< Cells with a larger error are cut.
+};
+
+const std::array<Problem, 7> problems{ { { "HexahedralBall", gridOf<hexahedralBall>, 0.01 },
+  { "MixedBall", gridOf<mixedBall>, 0.01 }, { "WedgeLayers", gridOf<wedgeLayers>, 0.01 },
+  { "HexahedralLayers", gridOf<hexahedralLayers>, 0.01 },
+  { "DocumentedWedges", gridOf<documentedWedges>, 0.01 }, { "Ring", gridOf<ring>, 1e-3 },
+  { "Surface", surface, 0.01 } } };
+
+struct Case
+{
+  std::size_t problem;
+  cadtest::Dealing dealing;
+  bool ids;
+  bool ghosts;
+  bool balance;
+  bool keepLayers;
+};
+
+std::string nameOf(const Case& c)
+{
+  const char* dealings[] = { "Blocks", "Random", "KdTree", "EmptyRank" };
+  return problems[c.problem].name + dealings[static_cast<int>(c.dealing)] +
+         (c.ids ? "Ids" : "NoIds") + (c.ghosts ? "Ghosts" : "") + (c.balance ? "Balanced" : "") +
+         (c.keepLayers ? "Kept" : "");
+}
+
+std::vector<Case> cases()
+{
+  using cadtest::Dealing;
+  std::vector<Case> result;
+  for (std::size_t problem = 0; problem < problems.size(); ++problem)
+  {
+    result.push_back({ problem, Dealing::Blocks, true, true, false, true });
+    result.push_back({ problem, Dealing::Random, false, false, true, true });
+    result.push_back({ problem, Dealing::KdTree, false, true, true, false });
+    result.push_back({ problem, Dealing::EmptyRank, true, false, false, false });
+  }
+  return result;
+}
+
+class MixedPartition
+  : public ParallelTest
+  , public testing::WithParamInterface<Case>
+{
+protected:
+  const Problem& problem = problems[GetParam().problem];
+  const bool isPlanar = problem.name == "Ring";
+  cadtest::TemporaryFolder folder;
+  const std::string cadFile =
+    cadtest::writeInto(folder, isPlanar ? cadtest::circle(2) : cadtest::sphere(2), ".brep");
+
+  vtkSmartPointer<vtkPointSet> wholeMesh() const
+  {
+    auto mesh = problem.mesh();
+    cadtest::addArrays(mesh);
+    if (GetParam().ids)
+    {
+      cadtest::addGlobalIds(mesh);
+    }
+    return mesh;
+  }
+
+  using Steps = std::vector<cadtest::FilterRun::Data>;
+
+  /// The mesh after each filter: projected, measured, refined where the error is, refined
+  /// uniformly, its boundary, measured with its boundary's cells.
+  Steps run(vtkPointSet* mesh, vtkMultiProcessController* controller) const
+  {
+    const cadtest::FilterRun filters(cadFile, controller);
+    Steps steps{ filters.project(mesh) };
+    steps.push_back(filters.measure(steps.back(), 2));
+    steps.push_back(filters.run<vtkRefineWithCAD>(steps.back(),
+      [&](vtkRefineWithCAD* filter)
+      {
+        filter->SetMarkingArray("GeometricError");
+        filter->SetThreshold(problem.threshold);
+        filter->SetLevels(1);
+        filter->SetBalance(GetParam().balance);
+        filter->SetKeepLayers(GetParam().keepLayers);
+      }));
+    steps.push_back(filters.run<vtkRefineWithCAD>(steps.back(),
+      [&](vtkRefineWithCAD* filter)
+      {
+        filter->SetMethod(vtkRefineWithCAD::UNIFORM_BISECTION);
+        filter->SetBalance(GetParam().balance);
+      }));
+    steps.push_back(filters.run<vtkCADBoundary>(steps.back(), [](vtkCADBoundary*) {}));
+    steps.push_back(filters.run<vtkCADGeometricError>(*std::prev(steps.end(), 2),
+      [](vtkCADGeometricError* filter)
+      {
+        filter->SetRecursionDepth(1);
+        filter->SetBoundaryCells(true);
+      }));
+    return steps;
+  }
+
+  void expectSound(vtkPointSet* piece)
+  {
+    const cadtest::CanonicalMesh gathered = cadtest::gather(exchange, piece);
+    if (exchange.rank() > 0)
+    {
+      return;
+    }
+    SimplexMesh mesh = cadtest::toMesh(gathered);
+    if (problem.name == "DocumentedWedges")
+    {
+      mesh = withTurnedWedges(mesh);
+    }
+    EXPECT_TRUE(cadtest::isValid(mesh));
+    EXPECT_TRUE(cadtest::hasNoHangingVertex(mesh));
+    if (problem.name == "Surface")
+    {
+      EXPECT_TRUE(cadtest::isWatertight(mesh, [](const auto&) { return false; }));
+    }
+    else
+    {
+      EXPECT_TRUE(cadtest::isBoundedByListedCells(mesh));
+    }
+  }
+
+  void expectFieldValuesAgree(vtkPointSet* piece)
+  {
+    for (const char* name :
+      { "GlobalGeometricError", "MaximumGeometricDistance", "InvalidCells", "UnprojectedVertices" })
+    {
+      const double value = cadtest::fieldValue(piece, name);
+      EXPECT_EQ(exchange.min(value), exchange.max(value)) << name;
+    }
+    EXPECT_EQ(cadtest::fieldValue(piece, "InvalidCells"), 0);
+    if (GetParam().keepLayers) // else moves end at the first pyramid
+    {
+      EXPECT_EQ(cadtest::fieldValue(piece, "UnprojectedVertices"), 0);
+    }
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Problems, MixedPartition, testing::ValuesIn(cases()),
+  [](const auto& each) { return nameOf(each.param); });
+
+TEST_P(MixedPartition, givesTheSameMeshAsOneRank)
+{
+  const auto whole = wholeMesh();
+  const auto rankOfCell = cadtest::deal(GetParam().dealing, whole, exchange.size());
+  const auto piece = cadtest::pieceOf(whole, rankOfCell, exchange.rank(), GetParam().ghosts);
+  const Steps pieces = run(piece, worldController());
+  const Steps serial = exchange.rank() == 0 ? run(whole, nullptr) : Steps(pieces.size());
+  for (std::size_t step = 0; step < pieces.size(); ++step)
+  {
+    SCOPED_TRACE("after step " + std::to_string(step));
+    cadtest::expectSame(exchange, pieces[step], serial[step]);
+    if (step != 4)
+    {
+      expectSound(pieces[step]);
+    }
+  }
+  expectFieldValuesAgree(pieces.back());
+}
+
+} // namespace
+
+} // namespace cadrefine
