@@ -49,6 +49,24 @@ void forCornersOfCells(const SimplexMesh& mesh, const Midpoints& midpoints, cons
     });
 }
 
+/// What parts the corners of a cell have in the vertex in its middle: all the same, but that of a
+/// pyramid is higher over its base than their mean, as a base that is not plane rises; in one whose
+/// edges are equal it is as far from all sides.
+template<std::size_t Corners>
+constexpr std::array<double, Corners> partsInMiddle(const std::array<Index, Corners>&)
+{
+  if constexpr (Corners == shapes::Pyramid::corners)
+  {
+    return { 5.0 / 32, 5.0 / 32, 5.0 / 32, 5.0 / 32, 3.0 / 8 };
+  }
+  std::array<double, Corners> parts{};
+  for (double& part : parts)
+  {
+    part = 1.0 / static_cast<double>(Corners);
+  }
+  return parts;
+}
+
 void appendNewPoints(
   const SimplexMesh& mesh, const Midpoints& midpoints, std::vector<Point3>& points)
 {
@@ -61,12 +79,13 @@ void appendNewPoints(
   forCornersOfCells(mesh, midpoints,
     [&](const auto& corners)
     {
-      Point3 sum{};
-      for (const Index corner : corners)
+      const auto parts = partsInMiddle(corners);
+      Point3 middle{};
+      for (std::size_t k = 0; k < corners.size(); ++k)
       {
-        sum = sum + points[corner];
+        middle = middle + parts[k] * points[corners[k]];
       }
-      points.push_back((1.0 / static_cast<double>(corners.size())) * sum);
+      points.push_back(middle);
     });
 }
 
@@ -456,9 +475,10 @@ void splitOthers(const SimplexMesh& mesh, const EdgeTable& table, const QuadTabl
   forCornersOfCells(mesh, midpoints,
     [&](const auto& corners)
     {
-      for (const Index corner : corners)
+      const auto parts = partsInMiddle(corners);
+      for (std::size_t k = 0; k < corners.size(); ++k)
       {
-        result.ofVertices.add(corner, 1.0 / static_cast<double>(corners.size()));
+        result.ofVertices.add(corners[k], parts[k]);
       }
       result.ofVertices.endRow(vertex++);
     });

@@ -34,7 +34,7 @@ struct SplitMesh
 
 /// New vertices: at the midpoints of the marked edges, then in quadrilaterals all of whose edges
 /// are marked, then in hexahedra all of whose edges are, then in the middle of the corners of cells
-/// that are cut round one (see CellCutting).
+/// that are cut round one (see CellCutting); that of a pyramid is 3/8 of the way to its apex.
 struct Midpoints
 {
   Index firstVertex = 0;

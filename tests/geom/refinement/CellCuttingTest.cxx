@@ -304,6 +304,20 @@ TYPED_TEST(CellCuttingOf, partsFillTheCellWhateverEdgesAreMarked)
   }
 }
 
+/// Its tangent planes rise over the mean of the corners.
+TEST(CellCutting, aPyramidOnAWarpedBaseIsCutIntoValidCells)
+{
+  SimplexMesh mesh;
+  mesh.points = { { 0, 0, 0.3 }, { 1, 0, -0.3 }, { 1, 1, 0.3 }, { 0, 1, -0.3 }, { 0.5, 0.5, 1 } };
+  mesh.ids = { 0, 1, 2, 3, 4 };
+  mesh.pyramids = { { 0, 1, 2, 3, 4 } };
+  ASSERT_TRUE(cadtest::isValid(mesh));
+  Cut cut(mesh, EdgeMarks(8, 1));
+  const SplitMesh split = cut.split(mesh);
+  EXPECT_TRUE(cadtest::isValid(split.mesh));
+  EXPECT_NEAR(cadtest::measureOf(split.mesh), cadtest::measureOf(mesh), 1e-15);
+}
+
 /// Two cells that share a side, corner k of the one's at corner (turn - k) of the other's; points
 /// and ids are at random, since neither validity nor size counts here.
 template<class First, class Second>
