@@ -1,6 +1,8 @@
 #include "RandomProblem.h"
 
 #include "DataSets.h"
+#include "MeshChecks.h"
+#include "MixedMeshes.h"
 #include "TestMeshes.h"
 #include "TestShapes.h"
 
@@ -33,7 +35,7 @@ void shake(Random& random, SimplexMesh& mesh, double length, int dimension)
   }
 }
 
-/// The triangles round the tetrahedra, with their vertices only.
+/// The sides round the cells, with their vertices only.
 SimplexMesh boundaryOf(const SimplexMesh& mesh)
 {
   SimplexMesh surface;
@@ -41,19 +43,20 @@ SimplexMesh boundaryOf(const SimplexMesh& mesh)
   std::vector<Index> numbers(mesh.points.size(), -1);
   for (const Facet& facet : findOuterFacets(mesh))
   {
-    auto& triangle = surface.triangles.emplace_back();
-    std::copy(facet.begin(), facet.end(), triangle.begin());
-    for (Index& v : triangle)
+    std::array<Index, 4> corners = facet.vertices;
+    for (int k = 0; k < facet.corners(); ++k)
     {
-      Index& number = numbers[v];
+      Index& number = numbers[corners[k]];
       if (number < 0)
       {
         number = static_cast<Index>(surface.points.size());
-        surface.points.push_back(mesh.points[v]);
+        surface.points.push_back(mesh.points[corners[k]]);
         surface.ids.push_back(number);
       }
-      v = number;
+      corners[k] = number;
     }
+    facet.corners() == 3 ? surface.triangles.push_back({ corners[0], corners[1], corners[2] })
+                         : surface.quadrilaterals.push_back(corners);
   }
   return surface;
 }
@@ -93,6 +96,96 @@ FilterProblem::FilterProblem(Random& random)
   }
 }
 
+namespace
+{
+
+SimplexMesh anyMix(Random& random, const SimplexMesh& boxes)
+{
+  return random.chance(0.2) ? boxes : cadtest::randomlyMixedMesh(boxes, random.seed());
+}
+
+std::vector<double> anyHeights(Random& random)
+{
+  std::vector<double> heights{ std::pow(10.0, random.between(-2, -1)) };
+  while (heights.back() < 0.4)
+  {
+    heights.push_back(heights.back() * random.between(1.3, 2.5));
+  }
+  return heights;
+}
+
+/// Layers of one kind, or of any, round the unit sphere.
+SimplexMesh anyLayers(Random& random)
+{
+  using cadtest::BoxKind;
+  const int n = random.among(1, 2) + 1;
+  const auto heights = anyHeights(random);
+  const SimplexMesh boxes = cadtest::hexahedralShellMesh(1, random.between(0, 0.02), n, heights);
+  const auto kind = static_cast<BoxKind>(random.among(0, 1));
+  const std::size_t layers = heights.size() * 6 * n * n;
+  const double others = random.chance(0.5) ? 0 : 0.2;
+  const SimplexMesh mesh = cadtest::mixedMesh(
+    boxes,
+    [&](std::size_t c)
+    {
+      return c >= layers             ? BoxKind::Fan
+             : random.chance(others) ? static_cast<BoxKind>(random.among(0, 4))
+                                     : kind;
+    },
+    random.seed());
+  // A fan in a thin layer that is curved may be inverted.
+  return cadtest::isValid(mesh) ? mesh : boxes;
+}
+
+} // namespace
+
+FilterProblem FilterProblem::mixed(Random& random)
+{
+  FilterProblem problem;
+  SimplexMesh& mesh = problem.mesh;
+  const int kind = random.among(0, 5);
+  if (kind <= 2) // cube, its surface
+  {
+    const int n = random.among(2, 3);
+    mesh = anyMix(random, cadtest::hexahedraMesh(n, 0.06, random.seed()));
+    shake(random, mesh, 0.01 / n, 3);
+    problem.shape = nearUnitCube(random, random.between(0.01, 0.08));
+    problem.isSurface = kind == 2;
+    mesh = problem.isSurface ? boundaryOf(mesh) : mesh;
+  }
+  else if (kind == 3)
+  {
+    mesh = anyMix(random,
+      cadtest::hexahedralBallMesh(1, random.between(0, 0.02), random.among(1, 2), { 0.5, 1 }));
+    shake(random, mesh, 0.01, 3);
+    problem.shape = cadtest::sphere(1);
+  }
+  else if (kind == 4)
+  {
+    mesh = anyLayers(random);
+    problem.shape = cadtest::sphere(1);
+  }
+  else
+  {
+    mesh = cadtest::quadrilateralRingMesh(
+      1, random.between(0, 0.01), random.among(9, 16), anyHeights(random));
+    problem.shape = nearUnitCircle(random, random.between(0, 0.05));
+  }
+  problem.isBoundaryListed = !problem.isSurface && random.chance(0.7);
+  if (problem.isBoundaryListed)
+  {
+    mesh = cadtest::withListedBoundary(mesh);
+  }
+  if (random.chance(0.3))
+  {
+    for (auto& w : mesh.wedges)
+    {
+      w = { w[3], w[4], w[5], w[0], w[1], w[2] };
+    }
+  }
+  return problem;
+}
+
 vtkSmartPointer<vtkPointSet> FilterProblem::dataSet() const
 {
   vtkSmartPointer<vtkPointSet> result;
@@ -126,6 +219,13 @@ Plan::Plan(Random& random, const FilterProblem& problem)
   minimumQuality = random.chance(0.5) ? 0.1 : random.between(0.2, 0.5);
   coarseningLevels = straight || random.chance(0.5) ? 0 : random.among(1, 2);
   coarseningError = random.chance(0.3) ? 0 : random.between(0.3, 1.2);
+  if (problem.mesh.hasOtherThanSimplices())
+  {
+    keepLayers = random.chance(0.6);
+    levels = random.among(1, 2);
+    isQuadratic = false; // of simplices alone, as coarsening is
+    coarseningLevels = 0;
+  }
 }
 
 void Plan::markByErrorAndSize(vtkRefineWithCAD* filter, double size) const
@@ -142,6 +242,7 @@ void Plan::markByErrorAndSize(vtkRefineWithCAD* filter, double size) const
   filter->SetBalance(balance);
   filter->SetMinimumQuality(minimumQuality);
   filter->SetOperations(operations);
+  filter->SetKeepLayers(keepLayers);
 }
 
 Plan::Steps Plan::run(const cadtest::FilterRun& filters, vtkPointSet* mesh, double size) const

@@ -18,13 +18,20 @@ namespace propertytest
 struct FilterProblem
 {
   explicit FilterProblem(Random& random);
+  /// Of hexahedra, wedges, pyramids and quadrilaterals, among simplices or not; often with listed
+  /// boundary. Wedges may be in the order of VTK's documentation.
+  static FilterProblem mixed(Random& random);
 
   cadrefine::SimplexMesh mesh;
   TopoDS_Shape shape;
-  bool isSurface = false; ///< Triangles in space.
+  bool isSurface = false; ///< Cells of area in space.
+  bool isBoundaryListed = false;
 
   /// A data set with arrays.
   vtkSmartPointer<vtkPointSet> dataSet() const;
+
+private:
+  FilterProblem() = default;
 };
 
 /// Which filters run, and with which settings. Lengths are relative to a problem of size 1.
@@ -46,6 +53,7 @@ struct Plan
   bool straight = false;
   bool uniformAfterwards = false;
   bool isQuadratic = false;
+  bool keepLayers = true;
   int coarseningLevels = 0;   ///< After refinement.
   double coarseningError = 0; ///< Of the error before that, the part that coarsening may leave.
   int dimension = 3;
