@@ -22,6 +22,20 @@ std::vector<unsigned char> movingVertices(const Moves& moves)
   return flags;
 }
 
+/// As stateAt; a quadrilateral, whose corners may turn out of a plane, is also seen from its own
+/// side, as its validity is told.
+template<class Shape>
+CellState stateFrom(Shape shape, const std::array<Point3, Shape::corners>& p, const Vector3& side)
+{
+  CellState state = stateAt(shape, p, side);
+  if constexpr (Shape::dimension == 2 && Shape::corners == 4)
+  {
+    const CellState own = stateAt(shape, p, sideOf(shape, p, {}));
+    state = { state.valid && own.valid, std::min(state.quality, own.quality) };
+  }
+  return state;
+}
+
 } // namespace
 
 Moves::Moves(const SimplexMesh& mesh)
@@ -153,10 +167,10 @@ std::vector<MoveGuard::GuardedCell> MoveGuard::guard(Shape shape, std::vector<In
     const auto& cell = cells[number];
     const auto before = cornersOf(cell, reference);
     guarded.side = sideOf(shape, before, plane);
-    guarded.before = stateAt(shape, before, guarded.side);
+    guarded.before = stateFrom(shape, before, guarded.side);
     if (!guarded.before.valid) // once mended, it stays so
     {
-      guarded.before = stateAt(shape, cornersOf(cell, mesh_.points), guarded.side);
+      guarded.before = stateFrom(shape, cornersOf(cell, mesh_.points), guarded.side);
     }
     const double quality = guarded.before.quality;
     const double half = std::clamp(0.5 * quality, lowestQuality, qualityFloor);
@@ -174,7 +188,7 @@ bool MoveGuard::accepts(Shape shape, const GuardedCell& guarded, const Moves& mo
   std::array<Point3, Shape::corners> points;
   std::transform(cell.begin(), cell.end(), points.begin(),
     [&](Index vertex) { return moves.position(mesh_, vertex); });
-  const CellState after = stateAt(shape, points, guarded.side);
+  const CellState after = stateFrom(shape, points, guarded.side);
   return after.valid >= guarded.before.valid && after.quality >= guarded.leastQuality;
 }
 
@@ -230,7 +244,7 @@ std::vector<Index> MoveGuard::verticesOfSpoiltCells(double part) const
     [&](auto shape, const GuardedCell& guarded)
     {
       const auto& cell = (mesh_.*decltype(shape)::cells)[guarded.cell];
-      const CellState now = stateAt(shape, cornersOf(cell, mesh_.points), guarded.side);
+      const CellState now = stateFrom(shape, cornersOf(cell, mesh_.points), guarded.side);
       return guarded.before.valid && now.quality < part * guarded.before.quality;
     });
 }

@@ -1,14 +1,18 @@
 // Moves that must not spoil a cell: it may collapse, invert, or have been poor from the start.
 
+#include "MeshChecks.h"
 #include "TestMeshes.h"
 
+#include <cadrefine/mesh/CellJacobian.h>
 #include <cadrefine/mesh/Orientation.h>
 #include <cadrefine/mesh/Quality.h>
 #include <cadrefine/motion/MoveGuard.h>
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <random>
 
 namespace
 {
@@ -267,6 +271,34 @@ TEST(MoveGuard, leavesCellsAloneThatDoNotMove)
   std::swap(mesh.tetrahedra[0][0], mesh.tetrahedra[0][1]); // inverted from the start
   Moves moves(mesh);
   EXPECT_EQ(settle(mesh, moves), 0);
+}
+
+/// In space, as seen from where it was and from its own side.
+TEST(QuadrilateralInSpace, staysValidAsSeenFromItsOwnSide)
+{
+  SimplexMesh mesh;
+  mesh.dimension = 2;
+  mesh.points = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 } };
+  mesh.ids = { 0, 1, 2, 3 };
+  mesh.quadrilaterals = { { 0, 1, 2, 3 } };
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> any(-3, 3);
+  int halved = 0;
+  for (int round = 0; round < 300; ++round)
+  {
+    Moves moves(mesh);
+    const Index vertex = round % 4;
+    moves.add(vertex, mesh.points[vertex] + Vector3{ any(random), any(random), any(random) });
+    halved += settle(mesh, moves) > 0;
+    SimplexMesh moved = mesh;
+    moved.points[vertex] = moves.position(mesh, vertex);
+    EXPECT_TRUE(cadtest::isValid(moved));
+    std::array<Point3, 4> p;
+    std::copy(moved.points.begin(), moved.points.end(), p.begin());
+    EXPECT_TRUE(isValidQuadrilateral(p, { 0, 0, 1 }));
+  }
+  EXPECT_GT(halved, 100);
+  EXPECT_LT(halved, 300);
 }
 
 } // namespace
