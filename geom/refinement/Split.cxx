@@ -440,6 +440,22 @@ void clearCells(SimplexMesh& mesh)
   visitShapes(mesh, [](auto, auto& cells) { cells.clear(); });
 }
 
+/// Whether the cell of volume of this number is valid.
+bool isValid(const SimplexMesh& mesh, Index cell)
+{
+  bool valid = false;
+  std::size_t first = 0;
+  visitOwnShapes(mesh,
+    [&](auto shape, const auto& cells)
+    {
+      const std::size_t place = static_cast<std::size_t>(cell) - first; // huge where it is below
+      valid = valid || (place < cells.size() &&
+                         stateAt(shape, cornersOf(cells[place], mesh.points), {}).valid);
+      first += cells.size();
+    });
+  return valid;
+}
+
 /// Appends how many children cells that are not simplices have.
 void countOthers(const SimplexMesh& mesh, const EdgeTable& table, const QuadTable& quads,
   const EdgeMarks& marks, ChildRanges& firsts)
@@ -661,7 +677,7 @@ std::vector<Index> cellsCutBadly(
     [&](Index cell)
     {
       const bool isCut = children.cellCount(3) > 1;
-      if (isCut && !areValid(children, points))
+      if (isCut && !areValid(children, points) && isValid(mesh, cell))
       {
         bad.push_back(cell);
       }
@@ -688,9 +704,10 @@ std::vector<Index> pyramidsCutBadly(
     splitPyramidUniformly(mesh.pyramids[c], midpointsOf(table.ofPyramids[c], midpoints.ofEdge),
       midpointsOf(quads.ofPyramids[c], midpoints.ofQuad)[0], children.pyramids,
       children.tetrahedra);
-    if (!areValid(children, points))
+    const auto cell = static_cast<Index>(mesh.tetrahedra.size() + c);
+    if (!areValid(children, points) && isValid(mesh, cell))
     {
-      bad.push_back(static_cast<Index>(mesh.tetrahedra.size() + c));
+      bad.push_back(cell);
     }
     clearCells(children);
   }

@@ -74,7 +74,7 @@ ChildRanges countUniformChildren(const SimplexMesh& mesh);
 SplitMesh splitMarked(const SimplexMesh& mesh, const EdgeTable& table, const QuadTable& quads,
   const EdgeMarks& marks, const Midpoints& midpoints, const std::vector<GlobalId>& ids);
 
-/// The cells that are not simplices of which splitMarked makes cells that are not valid, in their
+/// The valid cells that are not simplices of which splitMarked makes some that are not, in their
 /// numbers among those of the mesh's own dimension. (Of most it makes parts cut straight; but not
 /// where a vertex in the middle does not see all sides, or a quadrilateral is cut in triangles.)
 std::vector<Index> cellsCutBadly(
