@@ -153,10 +153,10 @@ TEST_F(BadCells, listsOfCellsThatContradictThemselves)
 
 TEST_F(BadCells, otherTypesOfCells)
 {
-  expectErrors(allFilters(),
-    withCell(VTK_QUADRATIC_QUAD, { 0, 1, 2, 3, 4, 5, 6, 7 }), "quadraticquad (cell 20)");
-  expectErrors(allFilters(),
-    withCell(VTK_PENTAGONAL_PRISM, { 0, 1, 2, 3, 4, 5, 6, 7, 8, 9 }), "pentagonalprism (cell 20)");
+  expectErrors(allFilters(), withCell(VTK_BIQUADRATIC_QUAD, { 0, 1, 2, 3, 4, 5, 6, 7, 8 }),
+    "biquadraticquad (cell 20)");
+  expectErrors(allFilters(), withCell(VTK_PENTAGONAL_PRISM, { 0, 1, 2, 3, 4, 5, 6, 7, 8, 9 }),
+    "pentagonalprism (cell 20)");
   expectErrors(allFilters(), withCell(VTK_POLY_LINE, { 0, 1, 2 }), "polyline (cell 20)");
   expectErrors(allFilters(), withCell(VTK_LAGRANGE_TRIANGLE, { 0, 1, 2, 3, 4, 5 }),
     "lagrangetriangle (cell 20)");
