@@ -89,10 +89,25 @@ void readCell(vtkIdList* points, Simplices<Corners>& cells)
   }
 }
 
+/// Of which each last two of four corners are the other way round.
+template<std::size_t Corners>
+void readRows(vtkIdList* points, Simplices<Corners>& cells)
+{
+  readCell(points, cells);
+  for (std::size_t k = 2; k < Corners; k += 4)
+  {
+    std::swap(cells.back()[k], cells.back()[k + 1]);
+  }
+}
+
 void readCell(int type, vtkIdList* points, SimplexMesh& mesh)
 {
   switch (type)
   {
+    case VTK_VOXEL:
+      return readRows(points, mesh.hexahedra);
+    case VTK_PIXEL:
+      return readRows(points, mesh.quadrilaterals);
     case VTK_HEXAHEDRON:
     case VTK_QUADRATIC_HEXAHEDRON:
     case VTK_TRIQUADRATIC_HEXAHEDRON:

@@ -1,0 +1,215 @@
+// Boundary layers move along with their wall: the heights of the first cells, on any number of
+// ranks.
+
+#include "DataSets.h"
+#include "FilterRun.h"
+#include "MeshChecks.h"
+#include "MixedMeshes.h"
+#include "ParallelTest.h"
+#include "Partition.h"
+#include "TestShapes.h"
+
+#include <vtkUnstructuredGrid.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <ostream>
+
+namespace cadrefine
+{
+
+namespace
+{
+
+using cadtest::BoxKind;
+
+/// Layers round a wall near a sphere or circle of radius 2.
+struct LayerCase
+{
+  std::string name;
+  int dimension;
+  BoxKind kind;
+  double first;  ///< Height.
+  double growth; ///< From layer to layer.
+  int layers;
+  double offset; ///< Of the wall from the CAD, in radii.
+  int parts;     ///< Of a side of the cube, or of the circle.
+};
+
+void PrintTo(const LayerCase& tried, std::ostream* out)
+{
+  *out << tried.name;
+}
+
+std::vector<double> heightsOf(const LayerCase& tried)
+{
+  std::vector<double> heights;
+  double height = 0;
+  for (int layer = 0; layer < tried.layers; ++layer)
+  {
+    height += tried.first * std::pow(tried.growth, layer);
+    heights.push_back(height);
+  }
+  return heights;
+}
+
+SimplexMesh meshOf(const LayerCase& tried)
+{
+  const auto heights = heightsOf(tried);
+  if (tried.dimension == 2)
+  {
+    return cadtest::withListedBoundary(
+      cadtest::quadrilateralRingMesh(2, tried.offset, tried.parts, heights));
+  }
+  const SimplexMesh boxes = cadtest::hexahedralShellMesh(2, tried.offset, tried.parts, heights);
+  const std::size_t inLayers = heights.size() * 6 * tried.parts * tried.parts;
+  return cadtest::withListedBoundary(cadtest::mixedMesh(
+    boxes, [&](std::size_t c) { return c < inLayers ? tried.kind : BoxKind::Fan; }, 1));
+}
+
+// The wall moves by 4 to 40 first heights; refined, by the bulge of the CAD over its facets.
+const std::vector<LayerCase> cases{
+  { "Wedges", 3, BoxKind::Wedges, 0.01, 1.7, 9, 0.02, 3 },
+  { "Hexahedra", 3, BoxKind::Hexahedron, 0.01, 1.7, 9, 0.02, 3 },
+  { "ThinHexahedra", 3, BoxKind::Hexahedron, 0.001, 1.7, 14, 0.02, 3 },
+  { "ThinWedges", 3, BoxKind::Wedges, 0.001, 1.7, 14, 0.02, 3 },
+  { "Quadrilaterals", 2, BoxKind::Hexahedron, 0.001, 1.5, 14, 0.02, 16 },
+};
+
+// Thinner in all than the bulge of the CAD over a facet.
+const std::vector<LayerCase> shallowCases{
+  { "Shallow", 3, BoxKind::Wedges, 0.02, 2, 3, 0.02, 2 },
+  { "ShallowHexahedra", 3, BoxKind::Hexahedron, 0.02, 2, 3, 0.02, 2 },
+  { "ShallowQuadrilaterals", 2, BoxKind::Hexahedron, 0.002, 1.5, 6, 0.02, 12 },
+};
+
+class Layers
+  : public ParallelTest
+  , public testing::WithParamInterface<LayerCase>
+{
+protected:
+  cadtest::TemporaryFolder folder;
+  cadtest::FilterRun filters{ cadtest::writeInto(folder,
+                                GetParam().dimension == 2 ? cadtest::circle(2) : cadtest::sphere(2),
+                                ".brep"),
+    worldController() };
+
+  vtkSmartPointer<vtkPointSet> piece() const
+  {
+    const auto whole = cadtest::toGrid(meshOf(GetParam()));
+    const auto rankOfCell = cadtest::deal(cadtest::Dealing::Random, whole, exchange.size());
+    return cadtest::pieceOf(whole, rankOfCell, exchange.rank(), false);
+  }
+
+  /// Of each wall vertex (on the CAD) the height of the vertex that an edge of a cell of layers
+  /// joins it with, over the CAD: along its normal.
+  static std::vector<double> firstHeights(const SimplexMesh& mesh)
+  {
+    const auto isOnWall = [&](Index v) { return std::abs(norm(mesh.points[v]) - 2) < 1e-9; };
+    std::map<Index, double> heights;
+    const auto take = [&](Index low, Index high)
+    {
+      if (isOnWall(high))
+      {
+        std::swap(low, high);
+      }
+      if (isOnWall(low) && !isOnWall(high))
+      {
+        const double height = norm(mesh.points[high]) - 2;
+        const auto [entry, isNew] = heights.emplace(low, height);
+        EXPECT_TRUE(isNew || entry->second == height) << "two columns on a vertex";
+      }
+    };
+    visitOwnShapes(mesh,
+      [&](auto shape, const auto& cells)
+      {
+        using Shape = decltype(shape);
+        if constexpr (!isSimplex(Shape{}) && Shape::corners != 5)
+        {
+          for (const auto& cell : cells)
+          {
+            for (const auto& [a, b] : Shape::edges)
+            {
+              take(cell[a], cell[b]);
+            }
+          }
+        }
+      });
+    std::vector<double> all;
+    for (const auto& [vertex, height] : heights)
+    {
+      all.push_back(height);
+    }
+    return all;
+  }
+
+  /// Of the whole mesh, on rank 0. Collective.
+  SimplexMesh expectSound(vtkPointSet* piece)
+  {
+    SimplexMesh mesh = cadtest::toMesh(cadtest::gather(exchange, piece));
+    EXPECT_EQ(cadtest::fieldValue(piece, "InvalidCells"), 0);
+    if (exchange.rank() == 0)
+    {
+      EXPECT_TRUE(cadtest::isValid(mesh));
+      EXPECT_TRUE(cadtest::isBoundedByListedCells(mesh));
+    }
+    return mesh;
+  }
+
+  void expectKept(vtkPointSet* piece, std::size_t wallVertices, const std::string& what)
+  {
+    SCOPED_TRACE(what);
+    const SimplexMesh mesh = expectSound(piece);
+    EXPECT_EQ(cadtest::fieldValue(piece, "UnprojectedVertices"), 0);
+    if (exchange.rank() > 0)
+    {
+      return;
+    }
+    const auto heights = firstHeights(mesh);
+    EXPECT_EQ(heights.size(), wallVertices);
+    ASSERT_FALSE(heights.empty());
+    const auto [least, most] = std::minmax_element(heights.begin(), heights.end());
+    EXPECT_GE(*least, 0.99 * height);
+    EXPECT_LE(*most, 1.01 * height);
+  }
+
+  double height = GetParam().first;
+};
+
+INSTANTIATE_TEST_SUITE_P(
+  Cases, Layers, testing::ValuesIn(cases), [](const auto& each) { return each.param.name; });
+
+TEST_P(Layers, keepTheirFirstHeights)
+{
+  const int n = GetParam().parts;
+  const auto mesh = filters.project(piece());
+  expectKept(mesh, GetParam().dimension == 2 ? n : 6 * n * n + 2, "projected");
+  // Along the wall alone.
+  const auto refined = filters.run<vtkRefineWithCAD>(mesh, [](vtkRefineWithCAD*) {});
+  expectKept(refined, static_cast<std::size_t>(cadtest::fieldValue(refined, "CADVertices")),
+    "refined along the wall");
+  // Uniformly, through the layers too.
+  height *= 0.5;
+  const auto halved = filters.refineUniformly(mesh);
+  expectKept(halved, GetParam().dimension == 2 ? 2 * n : 24 * n * n + 2, "refined uniformly");
+}
+
+class ShallowLayers : public Layers
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(Cases, ShallowLayers, testing::ValuesIn(shallowCases),
+  [](const auto& each) { return each.param.name; });
+
+TEST_P(ShallowLayers, staySound)
+{
+  const auto mesh = filters.project(piece());
+  expectSound(mesh);
+  expectSound(filters.run<vtkRefineWithCAD>(mesh, [](vtkRefineWithCAD*) {}));
+  expectSound(filters.refineUniformly(mesh, 2));
+}
+
+} // namespace
+
+} // namespace cadrefine
