@@ -2,6 +2,9 @@
 
 #include "TestMeshes.h"
 
+#include <cadrefine/mesh/CellJacobian.h>
+#include <cadrefine/mesh/CellState.h>
+
 #include <vtkAbstractArray.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -137,6 +140,24 @@ void readCell(int type, vtkIdList* points, SimplexMesh& mesh)
   }
 }
 
+/// As a mesh has them, where most are as VTK's documentation draws them.
+void turnWedges(SimplexMesh& mesh)
+{
+  std::ptrdiff_t turned = 0;
+  for (const auto& wedge : mesh.wedges)
+  {
+    const double size = volume(cornersOf(wedge, mesh.points));
+    turned += (size < 0) - (size > 0);
+  }
+  if (turned > 0)
+  {
+    for (auto& w : mesh.wedges)
+    {
+      w = { w[3], w[4], w[5], w[0], w[1], w[2] };
+    }
+  }
+}
+
 template<class Array>
 vtkNew<Array> named(const char* name, int components = 1)
 {
@@ -237,6 +258,7 @@ SimplexMesh toMesh(vtkPointSet* dataSet)
     readCell(dataSet->GetCellType(c), points, mesh);
   }
   mesh.dimension = mesh.cellCount(3) == 0 ? 2 : 3;
+  turnWedges(mesh);
   return mesh;
 }
 

@@ -24,7 +24,7 @@ vtkSmartPointer<vtkUnstructuredGrid> toGrid(const cadrefine::SimplexMesh& mesh);
 /// The triangles and quadrilaterals of the mesh. No arrays.
 vtkSmartPointer<vtkPolyData> toPolyData(const cadrefine::SimplexMesh& mesh);
 /// Points and cells of a data set (of cells of second order the corners); the points' numbers are
-/// the ids.
+/// the ids. Wedges are turned if most of them are as VTK's documentation draws them.
 cadrefine::SimplexMesh toMesh(vtkPointSet* dataSet);
 
 /// Reads a .vtu file; throws where it cannot be read or is empty.

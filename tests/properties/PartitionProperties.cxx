@@ -140,7 +140,7 @@ TEST_F(PartitionProperty, meshesOfAllShapesAreTheSame)
 {
   int refused = 0;
   int rounds = 0;
-  forEachSeed(5,
+  forEachSeed(3,
     [&](Random& random)
     {
       const FilterProblem problem = FilterProblem::mixed(random);
