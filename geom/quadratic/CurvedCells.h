@@ -63,7 +63,8 @@ BezierForm<6> jacobianOf(const CurvedTriangle& nodes, const Vector3& side);
 /// degree 3 in each parameter of the square (16 coefficients), 5 of the cube (216), and 4 over the
 /// triangle and 5 along the prism (90). It is with respect to parameters from 0 to 1: the mean of
 /// the coefficients is the volume of the hexahedron and the area of the quadrilateral, twice the
-/// volume of the wedge. About 0.1, 5 and 2 microseconds.
+/// volume of the wedge. As long as that of a tetrahedron, of the wedge three times, of the hexahedron
+/// ten times.
 ///
 /// Rounding: with S the largest 1-norm of a node less the first one, a Bezier point errs by less
 /// than 150 u S, a derivative's coefficient by 420 u S; M being the largest 1-norm of those in one
@@ -79,7 +80,7 @@ BezierForm<216> jacobianOf(const CurvedHexahedron& nodes);
 /// the coefficients of the halves by de Casteljau's algorithm, which converge to the polynomial at
 /// second order: a valid cell is not refused because its bounds are loose. A cell is refused if it
 /// takes more than 256 pieces to tell. About 0.2 microseconds without a halving, and
-/// 0.1 for each; a hexahedron up to ten times that.
+/// 0.1 for each; of a hexahedron ten times that.
 ///
 /// A cell all of whose mid nodes are the middles of its edges, to the last bit, is straight: it is
 /// valid by its corners (see CellJacobian.h), of a simplex by its exact orientation. Others whose

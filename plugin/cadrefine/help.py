@@ -49,8 +49,7 @@ lower dimension carry tags):
   CASE/NAME.foam, CASE      OpenFOAM, with patches and zones; no other polyhedra
   Tags of gmsh are the cell arrays gmsh:physical and gmsh:geometrical, those of Medit medit:ref, of
   Exodus ObjectId. Names of groups are field data of the mesh, and are written with the groups.
-  Quadratic cells are taken by their corners; meshes of triangles or tetrahedra are made quadratic
-  again at the end.
+  Quadratic cells are taken by their corners, and made quadratic again at the end.
   Of a time series the first time step is read.
 
 formats of --output, all but .vtu and .pvtu with groups and their names:
