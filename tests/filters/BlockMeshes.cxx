@@ -250,16 +250,26 @@ Grid cylinderOfWedges(double radius, double height, int corners, int layers, boo
 
 Grid discOfQuadrilaterals(double radius)
 {
-  const double outer = radius * std::sqrt(0.5);
-  const double inner = outer / 2;
-  Grid grid = makeGrid(
-    { { -inner, -inner, 0 }, { inner, -inner, 0 }, { inner, inner, 0 }, { -inner, inner, 0 },
-      { -outer, -outer, 0 }, { outer, -outer, 0 }, { outer, outer, 0 }, { -outer, outer, 0 } });
-  add(grid, VTK_QUAD, { 0, 1, 2, 3 });
-  for (vtkIdType k = 0; k < 4; ++k)
+  // Round the middle: eight points of a square, and eight on the circle.
+  std::vector<Point3> points{ { 0, 0, 0 } };
+  for (const bool onCircle : { false, true })
   {
-    const vtkIdType next = (k + 1) % 4;
-    add(grid, VTK_QUAD, { next, k, k + 4, next + 4 });
+    for (int k = 0; k < 8; ++k)
+    {
+      const double angle = std::acos(-1.0) * (k - 3) / 4; // from a corner of the square
+      const double length = onCircle ? 1 : k % 2 == 0 ? 0.5 : 0.4;
+      points.push_back({ length * radius * std::cos(angle), length * radius * std::sin(angle), 0 });
+    }
+  }
+  Grid grid = makeGrid(points);
+  for (vtkIdType k = 0; k < 8; ++k)
+  {
+    const vtkIdType next = (k + 1) % 8;
+    add(grid, VTK_QUAD, { 1 + next, 1 + k, 9 + k, 9 + next });
+    if (k % 2 == 0)
+    {
+      add(grid, VTK_QUAD, { 0, 1 + (k + 7) % 8, 1 + k, 1 + next });
+    }
   }
   return grid;
 }

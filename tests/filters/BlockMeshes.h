@@ -20,7 +20,7 @@ Grid cubeOfPyramids(double radius);
 /// Cylinder round the z axis from 0 to `height`: wedges between a polygon's centre and its sides,
 /// in `layers` layers. `documented`: turned as VTK's documentation draws them.
 Grid cylinderOfWedges(double radius, double height, int corners, int layers, bool documented);
-/// Disc in the plane z = 0: a square and four quadrilaterals round it.
+/// Disc in the plane z = 0: a square of four quadrilaterals and eight round it.
 Grid discOfQuadrilaterals(double radius);
 /// The six outer sides of that ball.
 Grid sphereOfQuadrilaterals(double radius);

@@ -130,7 +130,7 @@ const Case cases[] = {
   { "DocumentedWedges", cylinder, [] { return cadtest::cylinderOfWedges(2, 3, 8, 2, true); },
     12 * pi, distanceToCylinder, { { VTK_QUADRATIC_WEDGE, 16 } }, true },
   { "Disc", circle, [] { return cadtest::discOfQuadrilaterals(2); }, 4 * pi, distanceToCircle,
-    { { VTK_QUADRATIC_QUAD, 5 } } },
+    { { VTK_QUADRATIC_QUAD, 12 } } },
 };
 
 class MixedQuadratic : public testing::TestWithParam<Case>
