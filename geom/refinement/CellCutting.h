@@ -11,14 +11,15 @@ namespace cadrefine
 
 /// Cuts hexahedra, wedges, pyramids and quadrilaterals at the midpoints of their marked edges, so
 /// that neighbours agree whatever edges are marked:
-///   - A triangle is bisected as the face of a tetrahedron is. A quadrilateral with all edges
-///     marked becomes four, with two opposite ones two; with one it becomes three triangles, with
-///     two adjacent ones four, with three a quadrilateral and three triangles.
-///   - A cell whose two opposite sides are cut alike, and of whose edges between them none is
-///     marked or all are, is cut along these: wedges and hexahedra stand on the parts of the side,
-///     in one layer or two.
+///   - A triangle is bisected as the face of a tetrahedron is. A quadrilateral becomes four where
+///     all of its edges are marked, two where two opposite ones are; with one marked edge it
+///     becomes three triangles, with two adjacent ones four, with three a quadrilateral and three
+///     triangles.
+///   - A cell whose two opposite sides are cut alike, and of whose edges between them all are
+///     marked or none, is cut along these: wedges and hexahedra stand on the parts of the side, in
+///     one layer or two.
 ///   - A pyramid with marked edges in its base alone becomes pyramids and tetrahedra on the parts
-///     of that.
+///     of the base.
 ///   - All others: pyramids and tetrahedra on the parts of their sides, with a new vertex in the
 ///     middle of their corners for the apex.
 class CellCutting

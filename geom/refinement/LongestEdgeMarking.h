@@ -39,10 +39,9 @@ using EdgeMarks = std::vector<unsigned char>;
 ///      longest edge;
 ///   2. each triangle of a wedge or pyramid that has a marked edge marks its longest edge.
 /// Where layers are kept, all cells over each other are cut alike, and along the wall alone:
-///   1. a marked wedge marks the longest edge of its triangles; a hexahedron or quadrilateral that
-///   is
-///      thin in one direction (its edges there are less than half as long as those in each other
-///      one, by the means of their squares) marks its edges in the others;
+///   1. a marked wedge marks the longest edge of its triangles; a thin hexahedron or quadrilateral
+///      (its edges in one direction are less than half as long as those in each other one, by the
+///      means of their squares) marks its edges in the others;
 ///   2. an edge of a wedge's triangle that is marked marks the one over it, an edge of a thin cell
 ///      the one over it.
 /// These are monotone too.
