@@ -380,7 +380,7 @@ public:
       {
         for (std::size_t& count = counts_[shape]; count < cells.size(); ++count)
         {
-          taken_.push_back({ shape, count });
+          taken_.emplace_back(shape, count);
         }
         ++shape;
       });
