@@ -86,7 +86,7 @@ protected:
     const cadtest::TemporaryFolder folder;
     const std::string cadFile = cadtest::writeInto(folder, problem.shape, ".brep");
     const auto piece = cadtest::pieceOf(whole, rankOfCell, exchange.rank(), ghosts);
-    const Plan::Steps pieces = plan.run(cadtest::FilterRun(cadFile, worldController()), piece, 1);
+    Plan::Steps pieces = plan.run(cadtest::FilterRun(cadFile, worldController()), piece, 1);
     const Plan::Steps serial = runAlone(plan, cadFile, whole, pieces.size());
     for (std::size_t step = 0; step < serial.size(); ++step)
     {

@@ -292,6 +292,7 @@ std::vector<double> onTriangle(double u, double v)
     values[tuple] += product;
   }
   std::vector<double> result;
+  result.reserve(values.size());
   for (const auto& [tuple, value] : values)
   {
     result.push_back(value);

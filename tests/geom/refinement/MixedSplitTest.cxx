@@ -89,11 +89,9 @@ CellsByPlace byPlace(const SimplexMesh& mesh)
     {
       for (const auto& cell : cells)
       {
-        std::vector<Point3> corners;
-        for (const Index v : cell)
-        {
-          corners.push_back(mesh.points[v]);
-        }
+        std::vector<Point3> corners(cell.size());
+        std::transform(
+          cell.begin(), cell.end(), corners.begin(), [&](Index v) { return mesh.points[v]; });
         std::sort(corners.begin(), corners.end());
         all.insert(corners);
       }
