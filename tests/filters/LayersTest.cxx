@@ -12,6 +12,7 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <ostream>
@@ -102,12 +103,13 @@ protected:
     return cadtest::pieceOf(whole, rankOfCell, exchange.rank(), false);
   }
 
-  /// Of each wall vertex (on the CAD) the height of the vertex that an edge of a cell of layers
-  /// joins it with, over the CAD: along its normal.
-  static std::vector<double> firstHeights(const SimplexMesh& mesh)
+  using Edge = std::array<GlobalId, 2>; ///< From the wall up.
+
+  /// The first edges of the columns over the wall: those of cells of layers that leave the CAD.
+  static std::map<GlobalId, Edge> firstEdges(const SimplexMesh& mesh)
   {
     const auto isOnWall = [&](Index v) { return std::abs(norm(mesh.points[v]) - 2) < 1e-9; };
-    std::map<Index, double> heights;
+    std::map<GlobalId, Edge> edges;
     const auto take = [&](Index low, Index high)
     {
       if (isOnWall(high))
@@ -116,9 +118,8 @@ protected:
       }
       if (isOnWall(low) && !isOnWall(high))
       {
-        const double height = norm(mesh.points[high]) - 2;
-        const auto [entry, isNew] = heights.emplace(low, height);
-        EXPECT_TRUE(isNew || entry->second == height) << "two columns on a vertex";
+        const Edge edge{ mesh.ids[low], mesh.ids[high] };
+        EXPECT_EQ(edges.emplace(edge[0], edge).first->second, edge) << "two columns on a vertex";
       }
     };
     visitOwnShapes(mesh,
@@ -136,12 +137,15 @@ protected:
           }
         }
       });
-    std::vector<double> all;
-    for (const auto& [vertex, height] : heights)
-    {
-      all.push_back(height);
-    }
-    return all;
+    return edges;
+  }
+
+  /// Along the normal of the wall, which points from the middle outwards.
+  static double heightOf(const SimplexMesh& mesh, const Edge& edge)
+  {
+    const auto at = [&](GlobalId id)
+    { return mesh.points[std::find(mesh.ids.begin(), mesh.ids.end(), id) - mesh.ids.begin()]; };
+    return dot(at(edge[1]) - at(edge[0]), normalized(at(edge[0])));
   }
 
   /// Of the whole mesh, on rank 0. Collective.
@@ -157,24 +161,24 @@ protected:
     return mesh;
   }
 
-  void expectKept(vtkPointSet* piece, std::size_t wallVertices, const std::string& what)
+  /// All of the wall is on the CAD, and its first cells are as high as the same ones of `straight`.
+  void expectKept(vtkPointSet* piece, vtkPointSet* straightPiece, std::size_t wallVertices)
   {
-    SCOPED_TRACE(what);
     const SimplexMesh mesh = expectSound(piece);
+    const SimplexMesh straight = cadtest::toMesh(cadtest::gather(exchange, straightPiece));
     EXPECT_EQ(cadtest::fieldValue(piece, "UnprojectedVertices"), 0);
     if (exchange.rank() > 0)
     {
       return;
     }
-    const auto heights = firstHeights(mesh);
-    EXPECT_EQ(heights.size(), wallVertices);
-    ASSERT_FALSE(heights.empty());
-    const auto [least, most] = std::minmax_element(heights.begin(), heights.end());
-    EXPECT_GE(*least, 0.99 * height);
-    EXPECT_LE(*most, 1.01 * height);
+    const auto edges = firstEdges(mesh);
+    EXPECT_EQ(edges.size(), wallVertices);
+    for (const auto& [vertex, edge] : edges)
+    {
+      const double before = heightOf(straight, edge);
+      EXPECT_NEAR(heightOf(mesh, edge), before, 0.01 * before) << "over vertex " << vertex;
+    }
   }
-
-  double height = GetParam().first;
 };
 
 INSTANTIATE_TEST_SUITE_P(
@@ -183,16 +187,27 @@ INSTANTIATE_TEST_SUITE_P(
 TEST_P(Layers, keepTheirFirstHeights)
 {
   const int n = GetParam().parts;
-  const auto mesh = filters.project(piece());
-  expectKept(mesh, GetParam().dimension == 2 ? n : 6 * n * n + 2, "projected");
-  // Along the wall alone.
-  const auto refined = filters.run<vtkRefineWithCAD>(mesh, [](vtkRefineWithCAD*) {});
-  expectKept(refined, static_cast<std::size_t>(cadtest::fieldValue(refined, "CADVertices")),
-    "refined along the wall");
-  // Uniformly, through the layers too.
-  height *= 0.5;
-  const auto halved = filters.refineUniformly(mesh);
-  expectKept(halved, GetParam().dimension == 2 ? 2 * n : 24 * n * n + 2, "refined uniformly");
+  const auto input = piece();
+  const auto mesh = filters.project(input);
+  {
+    SCOPED_TRACE("projected");
+    // With the ids that the filter gives.
+    const auto same = filters.refineStraight(input, 0);
+    expectKept(mesh, same, GetParam().dimension == 2 ? n : 6 * n * n + 2);
+  }
+  {
+    SCOPED_TRACE("refined along the wall");
+    const auto refined = filters.run<vtkRefineWithCAD>(mesh, [](vtkRefineWithCAD*) {});
+    const auto straight = filters.run<vtkRefineWithCAD>(
+      mesh, [](vtkRefineWithCAD* filter) { filter->ProjectNewVerticesOff(); });
+    expectKept(
+      refined, straight, static_cast<std::size_t>(cadtest::fieldValue(refined, "CADVertices")));
+  }
+  {
+    SCOPED_TRACE("refined uniformly"); // through the layers, too
+    expectKept(filters.refineUniformly(mesh), filters.refineStraight(mesh),
+      GetParam().dimension == 2 ? 2 * n : 24 * n * n + 2);
+  }
 }
 
 class ShallowLayers : public Layers

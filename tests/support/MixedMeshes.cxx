@@ -88,6 +88,23 @@ void forSquares(int n, const Use& use)
   }
 }
 
+/// As many shells of hexahedra round a grid, at(level, place) being their vertices, the lowest
+/// first.
+template<class At>
+void addShells(SimplexMesh& mesh, int n, std::size_t shells, const At& at)
+{
+  for (std::size_t level = 0; level < shells; ++level)
+  {
+    forSquares(n,
+      [&](const std::array<GridPlace, 4>& s)
+      {
+        mesh.hexahedra.push_back(
+          { at(level, s[0]), at(level, s[1]), at(level, s[2]), at(level, s[3]), at(level + 1, s[0]),
+            at(level + 1, s[1]), at(level + 1, s[2]), at(level + 1, s[3]) });
+      });
+  }
+}
+
 /// A place on the grid's sides as one round the origin, in the cube from -1 to 1.
 Vector3 fromMiddle(const GridPlace& place, int n)
 {
@@ -411,16 +428,7 @@ SimplexMesh hexahedralBallMesh(
                                    part * r * normalized(mesh.points[below]);
                           });
   };
-  for (std::size_t level = 0; level < parts.size(); ++level)
-  {
-    forSquares(n,
-      [&](const std::array<GridPlace, 4>& s)
-      {
-        mesh.hexahedra.push_back(
-          { at(level, s[0]), at(level, s[1]), at(level, s[2]), at(level, s[3]), at(level + 1, s[0]),
-            at(level + 1, s[1]), at(level + 1, s[2]), at(level + 1, s[3]) });
-      });
-  }
+  addShells(mesh, n, parts.size(), at);
   std::mt19937_64 random(1);
   shuffleIds(mesh, random);
   return mesh;
@@ -443,16 +451,7 @@ SimplexMesh hexahedralShellMesh(
         return r * normalized(fromMiddle(place, n));
       });
   };
-  for (std::size_t level = 0; level <= heights.size(); ++level)
-  {
-    forSquares(n,
-      [&](const std::array<GridPlace, 4>& s)
-      {
-        mesh.hexahedra.push_back(
-          { at(level, s[0]), at(level, s[1]), at(level, s[2]), at(level, s[3]), at(level + 1, s[0]),
-            at(level + 1, s[1]), at(level + 1, s[2]), at(level + 1, s[3]) });
-      });
-  }
+  addShells(mesh, n, heights.size() + 1, at);
   std::mt19937_64 random(1);
   shuffleIds(mesh, random);
   return mesh;
