@@ -356,27 +356,34 @@ cadrefine::SimplexMesh toMesh(const CanonicalMesh& canonical)
     switch (numbers[0])
     {
       case VTK_HEXAHEDRON:
+      case VTK_QUADRATIC_HEXAHEDRON:
         add(mesh.hexahedra);
         break;
       case VTK_WEDGE:
+      case VTK_QUADRATIC_WEDGE:
         add(mesh.wedges);
         break;
       case VTK_PYRAMID:
+      case VTK_QUADRATIC_PYRAMID:
         add(mesh.pyramids);
         break;
       case VTK_TETRA:
+      case VTK_QUADRATIC_TETRA:
         add(mesh.tetrahedra);
         break;
       case VTK_QUAD:
+      case VTK_QUADRATIC_QUAD:
         add(mesh.quadrilaterals);
         break;
       case VTK_TRIANGLE:
+      case VTK_QUADRATIC_TRIANGLE:
         add(mesh.triangles);
         break;
       case VTK_LINE:
+      case VTK_QUADRATIC_EDGE:
         add(mesh.segments);
         break;
-      default: // vertices, cells of second order
+      default: // vertices
         break;
     }
   }

@@ -46,7 +46,7 @@ struct CanonicalMesh
 /// Puts the pieces together on rank 0 (on others the result is empty). Collective.
 CanonicalMesh gather(cadrefine::RankExchange& exchange, vtkPointSet* piece);
 
-/// Linear cells of the mesh but for vertices; ids are the global ids.
+/// Cells of the mesh but for vertices, by their corners; ids are the global ids.
 cadrefine::SimplexMesh toMesh(const CanonicalMesh& canonical);
 
 } // namespace cadtest

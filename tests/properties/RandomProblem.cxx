@@ -223,8 +223,7 @@ Plan::Plan(Random& random, const FilterProblem& problem)
   {
     keepLayers = random.chance(0.6);
     levels = random.among(1, 2);
-    isQuadratic = false; // of simplices alone, as coarsening is
-    coarseningLevels = 0;
+    coarseningLevels = 0; // of simplices alone
   }
 }
 
