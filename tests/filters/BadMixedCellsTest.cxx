@@ -95,15 +95,18 @@ TEST_F(BadMixedCells, areOfASecondOrderOrOfOtherShapes)
   {
     points[k] = static_cast<vtkIdType>(k);
   }
-  expectErrors(allFilters(), withCell(VTK_QUADRATIC_HEXAHEDRON, points),
-    "the mesh holds a quadratichexahedron");
+  const std::vector<NamedFilter> ofLinearCells{ allFilters()[0], allFilters()[1], allFilters()[5] };
+  expectErrors(
+    ofLinearCells, withCell(VTK_QUADRATIC_HEXAHEDRON, points), "this filter takes linear cells");
+  expectErrors(allFilters(), withCell(VTK_BIQUADRATIC_QUAD, { 0, 1, 2, 3, 4, 5, 6, 7, 8 }),
+    "the mesh holds a biquadraticquad");
   expectErrors(allFilters(), withCell(VTK_PENTAGONAL_PRISM, { 0, 1, 2, 3, 4, 5, 6, 7, 8, 9 }),
     "the mesh holds a pentagonalprism");
   expectErrors(allFilters(), withCell(VTK_POLYGON, { 0, 1, 2, 3, 4 }), "the mesh holds a polygon");
   // A quadratic tetrahedron among linear cells of other shapes.
   points.resize(10);
-  expectErrors({ allFilters()[0], allFilters()[1], allFilters()[5] },
-    withCell(VTK_QUADRATIC_TETRA, points), "this filter takes linear cells");
+  expectErrors(
+    ofLinearCells, withCell(VTK_QUADRATIC_TETRA, points), "this filter takes linear cells");
   const cadtest::Outcome outcome =
     allFilters()[2].attempt(filters, withCell(VTK_QUADRATIC_TETRA, points));
   EXPECT_FALSE(outcome.succeeded);
