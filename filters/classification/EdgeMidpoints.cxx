@@ -278,21 +278,20 @@ std::vector<std::int32_t> quadCodes(RankExchange& exchange, const EdgeTable& tab
   return codes;
 }
 
-void projectQuads(RankExchange& exchange, const SimplexMesh& mesh, const SharedQuads& quads,
-  const std::vector<Index>& chosen, const std::vector<std::int32_t>& codes,
-  const ClassifiedBoundary& classified, const Classification& classification, std::size_t first,
+void projectQuads(RankExchange& exchange, const SimplexMesh& mesh, const MarkedQuads& quads,
+  const ClassifiedBoundary& classified, const Classification& classification,
   std::vector<MidpointOnCAD>& hits)
 {
-  if (!quads.any)
+  if (!quads.all.any)
   {
     return;
   }
   std::vector<std::size_t> asking;
   std::vector<BoundaryEdge> queries;
-  for (std::size_t i = 0; i < chosen.size(); ++i)
+  for (std::size_t i = 0; i < quads.marked.size(); ++i)
   {
-    const auto& corners = quads.corners[chosen[i]];
-    const std::int32_t code = codes[chosen[i]];
+    const auto& corners = quads.all.corners[quads.marked[i]];
+    const std::int32_t code = quads.codes[quads.marked[i]];
     if (code > 1)
     {
       std::array<Point3, 4> points;
@@ -302,7 +301,7 @@ void projectQuads(RankExchange& exchange, const SimplexMesh& mesh, const SharedQ
         points[k] = mesh.points[corners[k]];
         entities[k] = classification.entities[corners[k]];
       }
-      asking.push_back(first + i);
+      asking.push_back(quads.firstPlace + i);
       queries.push_back(middleOfQuad(points, entities, code - 3));
     }
   }

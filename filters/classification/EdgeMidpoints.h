@@ -93,11 +93,19 @@ std::vector<MidpointOnCAD> projectMidpoints(RankExchange& exchange, const Simple
 std::vector<std::int32_t> quadCodes(RankExchange& exchange, const EdgeTable& table,
   const SharedQuads& quads, const ClassifiedBoundary& classified);
 
-/// Appends where the middles of these quadrilaterals belong, which have places from `first` on.
-/// Collective; one projection for each on the CAD, shared out likewise.
-void projectQuads(RankExchange& exchange, const SimplexMesh& mesh, const SharedQuads& quads,
-  const std::vector<Index>& chosen, const std::vector<std::int32_t>& codes,
-  const ClassifiedBoundary& classified, const Classification& classification, std::size_t first,
+/// Quadrilaterals of a piece that have a point in their middle, and the codes of all.
+struct MarkedQuads
+{
+  const SharedQuads& all;
+  const std::vector<Index>& marked;
+  const std::vector<std::int32_t>& codes;
+  std::size_t firstPlace; ///< Of their midpoints.
+};
+
+/// Appends where the middles of marked quadrilaterals belong. Collective; one projection for each
+/// on the CAD, shared out likewise.
+void projectQuads(RankExchange& exchange, const SimplexMesh& mesh, const MarkedQuads& quads,
+  const ClassifiedBoundary& classified, const Classification& classification,
   std::vector<MidpointOnCAD>& hits);
 
 /// Appends the midpoints at their distance from the CAD, so that there are `count` entries.

@@ -137,13 +137,12 @@ void orderStacks(RankExchange& exchange, const SimplexMesh& mesh, RefinementPlan
     return;
   }
   EdgeStacks stacks(plan.table, mesh.ids);
-  bool changed = stacks.spread();
+  stacks.spread();
   do
   {
     combineShared(exchange, plan.sharedEdges, stacks.ranks(),
       [](const StackRank& a, const StackRank& b) { return std::max(a, b); });
-    changed = exchange.any(stacks.spread());
-  } while (changed);
+  } while (exchange.any(stacks.spread()));
   stacks.writeTo(plan.table);
 }
 
@@ -340,8 +339,9 @@ RefinementTrace refineOntoCAD(RankExchange& exchange, DistributedMesh& mesh,
     projectMidpoints(exchange, mesh.mesh(), plan, codes, classified, classification, statistics);
   const auto codesOfQuads = quadCodes(exchange, plan.table, plan.quads, classified);
   const std::vector<Index> quads = cutQuads(plan);
-  projectQuads(exchange, mesh.mesh(), plan.quads, quads, codesOfQuads, classified, classification,
-    static_cast<std::size_t>(std::count(plan.marks.begin(), plan.marks.end(), 1)), hits);
+  const auto edges = static_cast<std::size_t>(std::count(plan.marks.begin(), plan.marks.end(), 1));
+  projectQuads(exchange, mesh.mesh(), { plan.quads, quads, codesOfQuads, edges }, classified,
+    classification, hits);
   auto onBoundary =
     onRefinedBoundary(plan, codes, quads, codesOfQuads, classified.boundary.onBoundary);
   const std::size_t oldCount = mesh.mesh().points.size();

@@ -95,7 +95,7 @@ double jacobianAt(vtkCell* cell, const std::array<double, 3>& where)
     {
       Point3 point;
       cell->GetPoints()->GetPoint(n, point.data());
-      along[d] = along[d] + derivatives[static_cast<std::size_t>(d * count + n)] * point;
+      along[d] = along[d] + derivatives[static_cast<std::size_t>(d) * count + n] * point;
     }
   }
   return dot(along[0], cross(along[1], along[2]));
