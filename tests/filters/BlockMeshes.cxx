@@ -85,7 +85,7 @@ double jacobianAt(vtkCell* cell, const std::array<double, 3>& where)
 {
   const int count = cell->GetNumberOfPoints();
   const int dimension = cell->GetCellDimension();
-  std::vector<double> derivatives(static_cast<std::size_t>(3 * count));
+  std::vector<double> derivatives(3 * static_cast<std::size_t>(count));
   cell->InterpolateDerivs(where.data(), derivatives.data());
   std::array<Vector3, 3> along{};
   along[2][2] = dimension == 2 ? 1 : 0;
