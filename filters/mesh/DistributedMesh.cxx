@@ -170,6 +170,7 @@ std::vector<GlobalId> numberFacets(
   RankExchange& exchange, const DistributedMesh& mesh, const std::vector<Facet>& facets)
 {
   std::vector<VertexKey<3>> keys;
+  keys.reserve(facets.size());
   for (Facet facet : facets)
   {
     keys.push_back(
