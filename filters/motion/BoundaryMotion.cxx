@@ -66,36 +66,32 @@ std::vector<Index> movingVertices(const Moves& moves)
 }
 
 /// A mesh of area in space has no invalid cells.
-bool isInvalid(const SimplexMesh& mesh, const Vector3& plane, std::size_t cell)
+bool isInvalid(const SimplexMesh& mesh, const Vector3& plane, Index cell)
 {
   bool invalid = false;
-  std::size_t first = 0;
-  visitOwnShapes(mesh,
-    [&](auto shape, const auto& cells)
-    {
-      constexpr bool isOfVolume = decltype(shape)::dimension == 3;
-      if (first <= cell && cell < first + cells.size() && (isOfVolume || plane != Vector3{}))
-      {
-        invalid = !stateAt(shape, cornersOf(cells[cell - first], mesh.points), plane).valid;
-      }
-      first += cells.size();
-    });
+  if (mesh.dimension == 3 || plane != Vector3{})
+  {
+    visitOwnCell(mesh, cell,
+      [&](auto shape, const auto& corners)
+      { invalid = !stateAt(shape, cornersOf(corners, mesh.points), plane).valid; });
+  }
   return invalid;
 }
 
 std::vector<Index> invalidCells(const SimplexMesh& mesh, const Vector3& plane)
 {
-  return indicesWhere(
-    mesh.cellCount(mesh.dimension), [&](std::size_t c) { return isInvalid(mesh, plane, c); });
+  return indicesWhere(mesh.cellCount(mesh.dimension),
+    [&](std::size_t c) { return isInvalid(mesh, plane, static_cast<Index>(c)); });
 }
 
-std::vector<unsigned char> findHeld(RankExchange& exchange, const DistributedMesh& mesh)
+/// `mixed`: whether some rank has other cells than simplices. Collective.
+std::vector<unsigned char> findHeld(RankExchange& exchange, const DistributedMesh& mesh, bool mixed)
 {
-  const SimplexMesh& piece = mesh.mesh();
-  if (!exchange.any(piece.hasOtherThanSimplices()))
+  if (!mixed)
   {
     return {};
   }
+  const SimplexMesh& piece = mesh.mesh();
   std::vector<unsigned char> held(piece.points.size(), 0);
   visitOwnShapes(piece,
     [&](auto shape, const auto& cells)
@@ -338,10 +334,11 @@ void moveOntoCAD(RankExchange& exchange, DistributedMesh& mesh, Moves moves,
   const Vector3 plane = mesh.mesh().dimension == 2 ? planeNormal(exchange, mesh.mesh()) : Vector3{};
   const std::vector<Index> aimed = movingVertices(moves);
   Left left{ aimed, settings.mendCells ? invalidCells(mesh.mesh(), plane) : std::vector<Index>{} };
+  const bool mixed = exchange.any(mesh.mesh().hasOtherThanSimplices());
   Motion motion{ exchange, mesh, classification, settings, forOnThreads(exchange), plane,
     mesh.mesh().points, Moves(mesh.mesh()),
-    std::vector<unsigned char>(mesh.mesh().points.size(), 0), findHeld(exchange, mesh),
-    LayerColumns(exchange, mesh, moves, settings.fixed, plane), aimed };
+    std::vector<unsigned char>(mesh.mesh().points.size(), 0), findHeld(exchange, mesh, mixed),
+    LayerColumns(exchange, mesh, moves, settings.fixed, plane, mixed), aimed };
   motion.moves = std::move(moves);
 
   std::vector<Index> moving = aimed;

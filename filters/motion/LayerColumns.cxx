@@ -241,12 +241,12 @@ std::vector<BestFacet> findBestFacets(RankExchange& exchange, const DistributedM
 } // namespace
 
 LayerColumns::LayerColumns(RankExchange& exchange, const DistributedMesh& mesh, const Moves& moves,
-  const std::vector<unsigned char>& fixed, const Vector3& plane)
+  const std::vector<unsigned char>& fixed, const Vector3& plane, bool mixed)
   : mesh_(mesh), plane_(plane)
 {
   const SimplexMesh& piece = mesh.mesh();
   const bool isSurface = piece.dimension == 2 && plane == Vector3{};
-  any_ = !isSurface && exchange.any(piece.hasOtherThanSimplices());
+  any_ = mixed && !isSurface;
   if (!any_)
   {
     return;

@@ -38,12 +38,13 @@ struct ColumnVertex
 class LayerColumns
 {
 public:
-  /// None, where no rank has cells that stand on others, or `plane`, the normal of a planar mesh,
-  /// is zero in 2D. `fixed`: 1 for vertices on the boundary, over all ranks. Collective.
+  /// None, unless the mesh is `mixed`: some rank has other cells than simplices; nor where `plane`,
+  /// the normal of a planar mesh, is zero in 2D. `fixed`: 1 for vertices on the boundary, over all
+  /// ranks. Collective.
   LayerColumns(RankExchange& exchange, const DistributedMesh& mesh, const Moves& moves,
-    const std::vector<unsigned char>& fixed, const Vector3& plane);
+    const std::vector<unsigned char>& fixed, const Vector3& plane, bool mixed);
 
-  /// Whether some rank has cells that stand on others.
+  /// Whether there may be columns, on any rank.
   bool any() const { return any_; }
 
   /// Adds the moves of the columns' vertices to those of their walls. Returns these vertices.

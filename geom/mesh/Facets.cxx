@@ -194,18 +194,11 @@ private:
   template<class Use>
   void forSides(std::size_t cell, const Use& use) const
   {
-    std::size_t first = 0;
     std::size_t place = mostSides * cell;
-    visitOwnShapes(mesh_,
-      [&](auto shape, const auto& cells)
-      {
-        if (first <= cell && cell < first + cells.size())
-        {
-          forEachSide(shape, cells[cell - first], static_cast<Index>(cell),
-            [&](const Facet& side) { use(place++, side); });
-        }
-        first += cells.size();
-      });
+    const auto number = static_cast<Index>(cell);
+    visitOwnCell(mesh_, number,
+      [&](auto shape, const auto& corners)
+      { forEachSide(shape, corners, number, [&](const Facet& side) { use(place++, side); }); });
   }
 
   bool isLookedAt(const Facet& side) const

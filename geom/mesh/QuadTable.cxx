@@ -29,14 +29,15 @@ std::uint64_t keyOf(const std::array<Index, 4>& ordered)
 
 /// Calls use(edges, number) for the quadrilaterals of all cells in turn, `number` being where
 /// theirs is to stand.
-template<class Shape, std::size_t Edges, std::size_t Quads, class Use>
-void forQuads(Shape, const std::vector<std::array<Index, Edges>>& edgesOf,
-  std::vector<std::array<Index, Quads>>& numbers, const Use& use)
+template<class Shape, class Use>
+void forQuadsOf(Shape shape, const EdgeTable& table, QuadTable& quads, const Use& use)
 {
+  const auto& edgesOf = table.*edgesOfCells(shape);
+  auto& numbers = quads.*quadsOfCells(shape);
   numbers.resize(edgesOf.size());
   for (std::size_t c = 0; c < edgesOf.size(); ++c)
   {
-    for (std::size_t q = 0; q < Quads; ++q)
+    for (std::size_t q = 0; q < numbers[c].size(); ++q)
     {
       std::array<Index, 4> edges;
       std::transform(std::begin(Shape::quadEdges[q]), std::end(Shape::quadEdges[q]), edges.begin(),
@@ -49,10 +50,10 @@ void forQuads(Shape, const std::vector<std::array<Index, Edges>>& edgesOf,
 template<class Use>
 void forQuads(const EdgeTable& table, QuadTable& quads, const Use& use)
 {
-  forQuads(shapes::Pyramid{}, table.ofPyramids, quads.ofPyramids, use);
-  forQuads(shapes::Wedge{}, table.ofWedges, quads.ofWedges, use);
-  forQuads(shapes::Hexahedron{}, table.ofHexahedra, quads.ofHexahedra, use);
-  forQuads(shapes::Quadrilateral{}, table.ofQuadrilaterals, quads.ofQuadrilaterals, use);
+  forQuadsOf(shapes::Pyramid{}, table, quads, use);
+  forQuadsOf(shapes::Wedge{}, table, quads, use);
+  forQuadsOf(shapes::Hexahedron{}, table, quads, use);
+  forQuadsOf(shapes::Quadrilateral{}, table, quads, use);
 }
 
 } // namespace

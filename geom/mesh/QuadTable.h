@@ -26,6 +26,24 @@ struct QuadTable
   Index find(const std::array<Index, 4>& itsEdges) const;
 };
 
+/// Where a table has the quadrilaterals of the cells of a shape.
+constexpr auto quadsOfCells(shapes::Pyramid)
+{
+  return &QuadTable::ofPyramids;
+}
+constexpr auto quadsOfCells(shapes::Wedge)
+{
+  return &QuadTable::ofWedges;
+}
+constexpr auto quadsOfCells(shapes::Hexahedron)
+{
+  return &QuadTable::ofHexahedra;
+}
+constexpr auto quadsOfCells(shapes::Quadrilateral)
+{
+  return &QuadTable::ofQuadrilaterals;
+}
+
 /// Sorts those of all cells: work and memory linear in the number of cells.
 QuadTable buildQuadTable(const EdgeTable& table);
 

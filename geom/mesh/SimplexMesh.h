@@ -189,7 +189,24 @@ void visitOwnShapes(Mesh& mesh, const Visit& visit)
     : visitAll(shapes::Triangle{}, shapes::Quadrilateral{});
 }
 
-/// The same of all dimensions, 0 first.
+/// visit(shape, corners) of the cell of this number among those of the mesh's own dimension.
+template<class Visit>
+void visitOwnCell(const SimplexMesh& mesh, Index number, const Visit& visit)
+{
+  std::size_t first = 0;
+  visitOwnShapes(mesh,
+    [&](auto shape, const auto& cells)
+    {
+      const std::size_t place = static_cast<std::size_t>(number) - first; // huge where it is below
+      if (place < cells.size())
+      {
+        visit(shape, cells[place]);
+      }
+      first += cells.size();
+    });
+}
+
+/// visitShapes of all dimensions, 0 first.
 template<class Mesh, class Visit>
 void visitShapes(Mesh& mesh, const Visit& visit)
 {

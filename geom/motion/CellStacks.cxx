@@ -18,16 +18,13 @@ constexpr bool standsOnAnother(Shape)
 template<class Visit>
 void visitCell(const SimplexMesh& mesh, Index cell, const Visit& visit)
 {
-  std::size_t first = 0;
-  visitOwnShapes(mesh,
-    [&](auto shape, const auto& cells)
+  visitOwnCell(mesh, cell,
+    [&](auto shape, const auto& corners)
     {
-      const std::size_t place = static_cast<std::size_t>(cell) - first; // huge where it is below
-      if (standsOnAnother(shape) && place < cells.size())
+      if (standsOnAnother(shape))
       {
-        visit(shape, cells[place]);
+        visit(shape, corners);
       }
-      first += cells.size();
     });
 }
 

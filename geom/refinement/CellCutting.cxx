@@ -11,23 +11,6 @@ namespace cadrefine
 namespace
 {
 
-constexpr auto quadsOfCells(shapes::Pyramid)
-{
-  return &QuadTable::ofPyramids;
-}
-constexpr auto quadsOfCells(shapes::Wedge)
-{
-  return &QuadTable::ofWedges;
-}
-constexpr auto quadsOfCells(shapes::Hexahedron)
-{
-  return &QuadTable::ofHexahedra;
-}
-constexpr auto quadsOfCells(shapes::Quadrilateral)
-{
-  return &QuadTable::ofQuadrilaterals;
-}
-
 /// The local edge between two local corners; -1: none.
 template<class Shape>
 int edgeBetween(Shape, int a, int b)
