@@ -9,7 +9,6 @@
 #include "refinement/FacetMarking.h"
 
 #include <cadrefine/base/Error.h>
-#include <cadrefine/base/IndicesWhere.h>
 #include <cadrefine/base/LargeMemory.h>
 
 #include <algorithm>
@@ -36,18 +35,6 @@ std::vector<Index> combineMarks(RankExchange& exchange, RefinementPlan& plan)
     std::remove_if(fresh.begin(), fresh.end(), [&](Index edge) { return !plan.marks[edge]; }),
     fresh.end());
   return fresh;
-}
-
-/// The quadrilaterals that are cut in four.
-std::vector<Index> cutQuads(const RefinementPlan& plan)
-{
-  const auto& edgesOf = plan.quads.table.edges;
-  return indicesWhere(edgesOf.size(),
-    [&](std::size_t q)
-    {
-      return std::all_of(
-        edgesOf[q].begin(), edgesOf[q].end(), [&](Index edge) { return plan.marks[edge] != 0; });
-    });
 }
 
 /// `onBoundary` of the vertices that were, and of the new ones on edges and in these
@@ -159,7 +146,8 @@ void orderStacks(RankExchange& exchange, const SimplexMesh& mesh, RefinementPlan
 bool markBadlyCut(RankExchange& exchange, const DistributedMesh& mesh, RefinementPlan& plan)
 {
   const SimplexMesh& piece = mesh.mesh();
-  const std::vector<Index> bad = cellsCutBadly(piece, plan.table, plan.quads.table, plan.marks);
+  const std::vector<Index> bad =
+    cellsCutBadly(piece, plan.table, plan.quads.table, plan.marks, plan.uniform);
   std::vector<Index> toMark; // at once: a cell whose neighbours mark all its edges has another try
   agreeOnFailure(exchange,
     [&]
@@ -253,15 +241,10 @@ RefinementPlan planUniform(RankExchange& exchange, const DistributedMesh& mesh)
 {
   RefinementPlan plan{ findEdges(exchange, mesh, 1), {}, true };
   plan.quads = findQuads(exchange, mesh, plan.table);
-  agreeOnFailure(exchange,
-    [&]
-    {
-      const auto bad = pyramidsCutBadly(mesh.mesh(), plan.table, plan.quads.table);
-      if (!bad.empty())
-      {
-        complainOfBadCut(mesh, bad.front());
-      }
-    });
+  if (plan.quads.any)
+  {
+    markBadlyCut(exchange, mesh, plan); // which all edges are: an error
+  }
   return plan;
 }
 
@@ -270,7 +253,7 @@ RefinementPlan planLongestEdge(RankExchange& exchange, const DistributedMesh& me
 {
   RefinementPlan plan{ findEdges(exchange, mesh, 0) };
   plan.quads = findQuads(exchange, mesh, plan.table);
-  if (keepLayers)
+  if (keepLayers && plan.quads.any)
   {
     orderStacks(exchange, mesh.mesh(), plan);
   }
@@ -338,7 +321,7 @@ RefinementTrace refineOntoCAD(RankExchange& exchange, DistributedMesh& mesh,
   auto hits =
     projectMidpoints(exchange, mesh.mesh(), plan, codes, classified, classification, statistics);
   const auto codesOfQuads = quadCodes(exchange, plan.table, plan.quads, classified);
-  const std::vector<Index> quads = cutQuads(plan);
+  const std::vector<Index> quads = quadsCutInFour(plan.quads.table, plan.marks);
   const auto edges = static_cast<std::size_t>(std::count(plan.marks.begin(), plan.marks.end(), 1));
   projectQuads(exchange, mesh.mesh(), { plan.quads, quads, codesOfQuads, edges }, classified,
     classification, hits);

@@ -4,10 +4,27 @@
 #include <cadrefine/mesh/EdgeTable.h>
 #include <cadrefine/mesh/QuadTable.h>
 #include <cadrefine/mesh/SimplexMesh.h>
-#include <cadrefine/refinement/Split.h>
+#include <cadrefine/refinement/Midpoints.h>
 
 namespace cadrefine
 {
+
+/// visit(shape, first, cells) of the cells of volume that are not simplices, `first` being the
+/// number of the first one.
+template<class Visit>
+void visitOthers(const SimplexMesh& mesh, const Visit& visit)
+{
+  auto first = static_cast<Index>(mesh.tetrahedra.size());
+  const auto visitOne = [&](auto shape)
+  {
+    const auto& cells = mesh.*decltype(shape)::cells;
+    visit(shape, first, cells);
+    first += static_cast<Index>(cells.size());
+  };
+  visitOne(shapes::Pyramid{});
+  visitOne(shapes::Wedge{});
+  visitOne(shapes::Hexahedron{});
+}
 
 /// Cuts hexahedra, wedges, pyramids and quadrilaterals at the midpoints of their marked edges, so
 /// that neighbours agree whatever edges are marked:

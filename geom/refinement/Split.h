@@ -2,10 +2,8 @@
 #pragma once
 
 #include <cadrefine/base/WeightedRows.h>
-#include <cadrefine/mesh/EdgeTable.h>
-#include <cadrefine/mesh/QuadTable.h>
 #include <cadrefine/mesh/SimplexMesh.h>
-#include <cadrefine/refinement/LongestEdgeMarking.h>
+#include <cadrefine/refinement/Midpoints.h>
 
 #include <array>
 #include <vector>
@@ -32,36 +30,6 @@ struct SplitMesh
   WeightedRows ofVertices;   ///< New vertices in the middle of corners.
 };
 
-/// New vertices: at the midpoints of the marked edges, then in quadrilaterals all of whose edges
-/// are marked, then in hexahedra all of whose edges are, then in the middle of the corners of cells
-/// that are cut round one (see CellCutting); that of a pyramid is 3/8 of the way to its apex.
-struct Midpoints
-{
-  Index firstVertex = 0;
-  std::vector<Index> ofEdge; ///< New vertex of each edge, or -1.
-  /// See SplitMesh; of those in the middle of corners the first corner and another one.
-  std::vector<std::array<Index, 2>> parentEdges;
-  std::vector<Index> edges;        ///< Edge of each new vertex on one.
-  std::vector<Index> quads;        ///< Quadrilateral of each new vertex in one.
-  std::vector<Index> hexahedra;    ///< Of each in one.
-  std::vector<Index> cells;        ///< Cell of volume of each new vertex in the middle of corners.
-  std::vector<Index> ofQuad;       ///< New vertex of each, or -1.
-  std::vector<Index> ofHexahedron; ///< Likewise.
-
-  /// The number of the vertex that the next parent edge makes.
-  Index nextVertex() const { return firstVertex + static_cast<Index>(parentEdges.size()); }
-};
-
-/// Those on edges alone.
-Midpoints makeMidpoints(const SimplexMesh& mesh, const EdgeTable& table, const EdgeMarks& marks);
-
-/// All; a vertex in a quadrilateral is halfway between the middles of the first and the third of
-/// its edges in the table, one in a hexahedron halfway between that in the face with the smallest
-/// number and the opposite one. `uniform`: for splitUniformly, which needs none in the middle of
-/// corners.
-Midpoints makeMidpoints(const SimplexMesh& mesh, const EdgeTable& table, const QuadTable& quads,
-  const EdgeMarks& marks, bool uniform);
-
 /// How many cells splitMarked and splitUniformly make of each. Throw Error where one rank cannot
 /// hold them (PieceLimit.h).
 ChildRanges countMarkedChildren(
@@ -74,20 +42,17 @@ ChildRanges countUniformChildren(const SimplexMesh& mesh);
 SplitMesh splitMarked(const SimplexMesh& mesh, const EdgeTable& table, const QuadTable& quads,
   const EdgeMarks& marks, const Midpoints& midpoints, const std::vector<GlobalId>& ids);
 
-/// The valid cells that are not simplices of which splitMarked makes some that are not, in their
-/// numbers among those of the mesh's own dimension. (Of most it makes parts cut straight; but not
-/// where a vertex in the middle does not see all sides, or a quadrilateral is cut in triangles.)
-std::vector<Index> cellsCutBadly(
-  const SimplexMesh& mesh, const EdgeTable& table, const QuadTable& quads, const EdgeMarks& marks);
-/// The pyramids, numbered likewise, of which splitUniformly does: where the base is far from plane.
-std::vector<Index> pyramidsCutBadly(
-  const SimplexMesh& mesh, const EdgeTable& table, const QuadTable& quads);
+/// The valid cells of volume that are not simplices of which splitMarked, or `uniform`,
+/// splitUniformly makes some that are not valid, in their numbers among those of the mesh's own
+/// dimension. Of most cells both make parts cut straight; but not where a vertex in the middle does
+/// not see all sides, where a quadrilateral is cut in triangles, and of pyramids whose base is far
+/// from plane, of which alone there are such cells in uniform splitting.
+std::vector<Index> cellsCutBadly(const SimplexMesh& mesh, const EdgeTable& table,
+  const QuadTable& quads, const EdgeMarks& marks, bool uniform);
 
-/// Regular splitting; every edge, quadrilateral and hexahedron must have a midpoint. Triangles and
-/// quadrilaterals give 4, hexahedra and wedges 8, tetrahedra 8: one at each corner and four round
-/// the shortest diagonal of the octahedron between (ties by global id); pyramids 4 tetrahedra
-/// on the edges of the base and 6 pyramids.
-/// J. Bey, "Tetrahedral grid refinement", Computing 55, 1995.
+/// Regular splitting (see UniformCutting.h); every edge, quadrilateral and hexahedron must have a
+/// midpoint. Triangles and quadrilaterals give 4, tetrahedra, wedges and hexahedra 8, pyramids 4
+/// tetrahedra and 6 pyramids.
 SplitMesh splitUniformly(const SimplexMesh& mesh, const EdgeTable& table, const QuadTable& quads,
   const Midpoints& midpoints, const std::vector<GlobalId>& ids);
 

@@ -283,7 +283,7 @@ TYPED_TEST(CellCuttingOf, partsFillTheCellWhateverEdgesAreMarked)
       const SplitMesh split = cut.split(mesh);
       ASSERT_TRUE(isConforming(mesh, cut.midpoints, split));
       expectChildrenNumbered(split, TypeParam::dimension);
-      const auto badly = cellsCutBadly(mesh, cut.table, cut.quads, cut.marks);
+      const auto badly = cellsCutBadly(mesh, cut.table, cut.quads, cut.marks, false);
       const bool isValid = bool(cadtest::isValid(split.mesh));
       EXPECT_EQ(isValid, badly.empty());
       bad += !isValid;

@@ -288,7 +288,7 @@ TEST_P(MixedSplit, markedLevelsAreSound)
       {
         const std::size_t before = mesh.cellCount();
         const Marking marking(mesh, someCells(mesh, seed), keepLayers);
-        if (!cellsCutBadly(mesh, marking.table, marking.quads, marking.marks).empty())
+        if (!cellsCutBadly(mesh, marking.table, marking.quads, marking.marks, false).empty())
         {
           break; // what then happens is for all ranks to decide
         }
@@ -655,7 +655,7 @@ TEST(Layers, areCutAlongTheWallAlone)
       std::vector<unsigned char> marks(mesh.cellCount(3));
       std::generate(marks.begin(), marks.end(), [&] { return random() % 12 == 0; });
       const Marking marking(mesh, marks, true);
-      ASSERT_TRUE(cellsCutBadly(mesh, marking.table, marking.quads, marking.marks).empty());
+      ASSERT_TRUE(cellsCutBadly(mesh, marking.table, marking.quads, marking.marks, false).empty());
       const SplitMesh split = marking.split(mesh);
       Index cell = static_cast<Index>(mesh.tetrahedra.size() + mesh.pyramids.size());
       const auto end = static_cast<Index>(mesh.cellCount(3));

@@ -1,0 +1,182 @@
+#include <cadrefine/refinement/Midpoints.h>
+
+#include <cadrefine/base/IndicesWhere.h>
+#include <cadrefine/base/LargeMemory.h>
+#include <cadrefine/base/PieceLimit.h>
+#include <cadrefine/refinement/CellCutting.h>
+
+namespace cadrefine
+{
+namespace
+{
+
+/// The corners of the cells in whose middle a vertex is, in their order.
+template<class Use>
+void forCornersOfCells(const SimplexMesh& mesh, const Midpoints& midpoints, const Use& use)
+{
+  auto next = midpoints.cells.begin();
+  visitOthers(mesh,
+    [&](auto, Index first, const auto& cells)
+    {
+      const Index end = first + static_cast<Index>(cells.size());
+      for (; next != midpoints.cells.end() && *next < end; ++next)
+      {
+        use(cells[*next - first]);
+      }
+    });
+}
+
+/// What parts the corners of a cell have in the vertex in its middle: all the same, but that of a
+/// pyramid is higher over its base than their mean, as a base that is not plane rises; in one whose
+/// edges are equal it is as far from all sides.
+template<std::size_t Corners>
+constexpr std::array<double, Corners> partsInMiddle(const std::array<Index, Corners>&)
+{
+  if constexpr (Corners == shapes::Pyramid::corners)
+  {
+    return { 5.0 / 32, 5.0 / 32, 5.0 / 32, 5.0 / 32, 3.0 / 8 };
+  }
+  std::array<double, Corners> parts{};
+  for (double& part : parts)
+  {
+    part = 1.0 / static_cast<double>(Corners);
+  }
+  return parts;
+}
+
+void addQuadMidpoints(const QuadTable& quads, const EdgeMarks& marks, Midpoints& midpoints)
+{
+  midpoints.ofQuad.assign(quads.edges.size(), -1);
+  midpoints.quads = quadsCutInFour(quads, marks);
+  for (const Index q : midpoints.quads)
+  {
+    const auto onEdges = midpointsOf(quads.edges[q], midpoints.ofEdge);
+    midpoints.ofQuad[q] = midpoints.nextVertex();
+    midpoints.parentEdges.push_back({ onEdges[0], onEdges[2] });
+  }
+}
+
+void addHexahedronMidpoints(const QuadTable& quads, Midpoints& midpoints)
+{
+  constexpr int opposite[6] = { 1, 0, 4, 5, 2, 3 };
+  reserveLong(midpoints.ofHexahedron, quads.ofHexahedra.size());
+  for (std::size_t h = 0; h < quads.ofHexahedra.size(); ++h)
+  {
+    const auto& faces = quads.ofHexahedra[h];
+    const auto inFaces = midpointsOf(faces, midpoints.ofQuad);
+    const bool isCut = std::find(inFaces.begin(), inFaces.end(), -1) == inFaces.end();
+    midpoints.ofHexahedron.push_back(isCut ? midpoints.nextVertex() : -1);
+    if (isCut)
+    {
+      const auto smallest = std::min_element(faces.begin(), faces.end()) - faces.begin();
+      midpoints.parentEdges.push_back({ inFaces[smallest], inFaces[opposite[smallest]] });
+      midpoints.hexahedra.push_back(static_cast<Index>(h));
+    }
+  }
+}
+
+void addApexes(
+  const SimplexMesh& mesh, const EdgeTable& table, const QuadTable& quads, Midpoints& midpoints)
+{
+  const CellCutting cutting(mesh, table, quads, midpoints);
+  visitOthers(mesh,
+    [&](auto shape, Index first, const auto& cells)
+    {
+      for (Index c = 0; c < static_cast<Index>(cells.size()); ++c)
+      {
+        if (cutting.needsApex(shape, c))
+        {
+          midpoints.cells.push_back(first + c);
+          midpoints.parentEdges.push_back({ cells[c].front(), cells[c].back() });
+        }
+      }
+    });
+}
+
+} // namespace
+
+std::vector<Index> quadsCutInFour(const QuadTable& quads, const EdgeMarks& marks)
+{
+  return indicesWhere(quads.edges.size(),
+    [&](std::size_t q)
+    {
+      return std::all_of(
+        quads.edges[q].begin(), quads.edges[q].end(), [&](Index edge) { return marks[edge] != 0; });
+    });
+}
+
+Midpoints makeMidpoints(const SimplexMesh& mesh, const EdgeTable& table, const EdgeMarks& marks)
+{
+  Midpoints result;
+  result.firstVertex = static_cast<Index>(mesh.points.size());
+  const std::size_t count = marks.size() - std::count(marks.begin(), marks.end(), 0);
+  requireAtMost(mesh.points.size() + count, "points");
+  reserveLong(result.edges, count);
+  reserveLong(result.parentEdges, count);
+  reserveLong(result.ofEdge, table.edges.size());
+  result.ofEdge.assign(table.edges.size(), -1);
+  for (std::size_t e = 0; e < table.edges.size(); ++e)
+  {
+    if (marks[e])
+    {
+      result.ofEdge[e] = result.nextVertex();
+      result.edges.push_back(static_cast<Index>(e));
+      result.parentEdges.push_back(table.edges[e]);
+    }
+  }
+  return result;
+}
+
+Midpoints makeMidpoints(const SimplexMesh& mesh, const EdgeTable& table, const QuadTable& quads,
+  const EdgeMarks& marks, bool uniform)
+{
+  Midpoints midpoints = makeMidpoints(mesh, table, marks);
+  addQuadMidpoints(quads, marks, midpoints);
+  addHexahedronMidpoints(quads, midpoints);
+  if (!uniform)
+  {
+    addApexes(mesh, table, quads, midpoints);
+  }
+  requireAtMost(mesh.points.size() + midpoints.parentEdges.size(), "points");
+  return midpoints;
+}
+
+WeightedRows rowsInMiddle(const SimplexMesh& mesh, const Midpoints& midpoints)
+{
+  WeightedRows rows;
+  Index vertex = midpoints.nextVertex() - static_cast<Index>(midpoints.cells.size());
+  forCornersOfCells(mesh, midpoints,
+    [&](const auto& corners)
+    {
+      const auto parts = partsInMiddle(corners);
+      for (std::size_t k = 0; k < corners.size(); ++k)
+      {
+        rows.add(corners[k], parts[k]);
+      }
+      rows.endRow(vertex++);
+    });
+  return rows;
+}
+
+void appendNewPoints(
+  const SimplexMesh& mesh, const Midpoints& midpoints, std::vector<Point3>& points)
+{
+  const std::size_t halves = midpoints.parentEdges.size() - midpoints.cells.size();
+  for (std::size_t n = 0; n < halves; ++n)
+  {
+    const auto& [a, b] = midpoints.parentEdges[n];
+    points.push_back(0.5 * (points[a] + points[b]));
+  }
+  const WeightedRows rows = rowsInMiddle(mesh, midpoints);
+  for (std::size_t r = 0; r < rows.size(); ++r)
+  {
+    Point3 middle{};
+    for (Index k = rows.firsts[r]; k < rows.firsts[r + 1]; ++k)
+    {
+      middle = middle + rows.weights[k] * points[rows.sources[k]];
+    }
+    points.push_back(middle);
+  }
+}
+
+} // namespace cadrefine

@@ -1,0 +1,68 @@
+// The new vertices of a mesh that is refined.
+#pragma once
+
+#include <cadrefine/base/WeightedRows.h>
+#include <cadrefine/mesh/EdgeTable.h>
+#include <cadrefine/mesh/QuadTable.h>
+#include <cadrefine/mesh/SimplexMesh.h>
+#include <cadrefine/refinement/LongestEdgeMarking.h>
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+namespace cadrefine
+{
+
+/// New vertices: at the midpoints of the marked edges, then in quadrilaterals all of whose edges
+/// are marked, then in hexahedra all of whose edges are, then in the middle of the corners of cells
+/// that are cut round one (see CellCutting); that of a pyramid is 3/8 of the way to its apex.
+struct Midpoints
+{
+  Index firstVertex = 0;
+  std::vector<Index> ofEdge; ///< New vertex of each edge, or -1.
+  /// See SplitMesh; of those in the middle of corners the first corner and another one.
+  std::vector<std::array<Index, 2>> parentEdges;
+  std::vector<Index> edges;        ///< Edge of each new vertex on one.
+  std::vector<Index> quads;        ///< Quadrilateral of each new vertex in one.
+  std::vector<Index> hexahedra;    ///< Of each in one.
+  std::vector<Index> cells;        ///< Cell of volume of each new vertex in the middle of corners.
+  std::vector<Index> ofQuad;       ///< New vertex of each, or -1.
+  std::vector<Index> ofHexahedron; ///< Likewise.
+
+  /// The number of the vertex that the next parent edge makes.
+  Index nextVertex() const { return firstVertex + static_cast<Index>(parentEdges.size()); }
+};
+
+/// The new vertices of some edges, or of some quadrilaterals.
+template<std::size_t Count>
+std::array<Index, Count> midpointsOf(
+  const std::array<Index, Count>& items, const std::vector<Index>& midpointOf)
+{
+  std::array<Index, Count> result;
+  std::transform(
+    items.begin(), items.end(), result.begin(), [&](Index item) { return midpointOf[item]; });
+  return result;
+}
+
+/// The quadrilaterals all of whose edges are marked, ascending.
+std::vector<Index> quadsCutInFour(const QuadTable& quads, const EdgeMarks& marks);
+
+/// Those on edges alone.
+Midpoints makeMidpoints(const SimplexMesh& mesh, const EdgeTable& table, const EdgeMarks& marks);
+
+/// All; a vertex in a quadrilateral is halfway between the middles of the first and the third of
+/// its edges in the table, one in a hexahedron halfway between that in the face with the smallest
+/// number and the opposite one. `uniform`: for splitUniformly, which needs none in the middle of
+/// corners.
+Midpoints makeMidpoints(const SimplexMesh& mesh, const EdgeTable& table, const QuadTable& quads,
+  const EdgeMarks& marks, bool uniform);
+
+/// Those in the middle of corners, as sums of these.
+WeightedRows rowsInMiddle(const SimplexMesh& mesh, const Midpoints& midpoints);
+
+/// Appends where the new vertices are to the points of the mesh.
+void appendNewPoints(
+  const SimplexMesh& mesh, const Midpoints& midpoints, std::vector<Point3>& points);
+
+} // namespace cadrefine
