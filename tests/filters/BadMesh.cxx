@@ -86,6 +86,24 @@ void BadMesh::expectErrors(
   }
 }
 
+void BadMesh::expectLimitOfCoordinates(const Grid& grid) const
+{
+  if (isLast())
+  {
+    grid->GetPoints()->SetPoint(5, 1, 1e300, 0);
+  }
+  expectErrors(allFilters(), grid, "beyond 1.5e51 (point 5)");
+  if (isLast())
+  {
+    grid->GetPoints()->SetPoint(5, 1, 1e50, 0);
+  }
+  for (const NamedFilter& filter : filtersOfRawMeshes())
+  {
+    const cadtest::Outcome outcome = filter.attempt(filters, grid);
+    EXPECT_TRUE(outcome.succeeded) << filter.name << testing::PrintToString(outcome.errors);
+  }
+}
+
 void BadMesh::expectSame(
   const std::vector<NamedFilter>& which, vtkPointSet* piece, vtkPointSet* whole)
 {

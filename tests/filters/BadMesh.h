@@ -54,6 +54,10 @@ protected:
   void expectErrors(
     const std::vector<NamedFilter>& which, vtkPointSet* mesh, const std::string& text) const;
 
+  /// A coordinate of a mesh of the last rank, of which point 5 is used, may be large, but not so
+  /// that volumes overflow.
+  void expectLimitOfCoordinates(const Grid& grid) const;
+
   /// The filters succeed on the pieces, which make the mesh that one rank makes of `whole`.
   void expectSame(const std::vector<NamedFilter>& which, vtkPointSet* piece, vtkPointSet* whole);
   /// That the pieces, put together, are this mesh.

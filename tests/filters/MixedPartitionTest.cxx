@@ -4,20 +4,16 @@
 #include "FilterRun.h"
 #include "MeshChecks.h"
 #include "MixedMeshes.h"
-#include "ParallelTest.h"
-#include "Partition.h"
-#include "SamePieces.h"
+#include "SameSteps.h"
 #include "TestShapes.h"
 
 #include <vtkAdaptToCAD.h>
-#include <vtkCADBoundary.h>
 #include <vtkFieldData.h>
 #include <vtkPolyData.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 namespace cadrefine
 {
@@ -179,40 +175,6 @@ protected:
     return mesh;
   }
 
-  using Steps = std::vector<cadtest::FilterRun::Data>;
-
-  /// The mesh after each filter: projected, measured, refined where the error is, refined
-  /// uniformly, its boundary, measured with its boundary's cells.
-  Steps run(vtkPointSet* mesh, vtkMultiProcessController* controller) const
-  {
-    const cadtest::FilterRun filters(cadFile, controller);
-    Steps steps{ filters.project(mesh) };
-    steps.push_back(filters.measure(steps.back(), 2));
-    steps.push_back(filters.run<vtkRefineWithCAD>(steps.back(),
-      [&](vtkRefineWithCAD* filter)
-      {
-        filter->SetMarkingArray("GeometricError");
-        filter->SetThreshold(problem.threshold);
-        filter->SetLevels(1);
-        filter->SetBalance(GetParam().balance);
-        filter->SetKeepLayers(GetParam().keepLayers);
-      }));
-    steps.push_back(filters.run<vtkRefineWithCAD>(steps.back(),
-      [&](vtkRefineWithCAD* filter)
-      {
-        filter->SetMethod(vtkRefineWithCAD::UNIFORM_BISECTION);
-        filter->SetBalance(GetParam().balance);
-      }));
-    steps.push_back(filters.run<vtkCADBoundary>(steps.back(), [](vtkCADBoundary*) {}));
-    steps.push_back(filters.run<vtkCADGeometricError>(*std::prev(steps.end(), 2),
-      [](vtkCADGeometricError* filter)
-      {
-        filter->SetRecursionDepth(1);
-        filter->SetBoundaryCells(true);
-      }));
-    return steps;
-  }
-
   void expectSound(vtkPointSet* piece)
   {
     const cadtest::CanonicalMesh gathered = cadtest::gather(exchange, piece);
@@ -236,21 +198,6 @@ protected:
       EXPECT_TRUE(cadtest::isBoundedByListedCells(mesh));
     }
   }
-
-  void expectFieldValuesAgree(vtkPointSet* piece)
-  {
-    for (const char* name :
-      { "GlobalGeometricError", "MaximumGeometricDistance", "InvalidCells", "UnprojectedVertices" })
-    {
-      const double value = cadtest::fieldValue(piece, name);
-      EXPECT_EQ(exchange.min(value), exchange.max(value)) << name;
-    }
-    EXPECT_EQ(cadtest::fieldValue(piece, "InvalidCells"), 0);
-    if (GetParam().keepLayers) // else moves end at the first pyramid
-    {
-      EXPECT_EQ(cadtest::fieldValue(piece, "UnprojectedVertices"), 0);
-    }
-  }
 };
 
 INSTANTIATE_TEST_SUITE_P(Problems, MixedPartition, testing::ValuesIn(cases()),
@@ -258,21 +205,28 @@ INSTANTIATE_TEST_SUITE_P(Problems, MixedPartition, testing::ValuesIn(cases()),
 
 TEST_P(MixedPartition, givesTheSameMeshAsOneRank)
 {
-  const auto whole = wholeMesh();
-  const auto rankOfCell = cadtest::deal(GetParam().dealing, whole, exchange.size());
-  const auto piece = cadtest::pieceOf(whole, rankOfCell, exchange.rank(), GetParam().ghosts);
-  const Steps pieces = run(piece, worldController());
-  const Steps serial = exchange.rank() == 0 ? run(whole, nullptr) : Steps(pieces.size());
+  const cadtest::Steps pieces =
+    cadtest::expectSameSteps(exchange, wholeMesh(), GetParam().dealing, GetParam().ghosts,
+      [&](vtkPointSet* mesh, vtkMultiProcessController* controller)
+      {
+        return cadtest::refinementSteps(cadtest::FilterRun(cadFile, controller), mesh,
+          { problem.threshold, 1, GetParam().balance, GetParam().keepLayers });
+      });
+  constexpr std::size_t boundary = 4; // a step
   for (std::size_t step = 0; step < pieces.size(); ++step)
   {
     SCOPED_TRACE("after step " + std::to_string(step));
-    cadtest::expectSame(exchange, pieces[step], serial[step]);
-    if (step != 4)
+    if (step != boundary)
     {
       expectSound(pieces[step]);
     }
   }
-  expectFieldValuesAgree(pieces.back());
+  cadtest::expectFieldValuesAgree(exchange, pieces.back());
+  EXPECT_EQ(cadtest::fieldValue(pieces.back(), "InvalidCells"), 0);
+  if (GetParam().keepLayers) // else moves end at the first pyramid
+  {
+    EXPECT_EQ(cadtest::fieldValue(pieces.back(), "UnprojectedVertices"), 0);
+  }
 }
 
 } // namespace

@@ -5,9 +5,7 @@
 #include "DataSets.h"
 #include "FilterRun.h"
 #include "MixedMeshes.h"
-#include "ParallelTest.h"
-#include "Partition.h"
-#include "SamePieces.h"
+#include "SameSteps.h"
 #include "TestShapes.h"
 
 #include <vtkUnstructuredGrid.h>
@@ -53,7 +51,7 @@ protected:
   const Problem& problem = std::get<0>(GetParam());
   const std::string cadFile = cadtest::writeInto(folder, problem.shape(), ".brep");
 
-  using Steps = std::vector<cadtest::FilterRun::Data>;
+  using Steps = cadtest::Steps;
 
   /// The mesh refined and made quadratic, measured with its boundary's cells, judged.
   Steps run(vtkPointSet* mesh, vtkMultiProcessController* controller) const
@@ -89,15 +87,9 @@ TEST_P(MixedQuadraticPartition, givesTheSameMeshAsOneRank)
 {
   const auto whole = problem.mesh();
   cadtest::addArrays(whole);
-  const auto rankOfCell = cadtest::deal(std::get<1>(GetParam()), whole, exchange.size());
-  const auto piece = cadtest::pieceOf(whole, rankOfCell, exchange.rank(), true);
-  const Steps pieces = run(piece, worldController());
-  const Steps serial = exchange.rank() == 0 ? run(whole, nullptr) : Steps(pieces.size());
-  for (std::size_t step = 0; step < pieces.size(); ++step)
-  {
-    SCOPED_TRACE("after step " + std::to_string(step));
-    cadtest::expectSame(exchange, pieces[step], serial[step]);
-  }
+  const Steps pieces = cadtest::expectSameSteps(exchange, whole, std::get<1>(GetParam()), true,
+    [&](vtkPointSet* mesh, vtkMultiProcessController* controller)
+    { return run(mesh, controller); });
   EXPECT_EQ(cadtest::fieldValue(pieces.back(), "InvalidCells"), 0);
   EXPECT_GT(cadtest::fieldValue(pieces.back(), "CADVertices"), 0);
 }

@@ -3,8 +3,8 @@
 
 #include "BlockMeshes.h"
 #include "DataSets.h"
-#include "FilterRun.h"
 #include "MixedMeshes.h"
+#include "QuadraticRuns.h"
 #include "TestShapes.h"
 
 #include <cadrefine/base/Vector3.h>
@@ -36,17 +36,6 @@ using namespace cadrefine;
 constexpr double pi = 3.14159265358979323846;
 
 using Data = cadtest::FilterRun::Data;
-
-Data refineToQuadratic(const cadtest::FilterRun& filters, vtkPointSet* mesh, int levels)
-{
-  return filters.run<vtkRefineWithCAD>(mesh,
-    [&](vtkRefineWithCAD* filter)
-    {
-      filter->SetMethod(vtkRefineWithCAD::UNIFORM_BISECTION);
-      filter->SetLevels(levels);
-      filter->QuadraticCellsOn();
-    });
-}
 
 std::map<int, int> countTypes(vtkPointSet* data)
 {
@@ -157,11 +146,11 @@ void expectValid(const cadtest::FilterRun& filters, vtkPointSet* data, bool docu
 TEST_P(MixedQuadratic, volumeConvergesAtFourthOrder)
 {
   const auto projected = filters.project(problem.mesh());
-  EXPECT_EQ(countTypes(refineToQuadratic(filters, projected, 0)), problem.types);
+  EXPECT_EQ(countTypes(cadtest::refineToQuadratic(filters, projected, 0)), problem.types);
   double before = 0;
   for (int level = 0; level <= 2; ++level)
   {
-    const auto data = refineToQuadratic(filters, projected, level);
+    const auto data = cadtest::refineToQuadratic(filters, projected, level);
     expectValid(filters, data, problem.documented);
     EXPECT_EQ(cadtest::fieldValue(data, "UnprojectedVertices"), 0);
     EXPECT_LT(farthest(data, problem.distance), 1e-11);
@@ -180,7 +169,7 @@ TEST_P(MixedQuadratic, volumeConvergesAtFourthOrder)
 /// By parts of its parameters it converges like 4^-depth to what it is at depth 5.
 TEST_P(MixedQuadratic, errorConvergesWithTheDepth)
 {
-  const auto data = refineToQuadratic(filters, filters.project(problem.mesh()), 1);
+  const auto data = cadtest::refineToQuadratic(filters, filters.project(problem.mesh()), 1);
   const auto errorAt = [&](int depth)
   { return cadtest::fieldValue(filters.measure(data, depth), "GlobalGeometricError"); };
   const double most = errorAt(5);
@@ -219,7 +208,7 @@ TEST_P(MixedQuadratic, densitiesKeepTheirIntegral)
 /// Written and read again, without global ids, it is the same to the filters.
 TEST_P(MixedQuadratic, isReadBack)
 {
-  const auto data = refineToQuadratic(filters, filters.project(problem.mesh()), 1);
+  const auto data = cadtest::refineToQuadratic(filters, filters.project(problem.mesh()), 1);
   vtkNew<vtkUnstructuredGrid> copy;
   copy->ShallowCopy(data);
   copy->GetPointData()->SetGlobalIds(nullptr);
@@ -245,7 +234,7 @@ TEST_P(MixedQuadratic, isReadBack)
 /// Sides on the CAD as cells: those of a volume are the cells' own faces, with their nodes.
 TEST_P(MixedQuadratic, boundaryCellsAreQuadraticToo)
 {
-  const auto data = refineToQuadratic(filters, filters.project(problem.mesh()), 0);
+  const auto data = cadtest::refineToQuadratic(filters, filters.project(problem.mesh()), 0);
   const auto withBoundary = filters.run<vtkCADGeometricError>(
     data, [](vtkCADGeometricError* filter) { filter->SetBoundaryCells(true); });
   using Points = std::set<vtkIdType>;
@@ -273,23 +262,7 @@ TEST_P(MixedQuadratic, boundaryCellsAreQuadraticToo)
 /// A surface in space: quadrilaterals in an unstructured grid.
 TEST(MixedQuadraticCells, ofASurfaceConvergeToTheSphere)
 {
-  const cadtest::TemporaryFolder folder;
-  const cadtest::FilterRun filters(cadtest::writeInto(folder, cadtest::sphere(2), ".step"));
-  const auto projected = filters.project(cadtest::sphereOfQuadrilaterals(2));
-  double before = 0;
-  for (int level = 1; level <= 3; ++level)
-  {
-    const auto data = refineToQuadratic(filters, projected, level);
-    EXPECT_EQ(data->GetCellType(0), VTK_QUADRATIC_QUAD);
-    EXPECT_EQ(cadtest::fieldValue(data, "InvalidCells"), 0);
-    EXPECT_EQ(cadtest::fieldValue(data, "UnprojectedVertices"), 0);
-    const double error = cadtest::fieldValue(filters.measure(data, 2), "GlobalGeometricError");
-    if (level > 1)
-    {
-      EXPECT_GT(std::log2(before / error), 3.8) << "level " << level;
-    }
-    before = error;
-  }
+  cadtest::expectConvergenceToTheSphere(cadtest::sphereOfQuadrilaterals(2), VTK_QUADRATIC_QUAD);
 }
 
 /// Pyramids on the CAD keep straight edges: what they lack is counted and measured.
@@ -298,7 +271,7 @@ TEST(MixedQuadraticCells, pyramidsStayStraight)
   const cadtest::TemporaryFolder folder;
   const cadtest::FilterRun filters(cadtest::writeInto(folder, cadtest::sphere(2), ".step"));
   const auto projected = filters.project(cadtest::cubeOfPyramids(2));
-  const auto data = refineToQuadratic(filters, projected, 0);
+  const auto data = cadtest::refineToQuadratic(filters, projected, 0);
   expectValid(filters, data);
   EXPECT_EQ(cadtest::fieldValue(data, "UnprojectedVertices"), 12); // the cube's edges
   EXPECT_NEAR(cadtest::sizeOf(data), cadtest::sizeOf(projected), 1e-13);
@@ -321,7 +294,8 @@ TEST(MixedQuadraticCells, stayValidWhereNodesCannotReachTheCAD)
   }
   for (const SimplexMesh& mesh : meshes)
   {
-    const auto data = refineToQuadratic(filters, filters.project(cadtest::toGrid(mesh)), 0);
+    const auto data =
+      cadtest::refineToQuadratic(filters, filters.project(cadtest::toGrid(mesh)), 0);
     expectValid(filters, data);
     EXPECT_GT(cadtest::fieldValue(data, "UnprojectedVertices"), 0);
     EXPECT_GT(
@@ -333,8 +307,8 @@ TEST(MixedQuadraticCells, aFoldedNodeIsFound)
 {
   const cadtest::TemporaryFolder folder;
   const cadtest::FilterRun filters(cadtest::writeInto(folder, cadtest::cylinder(2, 3), ".step"));
-  const auto data =
-    refineToQuadratic(filters, filters.project(cadtest::cylinderOfWedges(2, 3, 8, 2, false)), 0);
+  const auto data = cadtest::refineToQuadratic(
+    filters, filters.project(cadtest::cylinderOfWedges(2, 3, 8, 2, false)), 0);
   vtkIdList* nodes = data->GetCell(3)->GetPointIds();
   double end[3];
   data->GetPoint(nodes->GetId(0), end);

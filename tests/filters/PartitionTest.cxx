@@ -5,11 +5,10 @@
 #include "FilterRun.h"
 #include "MeshChecks.h"
 #include "ParallelTest.h"
-#include "SamePieces.h"
+#include "SameSteps.h"
 #include "TestMeshes.h"
 #include "TestShapes.h"
 
-#include <vtkCADBoundary.h>
 #include <vtkDataArray.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
@@ -17,7 +16,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 namespace cadrefine
 {
@@ -260,54 +258,14 @@ protected:
     return mesh;
   }
 
-  using Steps = std::vector<cadtest::FilterRun::Data>;
-
-  /// The mesh after each filter: projected, measured, refined locally, refined uniformly, its
-  /// boundary, measured with its boundary's cells.
-  Steps run(vtkPointSet* mesh, vtkMultiProcessController* controller) const
-  {
-    const cadtest::FilterRun filters(cadFile(), controller);
-    Steps steps{ filters.project(mesh) };
-    steps.push_back(filters.measure(steps.back(), 2));
-    steps.push_back(filters.run<vtkRefineWithCAD>(steps.back(),
-      [&](vtkRefineWithCAD* filter)
-      {
-        filter->SetMarkingArray("GeometricError");
-        filter->SetThreshold(problem.threshold);
-        filter->SetLevels(3);
-        filter->SetBalance(GetParam().balance);
-      }));
-    steps.push_back(filters.run<vtkRefineWithCAD>(steps.back(),
-      [&](vtkRefineWithCAD* filter)
-      {
-        filter->SetMethod(vtkRefineWithCAD::UNIFORM_BISECTION);
-        filter->SetBalance(GetParam().balance);
-      }));
-    steps.push_back(filters.run<vtkCADBoundary>(steps.back(), [](vtkCADBoundary*) {}));
-    steps.push_back(filters.run<vtkCADGeometricError>(*std::prev(steps.end(), 2),
-      [](vtkCADGeometricError* filter)
-      {
-        filter->SetRecursionDepth(1);
-        filter->SetBoundaryCells(true);
-      }));
-    return steps;
-  }
+  using Steps = cadtest::Steps;
 
   /// Of each step that `runSteps` makes of a mesh. Returns the steps of this rank's piece.
   template<class RunSteps>
   Steps expectSameAsOnOneRank(const RunSteps& runSteps)
   {
-    const auto whole = wholeMesh();
-    const auto rankOfCell = cadtest::deal(GetParam().dealing, whole, exchange.size());
-    const auto piece = cadtest::pieceOf(whole, rankOfCell, exchange.rank(), GetParam().ghosts);
-    Steps pieces = runSteps(piece, worldController());
-    const Steps serial = exchange.rank() == 0 ? runSteps(whole, nullptr) : Steps(pieces.size());
-    for (std::size_t step = 0; step < pieces.size(); ++step)
-    {
-      SCOPED_TRACE("after step " + std::to_string(step));
-      cadtest::expectSame(exchange, pieces[step], serial[step]);
-    }
-    return pieces;
+    return cadtest::expectSameSteps(
+      exchange, wholeMesh(), GetParam().dealing, GetParam().ghosts, runSteps);
   }
 
   /// Of the mesh put together from all ranks.
@@ -323,17 +281,6 @@ protected:
     EXPECT_TRUE(cadtest::hasNoHangingVertex(mesh));
     EXPECT_TRUE(cadtest::isWatertight(mesh, problem.onBoundary));
   }
-
-  /// Field values are the same on every rank, also on one that holds nothing.
-  void expectFieldValuesAgree(vtkPointSet* piece)
-  {
-    for (const char* name :
-      { "GlobalGeometricError", "MaximumGeometricDistance", "InvalidCells", "UnprojectedVertices" })
-    {
-      const double value = cadtest::fieldValue(piece, name);
-      EXPECT_EQ(exchange.min(value), exchange.max(value)) << name;
-    }
-  }
 };
 
 INSTANTIATE_TEST_SUITE_P(Problems, Partition, testing::ValuesIn(cases()),
@@ -341,11 +288,14 @@ INSTANTIATE_TEST_SUITE_P(Problems, Partition, testing::ValuesIn(cases()),
 
 TEST_P(Partition, givesTheSameMeshAsOneRank)
 {
-  const Steps pieces =
-    expectSameAsOnOneRank([&](vtkPointSet* mesh, vtkMultiProcessController* controller)
-      { return run(mesh, controller); });
+  const Steps pieces = expectSameAsOnOneRank(
+    [&](vtkPointSet* mesh, vtkMultiProcessController* controller)
+    {
+      return cadtest::refinementSteps(cadtest::FilterRun(cadFile(), controller), mesh,
+        { problem.threshold, 3, GetParam().balance });
+    });
   expectSound(pieces.back());
-  expectFieldValuesAgree(pieces.back());
+  cadtest::expectFieldValuesAgree(exchange, pieces.back());
 }
 
 /// Cells of second order, of the meshes that a vtkUnstructuredGrid can hold.
@@ -396,7 +346,7 @@ TEST_P(QuadraticPartition, givesTheSameMeshAsOneRank)
       { return runToQuadratic(mesh, controller); });
   EXPECT_EQ(cadtest::fieldValue(pieces.back(), "InvalidCells"), 0);
   EXPECT_GT(cadtest::fieldValue(pieces.back(), "CADVertices"), 0);
-  expectFieldValuesAgree(pieces.back());
+  cadtest::expectFieldValuesAgree(exchange, pieces.back());
 }
 
 } // namespace

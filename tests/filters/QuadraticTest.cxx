@@ -3,7 +3,7 @@
 
 #include "CurvedFacets.h"
 #include "DataSets.h"
-#include "FilterRun.h"
+#include "QuadraticRuns.h"
 #include "TestMeshes.h"
 #include "TestShapes.h"
 
@@ -71,19 +71,6 @@ Solid coarseBall()
     32 * pi / 3, distanceToSphere };
 }
 
-cadtest::FilterRun::Data refineToQuadratic(const cadtest::FilterRun& filters, vtkPointSet* mesh,
-  int levels, int operations = vtkRefineWithCAD::ALL_OPERATIONS)
-{
-  return filters.run<vtkRefineWithCAD>(mesh,
-    [&](vtkRefineWithCAD* filter)
-    {
-      filter->SetOperations(operations);
-      filter->SetMethod(vtkRefineWithCAD::UNIFORM_BISECTION);
-      filter->SetLevels(levels);
-      filter->QuadraticCellsOn();
-    });
-}
-
 double largestValue(vtkDataArray* array)
 {
   double largest = 0;
@@ -129,7 +116,7 @@ TEST_P(QuadraticSolid, distanceFallsAtThirdOrderOverThreeLevels)
   double deficitBefore = 0;
   for (int level = 1; level <= 3; ++level)
   {
-    const auto data = refineToQuadratic(filters, projected, level);
+    const auto data = cadtest::refineToQuadratic(filters, projected, level);
     expectSound(filters, data);
     EXPECT_EQ(cadtest::fieldValue(data, "UnprojectedVertices"), 0);
     const auto facets = cadtest::outerFacets(data);
@@ -157,7 +144,7 @@ TEST_P(QuadraticSolid, distanceFallsAtThirdOrderOverThreeLevels)
 /// 4^-depth; its distance is the largest that dense sampling finds.
 TEST_P(QuadraticSolid, errorIsTheVolumeBetween)
 {
-  const auto data = refineToQuadratic(filters, filters.project(solid.mesh), 1);
+  const auto data = cadtest::refineToQuadratic(filters, filters.project(solid.mesh), 1);
   const auto facets = cadtest::outerFacets(data);
   const double volume = cadtest::integralOver(facets, solid.distance);
   double before = 0;
@@ -205,7 +192,7 @@ std::set<Point3> pointsOnCAD(vtkPointSet* data)
 TEST_P(QuadraticSolid, nodesOnTheCADAreTheVerticesOfTheNextLevel)
 {
   const auto projected = filters.project(solid.mesh);
-  const auto data = refineToQuadratic(filters, projected, 0);
+  const auto data = cadtest::refineToQuadratic(filters, projected, 0);
   expectSound(filters, data);
   EXPECT_EQ(data->GetNumberOfCells(), solid.mesh->GetNumberOfCells());
   const auto next = filters.refineUniformly(projected);
@@ -245,7 +232,7 @@ TEST(QuadraticCells, stayValidWhereNodesCannotReachTheCAD)
   double off = 0;
   for (int level = 0; level <= 2; ++level)
   {
-    const auto data = refineToQuadratic(filters, projected, level, cutOnly);
+    const auto data = cadtest::refineToQuadratic(filters, projected, level, cutOnly);
     expectSound(filters, data);
     off += cadtest::fieldValue(data, "UnprojectedVertices");
     EXPECT_LE(cadtest::fieldValue(data, "UnprojectedVertices"),
@@ -260,7 +247,7 @@ TEST(QuadraticCells, stayValidWhereNodesCannotReachTheCAD)
   const auto changed = filters.project(solid.mesh);
   for (int level = 0; level <= 2; ++level)
   {
-    const auto data = refineToQuadratic(filters, changed, level);
+    const auto data = cadtest::refineToQuadratic(filters, changed, level);
     expectSound(filters, data);
     EXPECT_EQ(cadtest::fieldValue(data, "UnprojectedVertices"), 0);
   }
@@ -275,7 +262,7 @@ TEST(QuadraticCells, inThePlaneConvergeToTheCircle)
   double before = 0;
   for (int level = 1; level <= 3; ++level)
   {
-    const auto data = refineToQuadratic(filters, projected, level);
+    const auto data = cadtest::refineToQuadratic(filters, projected, level);
     expectSound(filters, data);
     EXPECT_EQ(data->GetCellType(0), VTK_QUADRATIC_TRIANGLE);
     EXPECT_EQ(cadtest::fieldValue(data, "UnprojectedVertices"), 0);
@@ -300,7 +287,7 @@ TEST(QuadraticCells, inThePlaneFollowThreeArcs)
   double before = 0;
   for (int level = 1; level <= 3; ++level)
   {
-    const auto data = refineToQuadratic(filters, projected, level);
+    const auto data = cadtest::refineToQuadratic(filters, projected, level);
     expectSound(filters, data);
     EXPECT_EQ(cadtest::fieldValue(data, "UnprojectedVertices"), 0);
     const double distance =
@@ -316,22 +303,8 @@ TEST(QuadraticCells, inThePlaneFollowThreeArcs)
 /// A surface in space: triangles in an unstructured grid.
 TEST(QuadraticCells, ofASurfaceConvergeToTheSphere)
 {
-  const cadtest::TemporaryFolder folder;
-  const cadtest::FilterRun filters(cadtest::writeInto(folder, cadtest::sphere(2), ".step"));
-  const auto projected = filters.project(cadtest::toGrid(cadtest::sphereMesh(2, 0.03)));
-  double before = 0;
-  for (int level = 1; level <= 3; ++level)
-  {
-    const auto data = refineToQuadratic(filters, projected, level);
-    EXPECT_EQ(cadtest::fieldValue(data, "InvalidCells"), 0);
-    EXPECT_EQ(cadtest::fieldValue(data, "UnprojectedVertices"), 0);
-    const double error = cadtest::fieldValue(filters.measure(data, 2), "GlobalGeometricError");
-    if (level > 1)
-    {
-      EXPECT_GT(std::log2(before / error), 3.8) << "level " << level;
-    }
-    before = error;
-  }
+  cadtest::expectConvergenceToTheSphere(
+    cadtest::toGrid(cadtest::sphereMesh(2, 0.03)), VTK_QUADRATIC_TRIANGLE);
 }
 
 /// A ball with tags on its surface, and arrays.
@@ -342,7 +315,7 @@ protected:
   cadtest::FilterRun filters{ cadtest::writeInto(folder, cadtest::sphere(2), ".step") };
   vtkSmartPointer<vtkUnstructuredGrid> mesh = makeMesh();
   cadtest::FilterRun::Data projected = filters.project(mesh);
-  cadtest::FilterRun::Data data = refineToQuadratic(filters, projected, 1);
+  cadtest::FilterRun::Data data = cadtest::refineToQuadratic(filters, projected, 1);
 
   static vtkSmartPointer<vtkUnstructuredGrid> makeMesh()
   {
