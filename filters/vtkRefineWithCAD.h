@@ -58,8 +58,8 @@ public:
   /**
    * Whether the cells of the output are of second order: VTK_QUADRATIC_TETRA, ..., whose mid nodes
    * are put onto the CAD like new vertices, as far as all cells stay valid by Bezier bounds of
-   * their Jacobian; those of pyramids stay in the middle. Only for vtkUnstructuredGrid; no filter here refines such a mesh
-   * further. Default off.
+   * their Jacobian; those of pyramids stay in the middle. Only for vtkUnstructuredGrid; no filter
+   * here refines such a mesh further. Default off.
    */
   vtkSetMacro(QuadraticCells, bool);
   vtkGetMacro(QuadraticCells, bool);

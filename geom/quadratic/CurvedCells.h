@@ -63,8 +63,8 @@ BezierForm<6> jacobianOf(const CurvedTriangle& nodes, const Vector3& side);
 /// degree 3 in each parameter of the square (16 coefficients), 5 of the cube (216), and 4 over the
 /// triangle and 5 along the prism (90). It is with respect to parameters from 0 to 1: the mean of
 /// the coefficients is the volume of the hexahedron and the area of the quadrilateral, twice the
-/// volume of the wedge. As long as that of a tetrahedron, of the wedge three times, of the hexahedron
-/// ten times.
+/// volume of the wedge. As long as that of a tetrahedron, of the wedge three times, of the
+/// hexahedron ten times.
 ///
 /// Rounding: with S the largest 1-norm of a node less the first one, a Bezier point errs by less
 /// than 150 u S, a derivative's coefficient by 420 u S; M being the largest 1-norm of those in one
