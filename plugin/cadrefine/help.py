@@ -33,8 +33,8 @@ examples:
     xvfb-run -a pvpython cadrefine.py plane.vtu plane.igs --region 0 0.2 -1 1 -1 1 \\
         --screenshot nose.png
 
-formats of MESH (hexahedra, wedges, pyramids and tetrahedra, or quadrilaterals and triangles; cells of
-lower dimension carry tags):
+formats of MESH (hexahedra, wedges, pyramids and tetrahedra, or quadrilaterals and triangles;
+cells of lower dimension carry tags):
   .vtu .pvtu .vtk .vtp ...  VTK's files, and whatever else ParaView reads
   .msh                      gmsh, versions 2.2 and 4.1, text and binary, with physical groups
   .xdmf                     as written by meshio, DOLFIN, DOLFINx, ParaView; all grids of the domain
