@@ -43,8 +43,8 @@ struct Motion
   const std::vector<Point3> start; ///< Points of the unmoved mesh.
   Moves moves; ///< Targets: of all vertices; of those that have none, where they are.
   std::vector<unsigned char> slid; ///< Vertices on the CAD whose target has changed.
-  /// 1 for vertices of cells that are not simplices, which make no way; none: there are no such
-  /// cells.
+  /// 1 for vertices of wedges, hexahedra and quadrilaterals, which make no way; none: there are
+  /// no other cells than simplices.
   std::vector<unsigned char> held;
   LayerColumns columns;
   std::vector<Index> aimed; ///< Vertices that are to reach the CAD; some more than once.
@@ -84,6 +84,12 @@ std::vector<Index> invalidCells(const SimplexMesh& mesh, const Vector3& plane)
     [&](std::size_t c) { return isInvalid(mesh, plane, static_cast<Index>(c)); });
 }
 
+/// See planeNormal. Collective.
+Vector3 planeOf(RankExchange& exchange, const SimplexMesh& mesh)
+{
+  return mesh.dimension == 2 ? planeNormal(exchange, mesh) : Vector3{};
+}
+
 /// `mixed`: whether some rank has other cells than simplices. Collective.
 std::vector<unsigned char> findHeld(RankExchange& exchange, const DistributedMesh& mesh, bool mixed)
 {
@@ -96,11 +102,12 @@ std::vector<unsigned char> findHeld(RankExchange& exchange, const DistributedMes
   visitOwnShapes(piece,
     [&](auto shape, const auto& cells)
     {
+      const bool makesWay = isSimplex(shape) || decltype(shape)::corners == 5; // a pyramid
       for (const auto& cell : cells)
       {
         for (const Index vertex : cell)
         {
-          held[vertex] = held[vertex] || !isSimplex(shape);
+          held[vertex] = held[vertex] || !makesWay;
         }
       }
     });
@@ -194,8 +201,7 @@ void takeAlong(Motion& motion, std::vector<Index>& moving, std::vector<Index>& s
   {
     return;
   }
-  const std::vector<Index> vertices = motion.columns.follow(
-    motion.exchange, motion.moves, motion.settings.projector, motion.classification);
+  const std::vector<Index> vertices = motion.columns.follow(motion.exchange, motion.moves);
   moving.insert(moving.end(), vertices.begin(), vertices.end());
   for (const Index vertex : vertices)
   {
@@ -213,20 +219,23 @@ void stayThere(Motion& motion, const std::vector<Index>& vertices)
   }
 }
 
-/// Moves vertices of the region to their places there, and `others` to their targets.
-void moveTo(Motion& motion, const Region& region, const std::vector<Index>& others)
+/// Moves vertices of the region to their places there, and those that are `moving` already to their
+/// targets. Those that are `settled`, or come to be, stay where they come to.
+void moveTo(Motion& motion, const Region& region, std::vector<Index> moving = {},
+  std::vector<Index> settled = {})
 {
   Moves& moves = motion.moves;
   const std::vector<Point3>& points = motion.mesh().points;
-  std::vector<Index> moving;
-  std::vector<Index> settled; // they stay where they come to
   for (const auto& [vertex, point] : region.places)
   {
     if (point == points[vertex])
     {
       continue;
     }
-    moving.push_back(vertex);
+    if (moves.fractions[vertex] == 0)
+    {
+      moving.push_back(vertex);
+    }
     const bool isInterior = motion.isInterior(vertex);
     const bool slides = !isInterior && !motion.isStuck(vertex);
     if (isInterior || slides)
@@ -236,14 +245,6 @@ void moveTo(Motion& motion, const Region& region, const std::vector<Index>& othe
     motion.slid[vertex] = motion.slid[vertex] || (!isInterior && point != moves.targets[vertex]);
     moves.add(vertex, point);
     moves.whole[vertex] = slides;
-  }
-  for (const Index vertex : others)
-  {
-    if (moves.fractions[vertex] == 0)
-    {
-      moving.push_back(vertex);
-      moves.add(vertex, moves.targets[vertex]);
-    }
   }
   takeAlong(motion, moving, settled);
   const SimplexMesh& mesh = motion.mesh();
@@ -258,15 +259,22 @@ void moveTo(Motion& motion, const Region& region, const std::vector<Index>& othe
 /// One more round: what is left goes on, and what is round it makes way.
 void tryAgain(Motion& motion, const Left& left, int round)
 {
+  std::vector<Index> moving = left.stuck;
+  for (const Index vertex : moving)
+  {
+    motion.moves.add(vertex, motion.moves.targets[vertex]);
+  }
+  std::vector<Index> settled;
+  takeAlong(motion, moving, settled);
   std::vector<unsigned char> flags(motion.start.size(), 0);
   flagVertices(motion.mesh(), left.invalid, flags);
-  for (const Index vertex : left.stuck)
+  for (const Index vertex : moving)
   {
     flags[vertex] = 1;
   }
   const Region region = untangleRound(motion, std::move(flags), motion.moves.targets,
     1 + round / roundsARing, round >= roundsBeforeSliding);
-  moveTo(motion, region, left.stuck);
+  moveTo(motion, region, std::move(moving), std::move(settled));
 }
 
 /// Vertices that slid and then stopped: to the nearest point of their entity.
@@ -301,8 +309,7 @@ void smooth(Motion& motion, const MoveGuard& guard)
   }
   const bool isSurface = motion.mesh().dimension == 2 && motion.plane == Vector3{};
   const double fair = motion.settings.smoothWorst ? fairQuality : noQuality;
-  moveTo(
-    motion, untangleRound(motion, std::move(flags), motion.mesh().points, 1, isSurface, fair), {});
+  moveTo(motion, untangleRound(motion, std::move(flags), motion.mesh().points, 1, isSurface, fair));
 }
 
 /// Writes where vertices slid to, and how far those that were to move are from their targets.
@@ -331,14 +338,16 @@ void moveOntoCAD(RankExchange& exchange, DistributedMesh& mesh, Moves moves,
 {
   const Progress& progress = exchange.progress();
   progress.say(0, "moving vertices onto the CAD");
-  const Vector3 plane = mesh.mesh().dimension == 2 ? planeNormal(exchange, mesh.mesh()) : Vector3{};
+  const Vector3 plane = planeOf(exchange, mesh.mesh());
   const std::vector<Index> aimed = movingVertices(moves);
   Left left{ aimed, settings.mendCells ? invalidCells(mesh.mesh(), plane) : std::vector<Index>{} };
   const bool mixed = exchange.any(mesh.mesh().hasOtherThanSimplices());
   Motion motion{ exchange, mesh, classification, settings, forOnThreads(exchange), plane,
     mesh.mesh().points, Moves(mesh.mesh()),
     std::vector<unsigned char>(mesh.mesh().points.size(), 0), findHeld(exchange, mesh, mixed),
-    LayerColumns(exchange, mesh, moves, settings.fixed, plane, mixed), aimed };
+    LayerColumns(
+      exchange, mesh, moves, settings.projector, classification, settings.fixed, plane, mixed),
+    aimed };
   motion.moves = std::move(moves);
 
   std::vector<Index> moving = aimed;
@@ -365,6 +374,32 @@ void moveOntoCAD(RankExchange& exchange, DistributedMesh& mesh, Moves moves,
     smooth(motion, guard);
   }
   record(motion, classification);
+}
+
+std::vector<Point3> wantedPoints(RankExchange& exchange, const DistributedMesh& mesh,
+  const BoundaryProjector& projector, const Classification& classification,
+  const std::vector<unsigned char>& fixed)
+{
+  const SimplexMesh& piece = mesh.mesh();
+  const auto& distances = classification.distances;
+  const auto off = indicesWhere(distances.size(), [&](std::size_t v) { return distances[v] > 0; });
+  if (!exchange.any(!off.empty()))
+  {
+    return piece.points;
+  }
+  Moves moves(piece);
+  for (const Index vertex : off)
+  {
+    moves.add(
+      vertex, projector.nearestOn(classification.entities[vertex], piece.points[vertex]).point);
+  }
+  LayerColumns columns(exchange, mesh, moves, projector, classification, fixed,
+    planeOf(exchange, piece), exchange.any(piece.hasOtherThanSimplices()));
+  if (columns.any())
+  {
+    columns.follow(exchange, moves);
+  }
+  return moves.targets;
 }
 
 } // namespace cadrefine

@@ -52,4 +52,12 @@ struct MoveSettings
 void moveOntoCAD(RankExchange& exchange, DistributedMesh& mesh, Moves moves,
   Classification& classification, const MoveSettings& settings);
 
+/// Where the vertices are wanted: those off the CAD at the nearest point of their entity, the
+/// layers over them along with them (see LayerColumns), all others where they are. `fixed`: see
+/// MoveSettings. Collective. Work: where vertices are off the CAD, that of nearestOn for each, and
+/// of LayerColumns.
+std::vector<Point3> wantedPoints(RankExchange& exchange, const DistributedMesh& mesh,
+  const BoundaryProjector& projector, const Classification& classification,
+  const std::vector<unsigned char>& fixed);
+
 } // namespace cadrefine

@@ -26,6 +26,11 @@ constexpr double inPlane = 1e-9;
 /// A column is so many times as high as the move of its wall, at most: over that the move may fade
 /// out, as no height changes by more than some hundredths, and the first one not by one.
 constexpr double reachOfMove = 100;
+/// A stack that is so many moves high takes all of a move, and no cell of it loses more than 1.5
+/// over this of its height; of a lower one so much less fades out within it.
+constexpr double heightsOfMove = 6;
+/// A vertex on the CAD that goes along comes off its way by less of it.
+constexpr double alongEntity = 0.1;
 
 double smaller(double a, double b)
 {
@@ -120,7 +125,7 @@ public:
   }
 
   /// Collective.
-  std::vector<ColumnVertex> run(RankExchange& exchange)
+  std::vector<ColumnVisit> run(RankExchange& exchange)
   {
     const auto isEmpty = [](const std::vector<Front>& fronts) { return fronts.empty(); };
     while (exchange.any(!std::all_of(outgoing_.begin(), outgoing_.end(), isEmpty)))
@@ -213,7 +218,7 @@ private:
   const CellStacks& stacks_;
   std::vector<std::pair<GlobalId, Index>> vertexOf_; ///< Of the ids of shared vertices.
   std::vector<std::vector<Front>> outgoing_;
-  std::vector<ColumnVertex> visited_;
+  std::vector<ColumnVisit> visited_;
 };
 
 /// For each moving vertex the facet that its column stands on. Collective.
@@ -241,8 +246,9 @@ std::vector<BestFacet> findBestFacets(RankExchange& exchange, const DistributedM
 } // namespace
 
 LayerColumns::LayerColumns(RankExchange& exchange, const DistributedMesh& mesh, const Moves& moves,
+  const BoundaryProjector& projector, const Classification& classification,
   const std::vector<unsigned char>& fixed, const Vector3& plane, bool mixed)
-  : mesh_(mesh), plane_(plane)
+  : mesh_(mesh), projector_(projector), classification_(classification), plane_(plane)
 {
   const SimplexMesh& piece = mesh.mesh();
   const bool isSurface = piece.dimension == 2 && plane == Vector3{};
@@ -266,38 +272,38 @@ LayerColumns::LayerColumns(RankExchange& exchange, const DistributedMesh& mesh, 
       }
     }
   }
-  const std::vector<ColumnVertex> visited = climb.run(exchange);
-  listColumns(exchange, visited, moves);
-  const auto spans = findSpans(exchange, visited, moves);
-  for (const auto& [vertex, column, level, height] : visited)
+  listMembers(exchange, climb.run(exchange), moves);
+  const auto spans = findSpans(exchange, moves);
+  const auto isBeyond = [&](const Member& member)
   {
-    const Index c = numberOf(column);
-    const auto& [first, end] = spans[c];
-    if (height < end)
-    {
-      const double x = (height - first) / (end - first);
-      members_.push_back({ vertex, c, 1 - x * x * (3 - 2 * x) });
-    }
+    const Span& span = spans[member.column];
+    return member.height > span.end || (member.height == span.end && span.faded == 1);
+  };
+  members_.erase(std::remove_if(members_.begin(), members_.end(), isBeyond), members_.end());
+  for (Member& member : members_)
+  {
+    const auto& [first, end, faded] = spans[member.column];
+    const double x = end > first ? (member.height - first) / (end - first) : 0;
+    member.part = 1 - faded * x * x * (3 - 2 * x);
   }
 }
 
-Index LayerColumns::numberOf(GlobalId column) const
+/// The columns that came to vertices of this rank, and these vertices.
+void LayerColumns::listMembers(
+  RankExchange& exchange, const std::vector<ColumnVisit>& visits, const Moves& moves)
 {
-  return static_cast<Index>(
-    std::lower_bound(columns_.begin(), columns_.end(), column) - columns_.begin());
-}
-
-/// Those that came to vertices of this rank.
-void LayerColumns::listColumns(
-  RankExchange& exchange, const std::vector<ColumnVertex>& visited, const Moves& moves)
-{
-  std::transform(visited.begin(), visited.end(), std::back_inserter(columns_),
-    [](const ColumnVertex& v) { return v.column; });
+  std::transform(visits.begin(), visits.end(), std::back_inserter(columns_),
+    [](const ColumnVisit& visit) { return visit.column; });
   std::sort(columns_.begin(), columns_.end());
   columns_.erase(std::unique(columns_.begin(), columns_.end()), columns_.end());
   std::vector<Index> numbers(columns_.size());
   std::iota(numbers.begin(), numbers.end(), 0);
   shared_ = findSharedVertices(exchange, columns_, numbers);
+  for (const auto& [vertex, column, level, height] : visits)
+  {
+    const auto found = std::lower_bound(columns_.begin(), columns_.end(), column);
+    members_.push_back({ vertex, static_cast<Index>(found - columns_.begin()), level, height, 0 });
+  }
 
   const SimplexMesh& mesh = mesh_.mesh();
   std::vector<std::pair<GlobalId, Index>> moving;
@@ -317,42 +323,69 @@ void LayerColumns::listColumns(
   }
 }
 
-/// Collective.
-std::vector<LayerColumns::Span> LayerColumns::findSpans(
-  RankExchange& exchange, const std::vector<ColumnVertex>& visited, const Moves& moves) const
+/// 1 for members whose vertex an earlier column has: one that comes to it in fewer cells, or, in as
+/// many, whose wall's vertex has the smaller id. Collective.
+std::vector<unsigned char> LayerColumns::findLost(RankExchange& exchange, const Moves& moves) const
 {
   std::vector<Claim> claims(mesh_.mesh().points.size());
   for (std::size_t v = 0; v < claims.size(); ++v)
   {
     claims[v] = moves.fractions[v] > 0 ? Claim{ 0, -1 } : Claim{};
   }
-  for (const auto& [vertex, column, level, height] : visited)
+  const auto claimOf = [&](const Member& member) {
+    return Claim{ member.level, columns_[member.column] };
+  };
+  for (const Member& member : members_)
   {
-    claims[vertex] = std::min(claims[vertex], Claim{ level, column });
+    claims[member.vertex] = std::min(claims[member.vertex], claimOf(member));
   }
   combineShared(
     exchange, mesh_.shared, claims, [](const Claim& a, const Claim& b) { return std::min(a, b); });
+  std::vector<unsigned char> lost;
+  std::transform(members_.begin(), members_.end(), std::back_inserter(lost),
+    [&](const Member& member) { return claims[member.vertex] < claimOf(member); });
+  return lost;
+}
 
+/// Collective.
+std::vector<LayerColumns::Span> LayerColumns::findSpans(
+  RankExchange& exchange, const Moves& moves) const
+{
+  const auto isLost = findLost(exchange, moves);
   std::vector<double> firsts(columns_.size(), infinity);
   std::vector<double> lost(columns_.size(), infinity);
   std::vector<double> tops(columns_.size(), 0);
-  for (const auto& [vertex, column, level, height] : visited)
+  for (std::size_t k = 0; k < members_.size(); ++k)
   {
-    const Index c = numberOf(column);
+    const auto& [vertex, c, level, height, part] = members_[k];
     firsts[c] = std::min(firsts[c], height);
     tops[c] = std::max(tops[c], height);
-    if (claims[vertex].column != column || claims[vertex].level != level)
-    {
-      lost[c] = std::min(lost[c], height);
-    }
+    lost[c] = isLost[k] ? std::min(lost[c], height) : lost[c];
   }
   combineShared(exchange, shared_, firsts, smaller);
   combineShared(exchange, shared_, lost, smaller);
   combineShared(exchange, shared_, tops, larger);
+
+  const auto ofWalls = movesOfWalls(exchange, moves);
+  const auto blocked = findBlocked(exchange, ofWalls);
+  std::vector<double> faded(columns_.size(), 0);
+  for (const Member& member : members_)
+  {
+    const Index c = member.column;
+    const double move = norm(ofWalls[c]);
+    const double height = tops[c] - firsts[c];
+    if (member.height == tops[c])
+    {
+      const bool goesAlong = lost[c] == infinity && tops[c] < reachOfMove * move &&
+                             !blocked[member.vertex] && keepsDirection(member.vertex, ofWalls[c]);
+      faded[c] = goesAlong ? std::max(faded[c], std::min(1.0, height / (heightsOfMove * move))) : 1;
+    }
+  }
+  combineShared(exchange, shared_, faded, larger);
   std::vector<Span> spans(columns_.size());
   for (std::size_t c = 0; c < spans.size(); ++c)
   {
-    spans[c] = { firsts[c], std::min(lost[c], tops[c]) };
+    spans[c] = { firsts[c], std::min(lost[c], tops[c]), faded[c] };
   }
   return spans;
 }
@@ -374,8 +407,8 @@ std::vector<Vector3> LayerColumns::movesOfWalls(RankExchange& exchange, const Mo
 }
 
 /// 1 for vertices of a boundary off the CAD that would leave the plane of a facet.
-std::vector<unsigned char> LayerColumns::findBlocked(RankExchange& exchange,
-  const std::vector<Vector3>& ofWalls, const Classification& classification) const
+std::vector<unsigned char> LayerColumns::findBlocked(
+  RankExchange& exchange, const std::vector<Vector3>& ofWalls) const
 {
   const SimplexMesh& mesh = mesh_.mesh();
   std::vector<Vector3> ofVertices(mesh.points.size(), Vector3{});
@@ -392,7 +425,7 @@ std::vector<unsigned char> LayerColumns::findBlocked(RankExchange& exchange,
     for (const Index v : facet)
     {
       const Vector3& move = ofVertices[v];
-      blocked[v] = blocked[v] || (!classification.entities[v] &&
+      blocked[v] = blocked[v] || (!classification_.entities[v] &&
                                    std::abs(dot(move, normal)) > inPlane * norm(move));
     }
   }
@@ -401,21 +434,32 @@ std::vector<unsigned char> LayerColumns::findBlocked(RankExchange& exchange,
   return blocked;
 }
 
-std::vector<Index> LayerColumns::follow(RankExchange& exchange, Moves& moves,
-  const BoundaryProjector& projector, const Classification& classification)
+/// Where a move brings a vertex that keeps to its entity.
+Point3 LayerColumns::placeOf(Index vertex, const Vector3& move) const
+{
+  const Point3 target = mesh_.mesh().points[vertex] + move;
+  const EntityId entity = classification_.entities[vertex];
+  return entity ? projector_.nearestOn(entity, target).point : target;
+}
+
+bool LayerColumns::keepsDirection(Index vertex, const Vector3& move) const
+{
+  return distance(placeOf(vertex, move), mesh_.mesh().points[vertex] + move) <=
+         alongEntity * norm(move);
+}
+
+std::vector<Index> LayerColumns::follow(RankExchange& exchange, Moves& moves)
 {
   const auto ofWalls = movesOfWalls(exchange, moves);
-  const auto blocked = findBlocked(exchange, ofWalls, classification);
+  const auto blocked = findBlocked(exchange, ofWalls);
   following_.clear();
   std::vector<Place> places(mesh_.mesh().points.size());
   for (const Member& member : members_)
   {
-    const auto& [vertex, column, part] = member;
-    if (ofWalls[column] != Vector3{} && !blocked[vertex])
+    const Vector3& move = ofWalls[member.column];
+    if (move != Vector3{} && !blocked[member.vertex])
     {
-      const Point3 target = mesh_.mesh().points[vertex] + part * ofWalls[column];
-      const EntityId entity = classification.entities[vertex];
-      places[vertex] = { entity ? projector.nearestOn(entity, target).point : target, 1 };
+      places[member.vertex] = { placeOf(member.vertex, member.part * move), 1 };
       following_.push_back(member);
     }
   }
@@ -426,8 +470,11 @@ std::vector<Index> LayerColumns::follow(RankExchange& exchange, Moves& moves,
   {
     if (places[v].isSet)
     {
-      vertices.push_back(static_cast<Index>(v));
-      moves.add(vertices.back(), places[v].point);
+      if (moves.fractions[v] == 0)
+      {
+        vertices.push_back(static_cast<Index>(v));
+      }
+      moves.add(static_cast<Index>(v), places[v].point);
     }
   }
   return vertices;
@@ -437,9 +484,9 @@ std::vector<Index> LayerColumns::follow(RankExchange& exchange, Moves& moves,
 template<class Use>
 void LayerColumns::forAllTied(const Use& use) const
 {
-  for (const auto& [vertex, column, part] : following_)
+  for (const Member& member : following_)
   {
-    use(column, vertex);
+    use(member.column, member.vertex);
   }
   for (std::size_t c = 0; c < walls_.size(); ++c)
   {

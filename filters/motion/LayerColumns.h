@@ -14,7 +14,7 @@ namespace cadrefine
 {
 
 /// A vertex that a column comes to, so many cells and so far above the wall.
-struct ColumnVertex
+struct ColumnVisit
 {
   Index vertex;
   GlobalId column;
@@ -29,9 +29,12 @@ struct ColumnVertex
 /// vertex that counts whose normal is nearest to the direction of the move.
 ///
 /// A wall's vertex takes its column along: the first vertex of it all the way, so that the height
-/// of the first cell stays, the others less and less (by 1 - 3 x^2 + 2 x^3 of the height over the
-/// first), the last one not at all. Vertices of a column that are on a boundary keep to it: those
-/// on the CAD to their entity, others move if they stay in the planes of their facets.
+/// of the first cell stays, the others less and less (by 3 x^2 - 2 x^3 of the height over the
+/// first), the last one not at all. On a stack that is lower than six moves what follows has to
+/// make way: so much less fades out that no cell of the stack loses more than a quarter of its
+/// height. Vertices of a column that are on a boundary keep to it: those on the CAD to their
+/// entity, others move if they stay in the planes of their facets; where the last one cannot go
+/// along, all of the move fades out.
 ///
 /// Work: linear in the cells that are not simplices. Messages: one to and from each neighbour for
 /// every time that columns cross between ranks, and a few more.
@@ -42,50 +45,57 @@ public:
   /// the normal of a planar mesh, is zero in 2D. `fixed`: 1 for vertices on the boundary, over all
   /// ranks. Collective.
   LayerColumns(RankExchange& exchange, const DistributedMesh& mesh, const Moves& moves,
+    const BoundaryProjector& projector, const Classification& classification,
     const std::vector<unsigned char>& fixed, const Vector3& plane, bool mixed);
 
   /// Whether there may be columns, on any rank.
   bool any() const { return any_; }
 
-  /// Adds the moves of the columns' vertices to those of their walls. Returns these vertices.
-  /// Collective.
-  std::vector<Index> follow(RankExchange& exchange, Moves& moves,
-    const BoundaryProjector& projector, const Classification& classification);
+  /// Adds the moves of the columns' vertices to those of their walls. Returns those of these
+  /// vertices that did not move before. Collective.
+  std::vector<Index> follow(RankExchange& exchange, Moves& moves);
 
   /// Makes all vertices of a column that follow, and that of its wall, go the same part of their
   /// way: the smallest. Collective.
   void tie(RankExchange& exchange, Moves& moves) const;
 
 private:
-  /// A vertex of a column.
+  /// A vertex that a column comes to, see ColumnVisit.
   struct Member
   {
     Index vertex;
     Index column;
+    std::int64_t level;
+    double height;
     double part; ///< Of the move of the wall's vertex.
   };
 
-  /// Heights of a column's first vertex, and of where it ends.
+  /// Heights of a column's first vertex, and of where it ends; what part of the move has faded out
+  /// there.
   struct Span
   {
     double first;
     double end;
+    double faded;
   };
 
-  Index numberOf(GlobalId column) const;
-  void listColumns(
-    RankExchange& exchange, const std::vector<ColumnVertex>& visited, const Moves& moves);
-  std::vector<Span> findSpans(
-    RankExchange& exchange, const std::vector<ColumnVertex>& visited, const Moves& moves) const;
+  void listMembers(
+    RankExchange& exchange, const std::vector<ColumnVisit>& visits, const Moves& moves);
+  std::vector<unsigned char> findLost(RankExchange& exchange, const Moves& moves) const;
+  std::vector<Span> findSpans(RankExchange& exchange, const Moves& moves) const;
 
   /// The moves of the walls of all columns of this rank. Collective.
   std::vector<Vector3> movesOfWalls(RankExchange& exchange, const Moves& moves) const;
-  std::vector<unsigned char> findBlocked(RankExchange& exchange,
-    const std::vector<Vector3>& ofWalls, const Classification& classification) const;
+  std::vector<unsigned char> findBlocked(
+    RankExchange& exchange, const std::vector<Vector3>& ofWalls) const;
+  Point3 placeOf(Index vertex, const Vector3& move) const;
+  bool keepsDirection(Index vertex, const Vector3& move) const;
   template<class Use>
   void forAllTied(const Use& use) const;
 
   const DistributedMesh& mesh_;
+  const BoundaryProjector& projector_;
+  const Classification& classification_;
   Vector3 plane_;
   bool any_ = false;
   std::vector<Facet> facets_;     ///< Of the mesh's boundary.

@@ -46,25 +46,36 @@ LocalPatch makePatch(const SimplexMesh& mesh, const MovingVertices& vertices, co
     }
     return vertex;
   };
-  const auto add = [&](const auto& cells, auto& ofPatch)
+  const auto add = [&](auto cell, auto& ofPatch)
   {
-    for (const Index c : cellsOfShape(vertices.cells, 0, cells.size()))
+    if (std::any_of(cell.begin(), cell.end(), [&](Index v) { return vertices.free[v] != 0; }))
     {
-      auto cell = cells[c];
-      if (std::any_of(cell.begin(), cell.end(), [&](Index v) { return vertices.free[v] != 0; }))
-      {
-        std::transform(cell.begin(), cell.end(), cell.begin(), patchVertex);
-        ofPatch.push_back(cell);
-      }
+      std::transform(cell.begin(), cell.end(), cell.begin(), patchVertex);
+      ofPatch.push_back(cell);
     }
   };
   if (mesh.dimension == 3)
   {
-    add(mesh.tetrahedra, patch.mesh.tetrahedra);
+    for (const Index c : cellsOfShape(vertices.cells, 0, mesh.tetrahedra.size()))
+    {
+      add(mesh.tetrahedra[c], patch.mesh.tetrahedra);
+    }
+    for (const Index c : cellsOfShape(vertices.cells, mesh.tetrahedra.size(), mesh.pyramids.size()))
+    {
+      const auto& [a, b, d, e, apex] = mesh.pyramids[c];
+      for (const auto& tetrahedron :
+        { std::array{ a, b, e, apex }, { b, d, a, apex }, { d, e, b, apex }, { e, a, d, apex } })
+      {
+        add(tetrahedron, patch.mesh.tetrahedra);
+      }
+    }
   }
   else
   {
-    add(mesh.triangles, patch.mesh.triangles);
+    for (const Index c : cellsOfShape(vertices.cells, 0, mesh.triangles.size()))
+    {
+      add(mesh.triangles[c], patch.mesh.triangles);
+    }
   }
   return local;
 }

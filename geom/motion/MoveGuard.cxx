@@ -173,7 +173,9 @@ std::vector<MoveGuard::GuardedCell> MoveGuard::guard(Shape shape, std::vector<In
       guarded.before = stateFrom(shape, cornersOf(cell, mesh_.points), guarded.side);
     }
     const double quality = guarded.before.quality;
-    const double half = std::clamp(0.5 * quality, lowestQuality, qualityFloor);
+    const double half = Shape::corners == shapes::Pyramid::corners
+                          ? pyramidFloor
+                          : std::clamp(0.5 * quality, lowestQuality, qualityFloor);
     guarded.leastQuality = guarded.before.valid ? std::min(half, quality) : quality;
   };
   forEachIndex(

@@ -40,7 +40,9 @@ void flagVertices(
 ///
 /// A cell that is valid accepts moves after which it is valid and its quality (see CellState) is at
 /// least half of what it was in the reference state, but not below `lowestQuality`, or
-/// at least `qualityFloor`; one that is worse than that, inverted or flat, if it gets no worse.
+/// at least `qualityFloor`; of a pyramid at least `pyramidFloor`, as worse ones may be too distorted
+/// to be cut (see cellsCutBadly); one that is worse than that, inverted or flat, if it gets no
+/// worse.
 /// With the state before all moves as reference, no number of moves in a row wears cells down.
 /// Halving the way of the vertices of every cell that does not accept, at once and until all do,
 /// ends in a state that does not depend on the order of cells: the unmoved state is accepted by
@@ -51,6 +53,7 @@ class MoveGuard
 public:
   static constexpr double qualityFloor = 0.05;
   static constexpr double lowestQuality = 0.001;
+  static constexpr double pyramidFloor = 0.1;
   static constexpr int maximumHalvings = 12;
 
   /// For these moves; the starting state is the reference.

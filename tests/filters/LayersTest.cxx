@@ -76,10 +76,7 @@ const std::vector<LayerCase> cases{
   { "ThinHexahedra", 3, BoxKind::Hexahedron, 0.001, 1.7, 14, 0.02, 3 },
   { "ThinWedges", 3, BoxKind::Wedges, 0.001, 1.7, 14, 0.02, 3 },
   { "Quadrilaterals", 2, BoxKind::Hexahedron, 0.001, 1.5, 14, 0.02, 16 },
-};
-
-// Thinner in all than the bulge of the CAD over a facet.
-const std::vector<LayerCase> shallowCases{
+  // Thinner in all than the bulge of the CAD over a facet: what follows on the layers makes way.
   { "Shallow", 3, BoxKind::Wedges, 0.02, 2, 3, 0.02, 2 },
   { "ShallowHexahedra", 3, BoxKind::Hexahedron, 0.02, 2, 3, 0.02, 2 },
   { "ShallowQuadrilaterals", 2, BoxKind::Hexahedron, 0.002, 1.5, 6, 0.02, 12 },
@@ -203,26 +200,22 @@ TEST_P(Layers, keepTheirFirstHeights)
     expectKept(
       refined, straight, static_cast<std::size_t>(cadtest::fieldValue(refined, "CADVertices")));
   }
+  const auto expectKeptUniformly = [&](vtkPointSet* refined, vtkPointSet* from)
   {
-    SCOPED_TRACE("refined uniformly"); // through the layers, too
-    expectKept(filters.refineUniformly(mesh), filters.refineStraight(mesh),
+    expectKept(refined, filters.refineStraight(from),
+      static_cast<std::size_t>(cadtest::fieldValue(refined, "CADVertices")));
+  };
+  const auto uniform = filters.refineUniformly(mesh); // through the layers, too
+  {
+    SCOPED_TRACE("refined uniformly");
+    expectKeptUniformly(uniform, mesh);
+    EXPECT_EQ(cadtest::fieldValue(uniform, "CADVertices"),
       GetParam().dimension == 2 ? 2 * n : 24 * n * n + 2);
   }
-}
-
-class ShallowLayers : public Layers
-{
-};
-
-INSTANTIATE_TEST_SUITE_P(Cases, ShallowLayers, testing::ValuesIn(shallowCases),
-  [](const auto& each) { return each.param.name; });
-
-TEST_P(ShallowLayers, staySound)
-{
-  const auto mesh = filters.project(piece());
-  expectSound(mesh);
-  expectSound(filters.run<vtkRefineWithCAD>(mesh, [](vtkRefineWithCAD*) {}));
-  expectSound(filters.refineUniformly(mesh, 2));
+  {
+    SCOPED_TRACE("refined uniformly once more");
+    expectKeptUniformly(filters.refineUniformly(uniform), uniform);
+  }
 }
 
 } // namespace
