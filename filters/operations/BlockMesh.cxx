@@ -33,11 +33,13 @@ EditableMesh::Kind kindOf(const SimplexMesh& mesh, BoundaryKind boundary)
 
 } // namespace
 
-BlockMesh::BlockMesh(const DistributedMesh& mesh, const Vector3& plane,
-  const std::vector<std::int64_t>& blocksOfVertices, const Classification& classification,
-  const ClassifiedBoundary& boundary, const CellLabels& labels)
-  : mesh_(mesh.mesh()), blocksOfVertices_(blocksOfVertices), classification_(classification),
-    boundary_(boundary), labels_(labels), block_(kindOf(mesh.mesh(), boundary.boundary.kind), plane)
+BlockMesh::BlockMesh(const DistributedMesh& mesh, const std::vector<Point3>& wanted,
+  const Vector3& plane, const std::vector<std::int64_t>& blocksOfVertices,
+  const Classification& classification, const ClassifiedBoundary& boundary,
+  const CellLabels& labels)
+  : mesh_(mesh.mesh()), wanted_(wanted), blocksOfVertices_(blocksOfVertices),
+    classification_(classification), boundary_(boundary), labels_(labels),
+    block_(kindOf(mesh.mesh(), boundary.boundary.kind), plane)
 {
 }
 
@@ -104,13 +106,9 @@ MeshBefore BlockMesh::before() const
 
 EditableMesh::Vertex BlockMesh::vertexOf(Index v) const
 {
-  EditableMesh::Vertex vertex{ mesh_.points[v], mesh_.points[v], classification_.entities[v],
-    classification_.entities[v].dimension == 0, blocksOfVertices_[v] < 0 };
-  if (classification_.distances[v] > 0)
-  {
-    vertex.wanted = boundary_.projector.nearestOn(vertex.entity, vertex.point).point;
-  }
-  return vertex;
+  return { mesh_.points[v], wanted_[v], classification_.entities[v],
+    classification_.entities[v].dimension == 0, blocksOfVertices_[v] < 0,
+    blocksOfVertices_[v] == endOfSegment };
 }
 
 /// In the order of their corners. Labels tell their tags apart, and those that are not on the CAD,

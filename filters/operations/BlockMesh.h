@@ -33,13 +33,16 @@ struct Members
   std::vector<Index> segments;
 };
 
+constexpr std::int64_t endOfSegment = -3;
+
 /// The cells of a block in the order of their ids, with its facets and segments: what the
 /// operations do to them does not depend on how the piece is numbered.
 class BlockMesh
 {
 public:
-  /// `plane`: see planeNormal. `blocksOfVertices`: negative for those that stay.
-  BlockMesh(const DistributedMesh& mesh, const Vector3& plane,
+  /// `wanted`: where the vertices are wanted. `plane`: see planeNormal. `blocksOfVertices`:
+  /// negative for those that stay, `endOfSegment` where listed segments of no block end.
+  BlockMesh(const DistributedMesh& mesh, const std::vector<Point3>& wanted, const Vector3& plane,
     const std::vector<std::int64_t>& blocksOfVertices, const Classification& classification,
     const ClassifiedBoundary& boundary, const CellLabels& labels);
 
@@ -67,6 +70,7 @@ private:
   void keepEndsOfTags();
 
   const SimplexMesh& mesh_;
+  const std::vector<Point3>& wanted_;
   const std::vector<std::int64_t>& blocksOfVertices_;
   const Classification& classification_;
   const ClassifiedBoundary& boundary_;

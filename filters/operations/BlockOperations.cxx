@@ -88,6 +88,22 @@ std::int64_t blockOf(
   return noBlock;
 }
 
+/// Marks the ends of listed segments of no block, on whatever rank.
+void markEndsOfSegments(
+  RankExchange& exchange, const DistributedMesh& mesh, std::vector<std::int64_t>& ofVertices)
+{
+  for (const auto& segment : mesh.mesh().segments)
+  {
+    if (blockOf(segment, ofVertices) == noBlock)
+    {
+      ofVertices[segment[0]] = endOfSegment;
+      ofVertices[segment[1]] = endOfSegment;
+    }
+  }
+  combineShared(exchange, mesh.shared, ofVertices,
+    [](std::int64_t a, std::int64_t b) { return std::min(a, b); });
+}
+
 /// Ids of new vertices: by the order of their blocks, and in a block by that in which they came.
 void numberNewVertices(RankExchange& exchange, const std::vector<std::int64_t>& blocks,
   std::size_t blockCount, DistributedMesh& mesh, std::vector<GlobalId>& ids)
@@ -320,7 +336,8 @@ OperationTrace operateOnBlocks(RankExchange& exchange, DistributedMesh& mesh,
   Classification& classification, const ClassifiedBoundary& boundary, const OperationTask& task,
   const ParallelFor& parallelFor)
 {
-  const auto ofVertices = blocksOfVertices(exchange, mesh, task.blocks.ofCells);
+  auto ofVertices = blocksOfVertices(exchange, mesh, task.blocks.ofCells);
+  markEndsOfSegments(exchange, mesh, ofVertices);
   const auto [members, others] =
     findMembers(mesh, task.blocks.ofCells, ofVertices, boundary.boundary);
   const SurfaceRule rule(boundary.projector);
@@ -330,8 +347,8 @@ OperationTrace operateOnBlocks(RankExchange& exchange, DistributedMesh& mesh,
     list.emplace_back(number, &ofBlock);
   }
   const Vector3 plane = mesh.mesh().dimension == 2 ? planeNormal(exchange, mesh.mesh()) : Vector3{};
-  std::vector<BlockMesh> meshes(
-    list.size(), BlockMesh(mesh, plane, ofVertices, classification, boundary, task.labels));
+  std::vector<BlockMesh> meshes(list.size(),
+    BlockMesh(mesh, task.wanted, plane, ofVertices, classification, boundary, task.labels));
   std::vector<OperationResult> results(list.size());
   std::vector<FieldRows> rows(list.size());
   std::vector<double> seconds(list.size(), 0);

@@ -53,7 +53,8 @@ using BlockWork = std::function<OperationResult(BlockMesh&, const SurfaceRule&)>
 /// What is to be done.
 struct OperationTask
 {
-  const OperationBlocks& blocks; ///< Each on one rank: see ranksOfBlocks.
+  const OperationBlocks& blocks;     ///< Each on one rank: see ranksOfBlocks.
+  const std::vector<Point3>& wanted; ///< Where the vertices are wanted; they need not be there.
   const CellLabels& labels;
   const BlockWork& work;
   CellRowKinds rows = {};
@@ -70,8 +71,8 @@ struct OperationTrace
 };
 
 /// Works on the cells of each block (see improveCells), with the vertices that it shares with
-/// others, or with cells that stay, in place. A vertex of `classification` that has a distance from
-/// the CAD is wanted at its place there; new ones are given theirs. New cells have ids in the order
+/// others, or with cells that stay, in place. New vertices on the CAD are given their distance from
+/// it. New cells have ids in the order
 /// of their parents', new vertices by the order of the blocks: all is the same on any number of
 /// ranks. Collective; messages: 16 bytes a shared vertex, one reduction of 8 bytes a block, and the
 /// numbering of cells (see denseOffsets). Work beside that of the task: that of findFieldRows.

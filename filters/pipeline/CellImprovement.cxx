@@ -188,7 +188,7 @@ private:
       marks[c] = std::any_of(
         cells[c].begin(), cells[c].end(), [&](Index vertex) { return distances[vertex] > 0; });
     }
-    for (const Index cell : badCells(wantedPoints()))
+    for (const Index cell : badCells(wanted()))
     {
       marks[cell] = 1;
     }
@@ -204,25 +204,17 @@ private:
 
   SimplexMesh& mesh() { return state_.mesh.mesh(); }
 
-  /// Where the vertices are wanted. Collective.
-  std::vector<Point3> wantedPoints()
+  /// Collective.
+  std::vector<Point3> wanted()
   {
-    const BoundaryProjector& projector = boundaryOf(context_, state_).projector;
-    const Classification& classification = *state_.classification;
-    std::vector<Point3> wanted = mesh().points;
-    for (std::size_t v = 0; v < wanted.size(); ++v)
-    {
-      if (classification.distances[v] > 0)
-      {
-        wanted[v] = projector.nearestOn(classification.entities[v], wanted[v]).point;
-      }
-    }
-    return wanted;
+    const ClassifiedBoundary& boundary = boundaryOf(context_, state_);
+    return wantedPoints(exchange_, state_.mesh, boundary.projector, *state_.classification,
+      boundary.boundary.onBoundary);
   }
 
   struct Bad
   {
-    std::vector<unsigned char> vertices; ///< 1: of a bad cell, or off the CAD.
+    std::vector<unsigned char> vertices; ///< 1: of a bad cell, or not where it is wanted.
     Left left;
   };
 
@@ -230,15 +222,16 @@ private:
   Bad findBad()
   {
     const auto& distances = state_.classification->distances;
-    std::vector<unsigned char> flags(mesh().points.size(), 0);
-    std::transform(distances.begin(), distances.end(), flags.begin(),
-      [](double distance) { return distance > 0; });
-    const std::vector<Index> off =
-      indicesWhere(flags.size(), [&](std::size_t v) { return flags[v] != 0; });
-    const bool anyOff = exchange_.any(!off.empty());
-    const auto owned = std::count_if(off.begin(), off.end(),
-      [&](Index vertex) { return state_.mesh.shared.owner(vertex) == exchange_.rank(); });
-    const std::vector<Index> cells = badCells(anyOff ? wantedPoints() : mesh().points);
+    const std::vector<Point3> points = wanted();
+    std::vector<unsigned char> flags(points.size(), 0);
+    std::int64_t owned = 0;
+    for (std::size_t v = 0; v < points.size(); ++v)
+    {
+      const bool isOff = distances[v] > 0;
+      flags[v] = isOff || points[v] != mesh().points[v];
+      owned += isOff && state_.mesh.shared.owner(static_cast<Index>(v)) == exchange_.rank();
+    }
+    const std::vector<Index> cells = badCells(points);
     flagVertices(mesh(), cells, flags);
     const auto counts =
       exchange_.sum(std::vector<std::int64_t>{ owned, static_cast<std::int64_t>(cells.size()) });

@@ -1,6 +1,7 @@
 #include "pipeline/LocalOperations.h"
 
 #include "fields/CellTags.h"
+#include "motion/BoundaryMotion.h"
 
 #include <vtkCellData.h>
 #include <vtkNew.h>
@@ -90,8 +91,11 @@ std::int64_t operate(const PipelineContext& context, MeshState& state,
   { return labelsOf(state.arrays.ofCells, cellsOf(mesh, dimension), *state.numberings); };
   const CellLabels ofCells{ labels(3), labels(2), labels(1) };
   const FieldNeeds& needs = state.mapping.needs();
+  const auto wanted = wantedPoints(
+    exchange, state.mesh, boundary.projector, *state.classification, boundary.boundary.onBoundary);
   OperationTrace trace = operateOnBlocks(exchange, state.mesh, *state.classification, boundary,
-    { blocks, ofCells, work, { needs.means, !needs.densities.empty() } }, state.parallelFor);
+    { blocks, wanted, ofCells, work, { needs.means, !needs.densities.empty() } },
+    state.parallelFor);
   context.statistics.add("seconds operation kernels", trace.seconds);
   if (trace.operations == 0)
   {

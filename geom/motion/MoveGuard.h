@@ -40,14 +40,13 @@ void flagVertices(
 ///
 /// A cell that is valid accepts moves after which it is valid and its quality (see CellState) is at
 /// least half of what it was in the reference state, but not below `lowestQuality`, or
-/// at least `qualityFloor`; of a pyramid at least `pyramidFloor`, as worse ones may be too distorted
-/// to be cut (see cellsCutBadly); one that is worse than that, inverted or flat, if it gets no
-/// worse.
-/// With the state before all moves as reference, no number of moves in a row wears cells down.
-/// Halving the way of the vertices of every cell that does not accept, at once and until all do,
-/// ends in a state that does not depend on the order of cells: the unmoved state is accepted by
-/// all. Over ranks take the minimum of the fractions of shared vertices after each sweep, until no
-/// rank changes any.
+/// at least `qualityFloor`; of a pyramid at least `pyramidFloor`, as worse ones may be too
+/// distorted to be cut (see cellsCutBadly); one that is worse than that, inverted or flat, if it
+/// gets no worse. With the state before all moves as reference, no number of moves in a row wears
+/// cells down. Halving the way of the vertices of every cell that does not accept, at once and
+/// until all do, ends in a state that does not depend on the order of cells: the unmoved state is
+/// accepted by all. Over ranks take the minimum of the fractions of shared vertices after each
+/// sweep, until no rank changes any.
 class MoveGuard
 {
 public:

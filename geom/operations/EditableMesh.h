@@ -130,9 +130,10 @@ public:
   {
     Point3 point;
     Point3 wanted;
-    EntityId entity;      ///< Of the CAD; none: not on it.
-    bool stays = false;   ///< It is not moved or taken out.
-    bool isOnRim = false; ///< It has cells beyond this mesh, and stays.
+    EntityId entity;          ///< Of the CAD; none: not on it.
+    bool stays = false;       ///< It is not moved or taken out.
+    bool isOnRim = false;     ///< It has cells beyond this mesh, and stays.
+    bool endsSegment = false; ///< It has segments beyond this mesh.
   };
 
   /// How freely a vertex may be moved or taken out: in space, on facets of one label, along

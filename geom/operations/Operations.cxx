@@ -96,6 +96,16 @@ Ring ringOf(const EditableMesh& mesh, const std::vector<Index>& cells, Index a, 
   return isWhole && ring.vertices.size() <= largestRing ? ring : Ring{ {}, true };
 }
 
+/// Whether an edge may have cells, facets or segments beyond the mesh: if both ends have, unless
+/// its cells are a ring that is closed.
+bool mayGoBeyond(const EditableMesh& mesh, const Ring& ring, Index a, Index b)
+{
+  const EditableMesh::Vertex& one = mesh.vertex(a);
+  const EditableMesh::Vertex& other = mesh.vertex(b);
+  const bool isClosed = !ring.vertices.empty() && ring.isClosed && mesh.facets().at(a, b).empty();
+  return one.isOnRim && other.isOnRim && (!isClosed || (one.endsSegment && other.endsSegment));
+}
+
 /// The triangulation of a ring with the best worst cell.
 class RingTriangulation
 {
@@ -294,13 +304,13 @@ bool proposeEdgeRemoval(const EditableMesh& mesh, Index a, Index b, Cavity& cavi
     return proposeSwap(mesh, a, b, cavity);
   }
   cavity.clear();
-  if ((mesh.vertex(a).isOnRim && mesh.vertex(b).isOnRim) || mesh.segmentOf(a, b) >= 0)
+  if (mesh.segmentOf(a, b) >= 0)
   {
     return false;
   }
   mesh.cells().at(a, b, cavity.cells);
   const Ring ring = ringOf(mesh, cavity.cells, a, b);
-  if (ring.vertices.empty() || !areAlike(mesh, cavity.cells))
+  if (ring.vertices.empty() || mayGoBeyond(mesh, ring, a, b) || !areAlike(mesh, cavity.cells))
   {
     return false;
   }
@@ -392,11 +402,12 @@ bool proposeCollapse(const EditableMesh& mesh, Index from, Index to, Cavity& cav
 bool proposeSplit(const EditableMesh& mesh, Index a, Index b, Index middle, Cavity& cavity)
 {
   cavity.clear();
-  if (mesh.vertex(a).isOnRim && mesh.vertex(b).isOnRim)
+  split(mesh.cells(), a, b, middle, cavity.cells, cavity.newCells);
+  const Ring ring = mesh.dimension() == 3 ? ringOf(mesh, cavity.cells, a, b) : Ring{};
+  if (mayGoBeyond(mesh, ring, a, b))
   {
     return false;
   }
-  split(mesh.cells(), a, b, middle, cavity.cells, cavity.newCells);
   split(mesh.facets(), a, b, middle, cavity.facets, cavity.newFacets);
   split(mesh.segments(), a, b, middle, cavity.segments, cavity.newSegments);
   if (mesh.dimension() == 2)

@@ -178,6 +178,53 @@ TEST_P(CellImprovement, isThatOfOneRank)
   }
 }
 
+/// The edges of every seventh tetrahedron, each once.
+Simplices<2> edgesOfSome(const SimplexMesh& mesh)
+{
+  std::set<std::array<Index, 2>> edges;
+  for (std::size_t c = 0; c < mesh.tetrahedra.size(); c += 7)
+  {
+    for (const auto& [i, j] : tetrahedronEdges)
+    {
+      const auto [low, high] = std::minmax(mesh.tetrahedra[c][i], mesh.tetrahedra[c][j]);
+      edges.insert({ low, high });
+    }
+  }
+  return { edges.begin(), edges.end() };
+}
+
+/// Listed segments stay edges of cells, also those between vertices of several blocks.
+TEST_P(CellImprovement, keepsListedSegments)
+{
+  const cadtest::FilterRun filters(CADREFINE_TRUTH "/box_minus_cylinder.brep");
+  SimplexMesh mesh = cadtest::toMesh(spoiltMesh(filters));
+  mesh.segments = edgesOfSome(mesh);
+  const auto whole = filters.moveOntoCAD(cadtest::toGrid(mesh));
+  const auto model = readCADFile(CADREFINE_TRUTH "/box_minus_cylinder.brep");
+  const auto rankOfCell = cadtest::deal(GetParam(), whole, exchange.size());
+  const auto piece = cadtest::pieceOf(whole, rankOfCell, exchange.rank(), false);
+  const auto gathered = cadtest::gather(exchange, improved(exchange, piece, *model));
+  if (exchange.rank() == 0)
+  {
+    const SimplexMesh after = cadtest::toMesh(gathered);
+    EXPECT_NE(after.tetrahedra.size(), mesh.tetrahedra.size());
+    EXPECT_GE(after.segments.size(), mesh.segments.size());
+    std::set<std::array<Index, 2>> edges;
+    for (const auto& cell : after.tetrahedra)
+    {
+      for (const auto& [i, j] : tetrahedronEdges)
+      {
+        const auto [low, high] = std::minmax(cell[i], cell[j]);
+        edges.insert({ low, high });
+      }
+    }
+    for (const auto& [a, b] : after.segments)
+    {
+      EXPECT_EQ(edges.count({ std::min(a, b), std::max(a, b) }), 1U) << a << " " << b;
+    }
+  }
+}
+
 /// Gives the triangles materials by the side of x = 0 on which their centroids are, and moves
 /// vertices inside these to placeOf(vertex, a random point near it), unless triangles turn over.
 template<class PlaceOf>

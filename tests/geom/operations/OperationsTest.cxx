@@ -137,19 +137,35 @@ TEST(EdgeRemoval, leavesLargeRingsAlone)
   EXPECT_FALSE(proposeEdgeRemoval(ringMesh(8), 0, 1, cavity));
 }
 
-TEST(EdgeRemoval, leavesEdgesOfTheRimAndBetweenMaterialsAlone)
+void setOnRim(EditableMesh& mesh, Index end)
+{
+  EditableMesh::Vertex vertex = mesh.vertex(end);
+  vertex.isOnRim = true;
+  mesh.setVertex(end, vertex);
+}
+
+TEST(Rim, keepsEdgesThatMayHaveCellsBeyond)
+{
+  for (const bool open : { false, true })
+  {
+    EditableMesh mesh = ringMesh(5, open);
+    const Index middle = mesh.addVertex({ {}, {}, {}, false, false });
+    Cavity cavity;
+    for (const Index end : { 0, 1 }) // one end alone does not matter
+    {
+      EXPECT_TRUE(proposeEdgeRemoval(mesh, 0, 1, cavity));
+      EXPECT_TRUE(proposeSplit(mesh, 0, 1, middle, cavity));
+      setOnRim(mesh, end);
+    }
+    // All cells round an edge inside a closed ring are here.
+    EXPECT_NE(proposeEdgeRemoval(mesh, 0, 1, cavity), open);
+    EXPECT_NE(proposeSplit(mesh, 0, 1, middle, cavity), open);
+  }
+}
+
+TEST(EdgeRemoval, leavesEdgesBetweenMaterialsAlone)
 {
   Cavity cavity;
-  EditableMesh atRim = ringMesh(5);
-  for (const Index end : { 0, 1 })
-  {
-    EXPECT_TRUE(proposeEdgeRemoval(atRim, 0, 1, cavity)); // one end alone does not matter
-    EditableMesh::Vertex vertex = atRim.vertex(end);
-    vertex.isOnRim = true;
-    atRim.setVertex(end, vertex);
-  }
-  EXPECT_FALSE(proposeEdgeRemoval(atRim, 0, 1, cavity));
-
   EditableMesh materials = ringMesh(5);
   materials.replace({ { 0 }, {}, {}, { { { 0, 1, 2, 3 }, 1, 0 } }, {}, {} });
   EXPECT_FALSE(proposeEdgeRemoval(materials, 0, 1, cavity));
