@@ -94,10 +94,10 @@ class BadFiles(Case):
         text = GRID.format(points=1, coordinates="0 0 0", cells="0 0", types="0")
         self.assert_fails(self.file("points.vtk", text), self.cad, names="points.vtk: the mesh has no cells")
 
-    def test_mesh_of_hexahedra(self):
+    def test_mesh_of_convex_point_sets(self):
         corners = "0 0 0  1 0 0  1 1 0  0 1 0  0 0 1  1 0 1  1 1 1  0 1 1"
-        text = GRID.format(points=8, coordinates=corners, cells="1 9\n8 0 1 2 3 4 5 6 7", types="1\n12")
-        self.assert_fails(self.file("hexahedra.vtk", text), self.cad, names="hexahedra.vtk: ")
+        text = GRID.format(points=8, coordinates=corners, cells="1 9\n8 0 1 2 3 4 5 6 7", types="1\n41")
+        self.assert_fails(self.file("convex.vtk", text), self.cad, names="convex.vtk: ")
 
     def test_image(self):
         text = ("# vtk DataFile Version 3.0\nimage\nASCII\nDATASET STRUCTURED_POINTS\nDIMENSIONS 2 2 2\n"
