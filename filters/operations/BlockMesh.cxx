@@ -108,7 +108,7 @@ EditableMesh::Vertex BlockMesh::vertexOf(Index v) const
 {
   return { mesh_.points[v], wanted_[v], classification_.entities[v],
     classification_.entities[v].dimension == 0, blocksOfVertices_[v] < 0,
-    blocksOfVertices_[v] == endOfSegment };
+    blocksOfVertices_[v] == besideOthers };
 }
 
 /// In the order of their corners. Labels tell their tags apart, and those that are not on the CAD,

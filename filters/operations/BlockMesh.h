@@ -33,7 +33,7 @@ struct Members
   std::vector<Index> segments;
 };
 
-constexpr std::int64_t endOfSegment = -3;
+constexpr std::int64_t besideOthers = -3;
 
 /// The cells of a block in the order of their ids, with its facets and segments: what the
 /// operations do to them does not depend on how the piece is numbered.
@@ -41,7 +41,7 @@ class BlockMesh
 {
 public:
   /// `wanted`: where the vertices are wanted. `plane`: see planeNormal. `blocksOfVertices`:
-  /// negative for those that stay, `endOfSegment` where listed segments of no block end.
+  /// negative for those that stay, `besideOthers` for those of cells that are not simplices.
   BlockMesh(const DistributedMesh& mesh, const std::vector<Point3>& wanted, const Vector3& plane,
     const std::vector<std::int64_t>& blocksOfVertices, const Classification& classification,
     const ClassifiedBoundary& boundary, const CellLabels& labels);

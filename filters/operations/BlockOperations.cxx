@@ -88,20 +88,40 @@ std::int64_t blockOf(
   return noBlock;
 }
 
-/// Marks the ends of listed segments of no block, on whatever rank.
-void markEndsOfSegments(
+/// Marks the vertices of cells that are not simplices, but for those where a listed segment of no
+/// block ends, on whatever rank.
+void markBesideOthers(
   RankExchange& exchange, const DistributedMesh& mesh, std::vector<std::int64_t>& ofVertices)
 {
+  const auto mark = [&](const auto& cell, std::int64_t code)
+  {
+    for (const Index vertex : cell)
+    {
+      ofVertices[vertex] = code;
+    }
+  };
+  visitOwnShapes(mesh.mesh(),
+    [&](auto shape, const auto& cells)
+    {
+      for (const auto& cell : cells)
+      {
+        if (!isSimplex(shape))
+        {
+          mark(cell, besideOthers);
+        }
+      }
+    });
+  combineShared(exchange, mesh.shared, ofVertices,
+    [](std::int64_t a, std::int64_t b) { return std::min(a, b); });
   for (const auto& segment : mesh.mesh().segments)
   {
-    if (blockOf(segment, ofVertices) == noBlock)
+    if (blockOf(segment, ofVertices) < 0)
     {
-      ofVertices[segment[0]] = endOfSegment;
-      ofVertices[segment[1]] = endOfSegment;
+      mark(segment, manyBlocks);
     }
   }
   combineShared(exchange, mesh.shared, ofVertices,
-    [](std::int64_t a, std::int64_t b) { return std::min(a, b); });
+    [](std::int64_t a, std::int64_t b) { return std::max(a, b); });
 }
 
 /// Ids of new vertices: by the order of their blocks, and in a block by that in which they came.
@@ -337,7 +357,7 @@ OperationTrace operateOnBlocks(RankExchange& exchange, DistributedMesh& mesh,
   const ParallelFor& parallelFor)
 {
   auto ofVertices = blocksOfVertices(exchange, mesh, task.blocks.ofCells);
-  markEndsOfSegments(exchange, mesh, ofVertices);
+  markBesideOthers(exchange, mesh, ofVertices);
   const auto [members, others] =
     findMembers(mesh, task.blocks.ofCells, ofVertices, boundary.boundary);
   const SurfaceRule rule(boundary.projector);

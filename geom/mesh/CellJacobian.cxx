@@ -86,6 +86,32 @@ HexahedronEdges edgesOf(const Hexahedron& corners)
   return edges;
 }
 
+/// A lower bound, but for rounding, of the determinant of the unit vectors along three edges of a
+/// hexahedron, one of each direction, and of the sign of the Jacobian: with m_d the means of the
+/// edges, and r_d how far the others are from them, a determinant of three edges differs from that
+/// of the means by at most the product of the |m_d| + r_d less that of the |m_d|. Below 0 where it
+/// cannot tell. Edges: scaled to 1 in each direction.
+double boundByMeans(const HexahedronEdges& edges)
+{
+  std::array<Vector3, 3> means;
+  double lengths = 1;
+  double longest = 1;
+  for (int d = 0; d < 3; ++d)
+  {
+    const auto& e = edges[d];
+    means[d] = 0.25 * (e[0] + e[1] + e[2] + e[3]);
+    const double radius = std::sqrt(std::max({ squaredNorm(e[0] - means[d]),
+      squaredNorm(e[1] - means[d]), squaredNorm(e[2] - means[d]), squaredNorm(e[3] - means[d]) }));
+    const double length = norm(means[d]);
+    lengths *= length;
+    longest *= length + radius;
+  }
+  return (determinant(means[0], means[1], means[2]) + lengths) / longest - 1;
+}
+
+/// Far above the rounding errors of boundByMeans.
+constexpr double marginOfMeans = 1e-12;
+
 double cornerCoefficient(const HexahedronEdges& edges, int i, int j, int k)
 {
   return determinant(edges[0][j + 2 * k], edges[1][k + 2 * i], edges[2][i + 2 * j]);
@@ -261,6 +287,10 @@ bool hasPositiveJacobian(const Hexahedron& corners)
   {
     return false;
   }
+  if (boundByMeans(edges) > marginOfMeans)
+  {
+    return true;
+  }
   const Coefficients coefficients = coefficientsOf(edges);
   Coefficients bounds;
   std::transform(coefficients.begin(), coefficients.end(), bounds.begin(),
@@ -347,6 +377,14 @@ double scaledJacobian(const Hexahedron& corners)
     least = std::min(least, cornerCoefficient(edges, n & 1, n >> 1 & 1, n >> 2));
   }
   return withSignOf(hasPositiveJacobian(corners), least);
+}
+
+double scaledJacobianBound(const Hexahedron& corners)
+{
+  HexahedronEdges edges = edgesOf(corners);
+  const bool isKnown = scaleToUnit(edges[0]) && scaleToUnit(edges[1]) && scaleToUnit(edges[2]);
+  const double bound = isKnown ? boundByMeans(edges) - marginOfMeans : -1;
+  return bound > 0 ? bound : -1;
 }
 
 double scaledJacobian(const Wedge& corners)

@@ -25,7 +25,8 @@ using Quadrilateral = std::array<Point3, 4>;
 ///   give the others (A. Johnen, J.-C. Weill, J.-F. Remacle, "Robust and efficient validation of
 ///   the linear hexahedral element", 2017). Where one is negative that is not at a corner, the cell
 ///   is halved by de Casteljau's algorithm, so that a valid cell is not refused because its bounds
-///   are loose.
+///   are loose. Before all that: a cell whose opposite edges differ little is near enough to a
+///   parallelepiped.
 /// - Wedge: linear over the triangle and quadratic from one triangle to the other, so that three
 ///   quadratics decide, each by its discriminant.
 /// - Pyramid: with base Q(r, s) and apex A the map is (1 - t) Q + t A, its determinant (1 - t)^2 g
@@ -63,6 +64,10 @@ double scaledJacobian(const Hexahedron& corners);
 double scaledJacobian(const Wedge& corners);
 double scaledJacobian(const Pyramid& corners);
 double scaledJacobian(const Quadrilateral& corners, const Vector3& side);
+
+/// A lower bound of scaledJacobian; -1 where the cell may not be valid. A third of its work, and
+/// close to it where opposite edges are nearly parallel.
+double scaledJacobianBound(const Hexahedron& corners);
 
 /// The integral of the Jacobian determinant.
 double volume(const Hexahedron& corners);

@@ -1,5 +1,6 @@
 #include <cadrefine/mesh/QualitySummary.h>
 
+#include <cadrefine/mesh/CellJacobian.h>
 #include <cadrefine/mesh/CellState.h>
 
 #include <algorithm>
@@ -42,6 +43,14 @@ public:
     else
     {
       add(stateAt(shapes::Tetrahedron{}, p));
+    }
+  }
+
+  void add(shapes::Hexahedron shape, const Hexahedron& p)
+  {
+    if (scaledJacobianBound(p) < summary_.smallestRatio)
+    {
+      add(stateAt(shape, p));
     }
   }
 

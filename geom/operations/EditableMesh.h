@@ -130,10 +130,10 @@ public:
   {
     Point3 point;
     Point3 wanted;
-    EntityId entity;          ///< Of the CAD; none: not on it.
-    bool stays = false;       ///< It is not moved or taken out.
-    bool isOnRim = false;     ///< It has cells beyond this mesh, and stays.
-    bool endsSegment = false; ///< It has segments beyond this mesh.
+    EntityId entity;             ///< Of the CAD; none: not on it.
+    bool stays = false;          ///< It is not moved or taken out.
+    bool isOnRim = false;        ///< It has cells beyond this mesh, and stays.
+    bool isBesideOthers = false; ///< It is on the rim for cells that are no simplices.
   };
 
   /// How freely a vertex may be moved or taken out: in space, on facets of one label, along

@@ -96,14 +96,14 @@ Ring ringOf(const EditableMesh& mesh, const std::vector<Index>& cells, Index a, 
   return isWhole && ring.vertices.size() <= largestRing ? ring : Ring{ {}, true };
 }
 
-/// Whether an edge may have cells, facets or segments beyond the mesh: if both ends have, unless
-/// its cells are a ring that is closed.
+/// Whether an edge may have cells beyond the mesh: if both ends have, unless these are no simplices
+/// and the edge's cells are a closed ring. (Where simplices follow, other blocks have their turn.)
 bool mayGoBeyond(const EditableMesh& mesh, const Ring& ring, Index a, Index b)
 {
   const EditableMesh::Vertex& one = mesh.vertex(a);
   const EditableMesh::Vertex& other = mesh.vertex(b);
   const bool isClosed = !ring.vertices.empty() && ring.isClosed && mesh.facets().at(a, b).empty();
-  return one.isOnRim && other.isOnRim && (!isClosed || (one.endsSegment && other.endsSegment));
+  return one.isOnRim && other.isOnRim && !(isClosed && one.isBesideOthers && other.isBesideOthers);
 }
 
 /// The triangulation of a ring with the best worst cell.

@@ -4,8 +4,9 @@
     tests/benchmarks/refinement.py [--edges N] [--rounds R] [--only NAME ...]
 
 Peers (Debian packages python3-dolfin, python3-dolfinx, python3-gmsh) refine the same box of 6 N^3 tetrahedra, in memory,
-each in a process of its own on one core, in turns with ours; the best of all turns counts. Then ours alone: on two
-ranks, with a CAD against without, and at sizes from 10^5 cells made on. What is timed is the refinement alone, without
+each in a process of its own on one core, in turns with ours; the best of all turns counts. So does deal.II (package
+libdeal.ii-dev), which refines the same box of N^3 hexahedra. Then ours alone: on two ranks, with a CAD against without,
+and at sizes from 10^5 cells made on. What is timed is the refinement alone, without
 making, reading or writing meshes. Seconds on one core are processor time, which a machine that does other work too
 disturbs less than wall clock time; on two ranks both are told.
 """
@@ -86,6 +87,37 @@ def against_peers(edges, rounds):
                   f"{target:>7}", flush=True)
 
 
+def build_dealii(folder):
+    """The program of dealii/; None, and why, where deal.II is not there or does not build."""
+    for command in (["cmake", "-S", os.path.join(HERE, "dealii"), "-B", folder, "-DCMAKE_BUILD_TYPE=Release"],
+                    ["cmake", "--build", folder]):
+        result = subprocess.run(command, capture_output=True, text=True, check=False)
+        if result.returncode != 0:
+            print(f"deal.II is left out ({' '.join(command[:2])} failed; package libdeal.ii-dev): "
+                  f"{result.stderr.strip().splitlines()[0] if result.stderr.strip() else 'no message'}")
+            return None
+    return os.path.join(folder, "dealii_refinement")
+
+
+def of_hexahedra(edges, rounds):
+    print(f"\nOne core, box of {edges**3:,} hexahedra, uniform, no CAD")
+    with tempfile.TemporaryDirectory() as folder:
+        peer = build_dealii(folder)
+        ours, theirs = [], []
+        for _ in range(rounds):
+            ours.append(run_ours("box", "uniform", edges, "--shape", "hexahedra"))
+            if peer:
+                theirs.append(run([peer, str(edges)], 1))
+    best = best_of(ours)
+    print(f"{'ours':>10}: {best['made']:,} made in {best['seconds']:.2f} s, {rate(best):.2f} million a second "
+          "(wanted: 10)", flush=True)
+    if theirs:
+        other = best_of(theirs)
+        print(f"{'deal.II':>10}: {other['made']:,} made in {other['seconds']:.2f} s, {rate(other):.2f} million a second; "
+              f"ours is {rate(best) / rate(other):.1f} times as fast", flush=True)
+    print_parts(best)
+
+
 def on_ranks(edges, rounds):
     print(f"\nTwo ranks, box of {6 * edges**3:,} tetrahedra, no CAD; with the cells shared out first, and as they lie")
     for method in ("uniform", "marked"):
@@ -135,10 +167,12 @@ def main():
     parser.add_argument("--edges", type=int, default=40, help="edges along a side of the box (default %(default)s)")
     parser.add_argument("--rounds", type=int, default=3, help="turns of each program (default %(default)s)")
     parser.add_argument("--sizes", type=int, nargs="+", default=SIZES, help="edges of the boxes of several sizes")
-    parser.add_argument("--only", nargs="+", choices=("peers", "ranks", "cad", "sizes"),
-                        default=("peers", "ranks", "cad", "sizes"))
+    parser.add_argument("--hexahedra", type=int, default=60, help="edges along a side of their box (default %(default)s)")
+    parser.add_argument("--only", nargs="+", choices=("peers", "hexahedra", "ranks", "cad", "sizes"),
+                        default=("peers", "hexahedra", "ranks", "cad", "sizes"))
     options = parser.parse_args()
     parts = {"peers": lambda: against_peers(options.edges, options.rounds),
+             "hexahedra": lambda: of_hexahedra(options.hexahedra, options.rounds),
              "ranks": lambda: on_ranks(options.edges, options.rounds),
              "cad": lambda: with_cad(options.rounds),
              "sizes": lambda: at_sizes(options.sizes, options.rounds)}

@@ -1,6 +1,6 @@
 """RefineWithCAD's time in pvpython or, on several ranks, in pvbatch. Prints a JSON object on rank 0.
 
-    refinement_ours.py box uniform|marked EDGES [--balance 0|1]
+    refinement_ours.py box uniform|marked EDGES [--balance 0|1] [--shape tetrahedra|hexahedra]
     refinement_ours.py wing cad|straight MESH [--levels N]
 
 `seconds` is the processor time of the filter alone, `wall` its wall clock time. `peak_bytes` is what the process held
@@ -29,13 +29,13 @@ BOX = """
 import sys
 sys.path.insert(0, {here!r})
 import refinement_box
-refinement_box.fill(self.GetOutput(), {edges})
+refinement_box.fill(self.GetOutput(), {edges}, {shape!r})
 """
 
 
-def box(edges):
+def box(edges, shape):
     source = simple.ProgrammableSource(OutputDataSetType="vtkUnstructuredGrid")
-    source.Script = BOX.format(here=HERE, edges=edges)
+    source.Script = BOX.format(here=HERE, edges=edges, shape=shape)
     source.UpdatePipeline()
     return source
 
@@ -83,11 +83,12 @@ def main():
     parser.add_argument("input")
     parser.add_argument("--balance", type=int, default=1)
     parser.add_argument("--levels", type=int, default=1)
+    parser.add_argument("--shape", choices=("tetrahedra", "hexahedra"), default="tetrahedra")
     options = parser.parse_args()
     session.start()
     session.load_plugin()
     if options.case == "box":
-        source = box(int(options.input))
+        source = box(int(options.input), options.shape)
         cad = simple.CADReader(FileName=os.path.join(DATA, "three_arcs.igs"))
         marked = options.method == "marked"
         properties = {"Method": "Longest Edge Bisection" if marked else "Uniform Bisection",

@@ -371,6 +371,43 @@ TEST(HexahedronJacobian, isBoundedWithinTheCell)
   EXPECT_EQ(found, 3);
 }
 
+TEST(HexahedronJacobian, hasALowerBound)
+{
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> size(0, 0.6);
+  std::uniform_real_distribution<double> factor(0.001, 1);
+  int known = 0;
+  for (int i = 0; i < 2000; ++i)
+  {
+    const Hexahedron cell = scaled(withRandomCorners(cube, size(random), random),
+      { factor(random), factor(random), factor(random) });
+    const double bound = scaledJacobianBound(cell);
+    ASSERT_LE(bound, scaledJacobian(cell));
+    if (bound > 0)
+    {
+      ++known;
+      ASSERT_GT(smallestSample(cell, 4), 0);
+    }
+    else
+    {
+      ASSERT_EQ(bound, -1);
+    }
+    // Nothing is lost of a parallelepiped.
+    const Hexahedron sheared = mapped(scaled(cube, { 1, factor(random), factor(random) }),
+      [&](const Point3& p) {
+        return Point3{ p[0] + p[1], p[1] + 0.5 * p[2], p[2] };
+      });
+    ASSERT_NEAR(scaledJacobianBound(sheared), scaledJacobian(sheared), 1e-11);
+  }
+  EXPECT_GT(known, 300);
+  EXPECT_LT(known, 1900);
+  for (const double scale : { 1e-200, 1e200 })
+  {
+    EXPECT_NEAR(scaledJacobianBound(scaled(cube, { scale, 1, scale })), 1, 1e-11) << scale;
+  }
+  EXPECT_EQ(scaledJacobianBound(scaled(cube, { 1, 0, 1 })), -1);
+}
+
 TEST(HexahedronJacobian, ofACubeWithACornerMovedThroughTheOppositeOne)
 {
   // The determinant at the corner is 3 x - 2.

@@ -157,6 +157,14 @@ TEST(Rim, keepsEdgesThatMayHaveCellsBeyond)
       EXPECT_TRUE(proposeSplit(mesh, 0, 1, middle, cavity));
       setOnRim(mesh, end);
     }
+    EXPECT_FALSE(proposeEdgeRemoval(mesh, 0, 1, cavity));
+    EXPECT_FALSE(proposeSplit(mesh, 0, 1, middle, cavity));
+    for (const Index end : { 0, 1 })
+    {
+      EditableMesh::Vertex vertex = mesh.vertex(end);
+      vertex.isBesideOthers = true;
+      mesh.setVertex(end, vertex);
+    }
     // All cells round an edge inside a closed ring are here.
     EXPECT_NE(proposeEdgeRemoval(mesh, 0, 1, cavity), open);
     EXPECT_NE(proposeSplit(mesh, 0, 1, middle, cavity), open);
