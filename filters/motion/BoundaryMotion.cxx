@@ -90,14 +90,14 @@ Vector3 planeOf(RankExchange& exchange, const SimplexMesh& mesh)
   return mesh.dimension == 2 ? planeNormal(exchange, mesh) : Vector3{};
 }
 
-/// `mixed`: whether some rank has other cells than simplices. Collective.
-std::vector<unsigned char> findHeld(RankExchange& exchange, const DistributedMesh& mesh, bool mixed)
+/// Collective.
+std::vector<unsigned char> findHeld(RankExchange& exchange, const DistributedMesh& mesh)
 {
-  if (!mixed)
+  const SimplexMesh& piece = mesh.mesh();
+  if (!exchange.any(piece.hasOtherThanSimplices()))
   {
     return {};
   }
-  const SimplexMesh& piece = mesh.mesh();
   std::vector<unsigned char> held(piece.points.size(), 0);
   visitOwnShapes(piece,
     [&](auto shape, const auto& cells)
@@ -341,12 +341,10 @@ void moveOntoCAD(RankExchange& exchange, DistributedMesh& mesh, Moves moves,
   const Vector3 plane = planeOf(exchange, mesh.mesh());
   const std::vector<Index> aimed = movingVertices(moves);
   Left left{ aimed, settings.mendCells ? invalidCells(mesh.mesh(), plane) : std::vector<Index>{} };
-  const bool mixed = exchange.any(mesh.mesh().hasOtherThanSimplices());
   Motion motion{ exchange, mesh, classification, settings, forOnThreads(exchange), plane,
     mesh.mesh().points, Moves(mesh.mesh()),
-    std::vector<unsigned char>(mesh.mesh().points.size(), 0), findHeld(exchange, mesh, mixed),
-    LayerColumns(
-      exchange, mesh, moves, settings.projector, classification, settings.fixed, plane, mixed),
+    std::vector<unsigned char>(mesh.mesh().points.size(), 0), findHeld(exchange, mesh),
+    LayerColumns(exchange, mesh, moves, settings.projector, classification, settings.fixed, plane),
     aimed };
   motion.moves = std::move(moves);
 
@@ -393,8 +391,8 @@ std::vector<Point3> wantedPoints(RankExchange& exchange, const DistributedMesh& 
     moves.add(
       vertex, projector.nearestOn(classification.entities[vertex], piece.points[vertex]).point);
   }
-  LayerColumns columns(exchange, mesh, moves, projector, classification, fixed,
-    planeOf(exchange, piece), exchange.any(piece.hasOtherThanSimplices()));
+  LayerColumns columns(
+    exchange, mesh, moves, projector, classification, fixed, planeOf(exchange, piece));
   if (columns.any())
   {
     columns.follow(exchange, moves);

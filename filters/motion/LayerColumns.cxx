@@ -247,12 +247,12 @@ std::vector<BestFacet> findBestFacets(RankExchange& exchange, const DistributedM
 
 LayerColumns::LayerColumns(RankExchange& exchange, const DistributedMesh& mesh, const Moves& moves,
   const BoundaryProjector& projector, const Classification& classification,
-  const std::vector<unsigned char>& fixed, const Vector3& plane, bool mixed)
+  const std::vector<unsigned char>& fixed, const Vector3& plane)
   : mesh_(mesh), projector_(projector), classification_(classification), plane_(plane)
 {
   const SimplexMesh& piece = mesh.mesh();
   const bool isSurface = piece.dimension == 2 && plane == Vector3{};
-  any_ = mixed && !isSurface;
+  any_ = exchange.any(piece.hasOtherThanSimplices()) && !isSurface;
   if (!any_)
   {
     return;

@@ -41,12 +41,12 @@ struct ColumnVisit
 class LayerColumns
 {
 public:
-  /// None, unless the mesh is `mixed`: some rank has other cells than simplices; nor where `plane`,
-  /// the normal of a planar mesh, is zero in 2D. `fixed`: 1 for vertices on the boundary, over all
-  /// ranks. Collective.
+  /// None, unless some rank has other cells than simplices; nor where `plane`, the normal of a
+  /// planar mesh, is zero in 2D. `fixed`: 1 for vertices on the boundary, over all ranks.
+  /// Collective.
   LayerColumns(RankExchange& exchange, const DistributedMesh& mesh, const Moves& moves,
     const BoundaryProjector& projector, const Classification& classification,
-    const std::vector<unsigned char>& fixed, const Vector3& plane, bool mixed);
+    const std::vector<unsigned char>& fixed, const Vector3& plane);
 
   /// Whether there may be columns, on any rank.
   bool any() const { return any_; }

@@ -144,7 +144,7 @@ private:
       {
         return bad.left;
       }
-      moveOn();
+      moveOn(round % 2 == 0);
     }
   }
 
@@ -301,8 +301,9 @@ private:
     return operations > 0;
   }
 
-  /// Vertices that stopped on the way to the CAD try again.
-  void moveOn()
+  /// Vertices that stopped on the way to the CAD try again. Rounds smooth in turns for the worst
+  /// cell and for most cells: where the one leaves vertices, the other may not.
+  void moveOn(bool smoothWorst)
   {
     Classification& classification = *state_.classification;
     const auto& distances = classification.distances;
@@ -315,7 +316,7 @@ private:
     const std::vector<Point3> before = pointsToKeep(state_);
     Moves moves = movesOntoCAD(mesh(), boundary.projector, classification);
     moveOntoCAD(exchange_, state_.mesh, std::move(moves), classification,
-      { boundary.projector, boundary.boundary.onBoundary, false, true, true });
+      { boundary.projector, boundary.boundary.onBoundary, false, true, smoothWorst });
     meshHasChanged(state_);
     scaleDensities(exchange_, state_, before);
   }
