@@ -381,10 +381,11 @@ double scaledJacobian(const Hexahedron& corners)
 
 double scaledJacobianBound(const Hexahedron& corners)
 {
+  constexpr double unknown = -std::numeric_limits<double>::infinity();
   HexahedronEdges edges = edgesOf(corners);
-  const bool isKnown = scaleToUnit(edges[0]) && scaleToUnit(edges[1]) && scaleToUnit(edges[2]);
-  const double bound = isKnown ? boundByMeans(edges) - marginOfMeans : -1;
-  return bound > 0 ? bound : -1;
+  const bool isScaled = scaleToUnit(edges[0]) && scaleToUnit(edges[1]) && scaleToUnit(edges[2]);
+  const double bound = isScaled ? boundByMeans(edges) - marginOfMeans : unknown;
+  return bound > 0 ? bound : unknown;
 }
 
 double scaledJacobian(const Wedge& corners)

@@ -65,8 +65,8 @@ double scaledJacobian(const Wedge& corners);
 double scaledJacobian(const Pyramid& corners);
 double scaledJacobian(const Quadrilateral& corners, const Vector3& side);
 
-/// A lower bound of scaledJacobian; -1 where the cell may not be valid. A third of its work, and
-/// close to it where opposite edges are nearly parallel.
+/// A lower bound of scaledJacobian, below all of its values where the cell may not be valid. A
+/// third of its work, and close to it where opposite edges are nearly parallel.
 double scaledJacobianBound(const Hexahedron& corners);
 
 /// The integral of the Jacobian determinant.

@@ -2,6 +2,7 @@
 
 #include <cadrefine/mesh/QualitySummary.h>
 
+#include "MixedMeshes.h"
 #include "TestMeshes.h"
 
 #include <cadrefine/mesh/Orientation.h>
@@ -54,6 +55,18 @@ TEST(QualitySummary, countsInvertedAndFlatCells)
   expectSame(mesh);
   EXPECT_EQ(summariseCells(mesh).invalidCells, 2);
   EXPECT_LT(summariseCells(mesh).minimum(), 0);
+}
+
+/// Mirrored cubes have the least value that there is, -1, and count all the same.
+TEST(QualitySummary, countsEveryInvertedHexahedron)
+{
+  SimplexMesh mesh = cadtest::hexahedraMesh(2, 0, 1);
+  for (auto& h : mesh.hexahedra)
+  {
+    h = { h[4], h[5], h[6], h[7], h[0], h[1], h[2], h[3] };
+  }
+  EXPECT_EQ(summariseCells(mesh).invalidCells, 8);
+  EXPECT_EQ(summariseCells(mesh).minimum(), -1);
 }
 
 /// Volumes within the rounding errors, of either sign.
