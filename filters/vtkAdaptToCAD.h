@@ -2,7 +2,7 @@
  * @class vtkAdaptToCAD
  * @brief projects a mesh onto the CAD, and refines it until it follows the CAD
  *
- * Input port 0: a mesh (see vtkSimplexMeshAlgorithm). Port 1: the output of a vtkCADReader.
+ * Input port 0: a mesh (see vtkMeshAlgorithm). Port 1: the output of a vtkCADReader.
  *
  * Projects the mesh once (see vtkProjectOntoCAD), unless StartProjected is on; then repeats:
  * measure the geometric error (see vtkCADGeometricError), mark cells, refine them (see
@@ -13,7 +13,7 @@
  * each step, on all ranks alike (while they are in it, they may communicate): the outputs then hold
  * the mesh and the table up to this step, which are made for that; GetStepStatistics and
  * GetFitReport tell of it. An observer wants memory for a mesh more. Where the mesh of the last run
- * is kept (see vtkSimplexMeshAlgorithm), no step is made, and there is no event. An adaptation that
+ * is kept (see vtkMeshAlgorithm), no step is made, and there is no event. An adaptation that
  * is aborted (AbortExecute on any rank, looked at between steps) keeps its last whole step, and is
  * not repeated until the filter is modified. A run resets AbortExecute when it starts.
  *

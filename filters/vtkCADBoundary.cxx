@@ -9,7 +9,7 @@
 
 vtkStandardNewMacro(vtkCADBoundary);
 
-vtkCADBoundary::vtkCADBoundary() : vtkSimplexMeshAlgorithm(true) {}
+vtkCADBoundary::vtkCADBoundary() : vtkMeshAlgorithm(true) {}
 
 vtkCADBoundary::~vtkCADBoundary() = default;
 

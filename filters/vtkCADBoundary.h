@@ -20,13 +20,13 @@
 #define vtkCADBoundary_h
 
 #include "CADRefineFiltersModule.h"
-#include "vtkSimplexMeshAlgorithm.h"
+#include "vtkMeshAlgorithm.h"
 
-class CADREFINEFILTERS_EXPORT vtkCADBoundary : public vtkSimplexMeshAlgorithm
+class CADREFINEFILTERS_EXPORT vtkCADBoundary : public vtkMeshAlgorithm
 {
 public:
   static vtkCADBoundary* New();
-  vtkTypeMacro(vtkCADBoundary, vtkSimplexMeshAlgorithm);
+  vtkTypeMacro(vtkCADBoundary, vtkMeshAlgorithm);
 
 protected:
   vtkCADBoundary();

@@ -10,7 +10,7 @@
 
 vtkStandardNewMacro(vtkCADGeometricError);
 
-vtkCADGeometricError::vtkCADGeometricError() : vtkSimplexMeshAlgorithm(true) {}
+vtkCADGeometricError::vtkCADGeometricError() : vtkMeshAlgorithm(true) {}
 
 vtkCADGeometricError::~vtkCADGeometricError() = default;
 

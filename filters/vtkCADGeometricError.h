@@ -18,13 +18,13 @@
 #define vtkCADGeometricError_h
 
 #include "CADRefineFiltersModule.h"
-#include "vtkSimplexMeshAlgorithm.h"
+#include "vtkMeshAlgorithm.h"
 
-class CADREFINEFILTERS_EXPORT vtkCADGeometricError : public vtkSimplexMeshAlgorithm
+class CADREFINEFILTERS_EXPORT vtkCADGeometricError : public vtkMeshAlgorithm
 {
 public:
   static vtkCADGeometricError* New();
-  vtkTypeMacro(vtkCADGeometricError, vtkSimplexMeshAlgorithm);
+  vtkTypeMacro(vtkCADGeometricError, vtkMeshAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{

@@ -10,7 +10,7 @@
  * are none of any face, those that the selected points lie inside (point arrays of the same names).
  * For a planar mesh, edges take the place of faces. Output: a table with the column Faces, on rank
  * 0 a row each in the order of their numbers: the name, or the number where the name would not do
- * (see vtkSimplexMeshAlgorithm::AddFace).
+ * (see vtkMeshAlgorithm::AddFace).
  *
  * Cost: a look at each selected cell, and at the points if need be; the numbers go to rank 0.
  */

@@ -16,7 +16,7 @@
 
 vtkStandardNewMacro(vtkCoarsenWithCAD);
 
-vtkCoarsenWithCAD::vtkCoarsenWithCAD() : vtkSimplexMeshAlgorithm(true) {}
+vtkCoarsenWithCAD::vtkCoarsenWithCAD() : vtkMeshAlgorithm(true) {}
 
 vtkCoarsenWithCAD::~vtkCoarsenWithCAD() = default;
 

@@ -2,7 +2,7 @@
  * @class vtkCoarsenWithCAD
  * @brief makes the cells of a mesh larger and keeps its boundary on the CAD
  *
- * Input port 0: a mesh (see vtkSimplexMeshAlgorithm) of tetrahedra or triangles that was projected,
+ * Input port 0: a mesh (see vtkMeshAlgorithm) of tetrahedra or triangles that was projected,
  * the output of vtkProjectOntoCAD or vtkRefineWithCAD. Port 1: the output of a vtkCADReader.
  *
  * Output: the mesh with fewer vertices. In a level about every second vertex along each line goes,
@@ -19,15 +19,15 @@
 #define vtkCoarsenWithCAD_h
 
 #include "CADRefineFiltersModule.h"
-#include "vtkSimplexMeshAlgorithm.h"
+#include "vtkMeshAlgorithm.h"
 
 #include <string>
 
-class CADREFINEFILTERS_EXPORT vtkCoarsenWithCAD : public vtkSimplexMeshAlgorithm
+class CADREFINEFILTERS_EXPORT vtkCoarsenWithCAD : public vtkMeshAlgorithm
 {
 public:
   static vtkCoarsenWithCAD* New();
-  vtkTypeMacro(vtkCoarsenWithCAD, vtkSimplexMeshAlgorithm);
+  vtkTypeMacro(vtkCoarsenWithCAD, vtkMeshAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{

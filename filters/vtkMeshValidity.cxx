@@ -15,7 +15,7 @@
 
 vtkStandardNewMacro(vtkMeshValidity);
 
-vtkMeshValidity::vtkMeshValidity() : vtkSimplexMeshAlgorithm(false) {}
+vtkMeshValidity::vtkMeshValidity() : vtkMeshAlgorithm(false) {}
 
 vtkMeshValidity::~vtkMeshValidity() = default;
 
@@ -25,7 +25,7 @@ cadrefine::PipelineResult vtkMeshValidity::Execute(
   using namespace cadrefine;
   MeshState state = readMesh(exchange, input, CellOrder::FirstOrSecond);
   exchange.progress().say(0.5, "checking cells");
-  const SimplexMesh& mesh = state.mesh.mesh();
+  const Mesh& mesh = state.mesh.mesh();
   const CellQualities qualities = measureQuality(exchange, state.mesh);
   const auto cells = static_cast<vtkIdType>(mesh.cellCount());
 

@@ -2,7 +2,7 @@
  * @class vtkMeshValidity
  * @brief finds inverted and degenerate cells, and gives the quality of each
  *
- * Takes a mesh (see vtkSimplexMeshAlgorithm). Output: the mesh with the cell arrays CellValidity
+ * Takes a mesh (see vtkMeshAlgorithm). Output: the mesh with the cell arrays CellValidity
  * (signed char: 1 valid, 0 inverted or degenerate) and CellQuality (of triangles and tetrahedra the
  * mean ratio: 1 is equilateral, 0 flat, negative inverted; of other cells the least scaled
  * Jacobian), and field data InvalidCells and MinimumQuality over all ranks. Tetrahedra are valid if
@@ -15,13 +15,13 @@
 #define vtkMeshValidity_h
 
 #include "CADRefineFiltersModule.h"
-#include "vtkSimplexMeshAlgorithm.h"
+#include "vtkMeshAlgorithm.h"
 
-class CADREFINEFILTERS_EXPORT vtkMeshValidity : public vtkSimplexMeshAlgorithm
+class CADREFINEFILTERS_EXPORT vtkMeshValidity : public vtkMeshAlgorithm
 {
 public:
   static vtkMeshValidity* New();
-  vtkTypeMacro(vtkMeshValidity, vtkSimplexMeshAlgorithm);
+  vtkTypeMacro(vtkMeshValidity, vtkMeshAlgorithm);
 
 protected:
   vtkMeshValidity();

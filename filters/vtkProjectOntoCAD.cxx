@@ -12,7 +12,7 @@
 
 vtkStandardNewMacro(vtkProjectOntoCAD);
 
-vtkProjectOntoCAD::vtkProjectOntoCAD() : vtkSimplexMeshAlgorithm(true) {}
+vtkProjectOntoCAD::vtkProjectOntoCAD() : vtkMeshAlgorithm(true) {}
 
 vtkProjectOntoCAD::~vtkProjectOntoCAD() = default;
 

@@ -2,7 +2,7 @@
  * @class vtkProjectOntoCAD
  * @brief moves the boundary vertices of a mesh onto the CAD
  *
- * Input port 0: a mesh (see vtkSimplexMeshAlgorithm), or a data set with vertices or points only,
+ * Input port 0: a mesh (see vtkMeshAlgorithm), or a data set with vertices or points only,
  * of which every point is projected. Port 1: the output of a vtkCADReader.
  *
  * Output: the mesh with its boundary vertices in the region on the nearest point of the trimmed CAD
@@ -23,13 +23,13 @@
 #define vtkProjectOntoCAD_h
 
 #include "CADRefineFiltersModule.h"
-#include "vtkSimplexMeshAlgorithm.h"
+#include "vtkMeshAlgorithm.h"
 
-class CADREFINEFILTERS_EXPORT vtkProjectOntoCAD : public vtkSimplexMeshAlgorithm
+class CADREFINEFILTERS_EXPORT vtkProjectOntoCAD : public vtkMeshAlgorithm
 {
 public:
   static vtkProjectOntoCAD* New();
-  vtkTypeMacro(vtkProjectOntoCAD, vtkSimplexMeshAlgorithm);
+  vtkTypeMacro(vtkProjectOntoCAD, vtkMeshAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{

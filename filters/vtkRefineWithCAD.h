@@ -2,7 +2,7 @@
  * @class vtkRefineWithCAD
  * @brief refines a mesh and puts every new boundary vertex onto the CAD
  *
- * Input port 0: a mesh (see vtkSimplexMeshAlgorithm); with ProjectNewVertices on, the output of
+ * Input port 0: a mesh (see vtkMeshAlgorithm); with ProjectNewVertices on, the output of
  * vtkProjectOntoCAD or of this filter. Port 1: the output of a vtkCADReader.
  *
  * Output: the refined mesh. Point arrays are interpolated, cell arrays inherited, global ids of new

@@ -9,7 +9,7 @@
 using cadrefine::MarkingCriterion;
 
 vtkRefinementAlgorithm::vtkRefinementAlgorithm(bool cutFacets)
-  : vtkSimplexMeshAlgorithm(true), CutFacets(cutFacets)
+  : vtkMeshAlgorithm(true), CutFacets(cutFacets)
 {
 }
 

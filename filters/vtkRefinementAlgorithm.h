@@ -10,7 +10,7 @@
 #define vtkRefinementAlgorithm_h
 
 #include "CADRefineFiltersModule.h"
-#include "vtkSimplexMeshAlgorithm.h"
+#include "vtkMeshAlgorithm.h"
 
 #include <string>
 
@@ -20,10 +20,10 @@ struct MarkingCriterion;
 struct RefinementOptions;
 } // namespace cadrefine
 
-class CADREFINEFILTERS_EXPORT vtkRefinementAlgorithm : public vtkSimplexMeshAlgorithm
+class CADREFINEFILTERS_EXPORT vtkRefinementAlgorithm : public vtkMeshAlgorithm
 {
 public:
-  vtkTypeMacro(vtkRefinementAlgorithm, vtkSimplexMeshAlgorithm);
+  vtkTypeMacro(vtkRefinementAlgorithm, vtkMeshAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   enum RefinementMethod

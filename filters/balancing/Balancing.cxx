@@ -20,7 +20,7 @@ namespace
 {
 
 template<std::size_t Corners>
-void appendCentres(const SimplexMesh& mesh, const std::vector<std::array<Index, Corners>>& cells,
+void appendCentres(const Mesh& mesh, const std::vector<std::array<Index, Corners>>& cells,
   std::vector<Point3>& centres)
 {
   for (const auto& cell : cells)
@@ -34,7 +34,7 @@ void appendCentres(const SimplexMesh& mesh, const std::vector<std::array<Index, 
 }
 
 /// Centres of all cells, those of dimension 0 first.
-std::vector<Point3> cellCentres(const SimplexMesh& mesh)
+std::vector<Point3> cellCentres(const Mesh& mesh)
 {
   std::vector<Point3> centres;
   centres.reserve(mesh.cellCount());
@@ -55,7 +55,7 @@ public:
   ConvertedMesh make(const std::vector<vtkIdType>& cells)
   {
     part_ = {};
-    const SimplexMesh& piece = mesh_.mesh();
+    const Mesh& piece = mesh_.mesh();
     part_.mesh.dimension = piece.dimension;
     part_.mesh.wedgesAsDocumented = piece.wedgesAsDocumented;
     next_ = cells.begin();
@@ -140,7 +140,7 @@ std::vector<GlobalId> joined(const std::vector<std::vector<GlobalId>>& lists)
   return all;
 }
 
-std::vector<char> pack(const SimplexMesh& part)
+std::vector<char> pack(const Mesh& part)
 {
   const vtkNew<vtkUnstructuredGrid> grid;
   return marshal(makePointSet(grid, part));

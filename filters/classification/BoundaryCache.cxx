@@ -21,7 +21,7 @@ bool operator==(const ClassifiedFacet& a, const ClassifiedFacet& b)
 }
 
 /// Fewer than four: -1 follows.
-std::array<GlobalId, 4> idsOf(const SimplexMesh& mesh, const Facet& facet)
+std::array<GlobalId, 4> idsOf(const Mesh& mesh, const Facet& facet)
 {
   std::array<GlobalId, 4> ids;
   std::transform(facet.vertices.begin(), facet.vertices.end(), ids.begin(),
@@ -41,7 +41,7 @@ std::size_t BoundaryCache::Hash::operator()(const std::array<GlobalId, 4>& ids) 
   return hash;
 }
 
-BoundaryCache::BoundaryCache(const SimplexMesh& mesh, const Classification& classification,
+BoundaryCache::BoundaryCache(const Mesh& mesh, const Classification& classification,
   const ClassifiedBoundary& classified, const std::vector<FacetError>& errors, int depth)
   : edgeClasses_(classified.classes.ofEdges), midpoints_(*classified.midpoints), depth_(depth)
 {
@@ -66,7 +66,7 @@ BoundaryCache::BoundaryCache(const SimplexMesh& mesh, const Classification& clas
 }
 
 Index BoundaryCache::find(
-  const SimplexMesh& mesh, const Facet& facet, const ClassifiedFacet& corners) const
+  const Mesh& mesh, const Facet& facet, const ClassifiedFacet& corners) const
 {
   const auto found = byIds_.find(idsOf(mesh, facet));
   return found != byIds_.end() && facets_[found->second].corners == corners ? found->second : -1;

@@ -21,11 +21,11 @@ class BoundaryCache
 public:
   BoundaryCache() = default;
   /// Of the facets on the CAD of a measured boundary, with their errors at this depth, in order.
-  BoundaryCache(const SimplexMesh& mesh, const Classification& classification,
+  BoundaryCache(const Mesh& mesh, const Classification& classification,
     const ClassifiedBoundary& classified, const std::vector<FacetError>& errors, int depth);
 
   /// The facet with these corners, as it lies on the CAD; -1: none.
-  Index find(const SimplexMesh& mesh, const Facet& facet, const ClassifiedFacet& corners) const;
+  Index find(const Mesh& mesh, const Facet& facet, const ClassifiedFacet& corners) const;
 
   const FacetRecord& record(Index facet) const { return facets_[facet].record; }
   /// The place of the midpoint of its edge k if it is of this class, else null.

@@ -16,7 +16,7 @@ namespace cadrefine
 namespace
 {
 
-void listEdges(const SimplexMesh& mesh, DistributedBoundary& boundary)
+void listEdges(const Mesh& mesh, DistributedBoundary& boundary)
 {
   boundary.edges = EdgeList(mesh.ids);
   for (const Facet& facet : boundary.facets)
@@ -81,7 +81,7 @@ DistributedBoundary findBoundary(RankExchange& exchange, const DistributedMesh& 
   const CADModel& model, const std::vector<unsigned char>& among)
 {
   DistributedBoundary boundary;
-  const SimplexMesh& piece = mesh.mesh();
+  const Mesh& piece = mesh.mesh();
   const bool planar = piece.dimension == 2 && isPlanar(findBounds(exchange, piece), model);
   boundary.kind = planar ? BoundaryKind::Segments : BoundaryKind::Triangles;
   if (piece.dimension == 3 || planar)
@@ -137,7 +137,7 @@ std::vector<std::vector<FacetRecord>> gatherFacetRecords(RankExchange& exchange,
 }
 
 ClassifiedFacet classifiedFacet(
-  const SimplexMesh& mesh, const std::vector<EntityId>& entities, const Facet& facet)
+  const Mesh& mesh, const std::vector<EntityId>& entities, const Facet& facet)
 {
   ClassifiedFacet result;
   result.corners = facet.corners();
@@ -162,7 +162,7 @@ FacetRecord makeRecord(const BoundaryProjector& projector, const ClassifiedFacet
   return record;
 }
 
-Point3 centroidOf(const SimplexMesh& mesh, const Facet& facet)
+Point3 centroidOf(const Mesh& mesh, const Facet& facet)
 {
   Point3 sum{};
   for (const Index vertex : facet)
@@ -200,7 +200,7 @@ std::array<bool, 4> cornersOff(const Classification& classification, const Facet
   return off;
 }
 
-BoundaryClasses classifyBoundary(RankExchange& exchange, const SimplexMesh& mesh,
+BoundaryClasses classifyBoundary(RankExchange& exchange, const Mesh& mesh,
   const DistributedBoundary& boundary, const std::vector<EntityId>& entities,
   const BoundaryProjector& projector, const BoundaryCache& cache)
 {

@@ -58,13 +58,13 @@ std::vector<std::vector<FacetRecord>> gatherFacetRecords(RankExchange& exchange,
 
 /// The facets as the projector sees them.
 ClassifiedFacet classifiedFacet(
-  const SimplexMesh& mesh, const std::vector<EntityId>& entities, const Facet& facet);
+  const Mesh& mesh, const std::vector<EntityId>& entities, const Facet& facet);
 
 /// The record of a facet. It is on the CAD if all of its corners are classified and it fits the CAD
 /// there (BoundaryProjector::isOnCAD).
 FacetRecord makeRecord(const BoundaryProjector& projector, const ClassifiedFacet& facet);
 
-Point3 centroidOf(const SimplexMesh& mesh, const Facet& facet);
+Point3 centroidOf(const Mesh& mesh, const Facet& facet);
 
 /// The CAD face of a triangle on the CAD with this centroid: `common`, that of its record, or where
 /// it spans several (-1) the nearest.
@@ -88,7 +88,7 @@ struct BoundaryClasses
 
 /// Collective. Work: some queries a facet and an edge on the CAD, but for facets that are in the
 /// cache.
-BoundaryClasses classifyBoundary(RankExchange& exchange, const SimplexMesh& mesh,
+BoundaryClasses classifyBoundary(RankExchange& exchange, const Mesh& mesh,
   const DistributedBoundary& boundary, const std::vector<EntityId>& entities,
   const BoundaryProjector& projector, const BoundaryCache& cache);
 

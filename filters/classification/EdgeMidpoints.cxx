@@ -23,8 +23,8 @@ std::int64_t encode(const EdgeClass& edgeClass)
   return 1 + edgeClass.kind + 4 * static_cast<std::int64_t>(edgeClass.edge + 1);
 }
 
-BoundaryEdge edgeOf(const EdgeClass& edgeClass, const std::array<Index, 2>& ends,
-  const SimplexMesh& mesh, const Classification& classification)
+BoundaryEdge edgeOf(const EdgeClass& edgeClass, const std::array<Index, 2>& ends, const Mesh& mesh,
+  const Classification& classification)
 {
   const auto [a, b] = ends;
   return { edgeClass, { mesh.points[a], mesh.points[b] },
@@ -32,7 +32,7 @@ BoundaryEdge edgeOf(const EdgeClass& edgeClass, const std::array<Index, 2>& ends
 }
 
 /// What places the middle of a facet that is a quadrilateral on the CAD.
-BoundaryEdge middleOfFacet(const SimplexMesh& mesh, const Classification& classification,
+BoundaryEdge middleOfFacet(const Mesh& mesh, const Classification& classification,
   const ClassifiedBoundary& classified, Index f)
 {
   const ClassifiedFacet facet =
@@ -118,7 +118,7 @@ SharedQuads findQuads(RankExchange& exchange, const DistributedMesh& mesh, const
       const auto& [c, d] = table.edges[edges[2]];
       quads.corners.push_back({ a, b, c, d });
     }
-    quads.shared = findSharedSimplices(exchange, mesh.shared, mesh.mesh().ids, quads.corners);
+    quads.shared = findSharedCells(exchange, mesh.shared, mesh.mesh().ids, quads.corners);
   }
   return quads;
 }
@@ -171,7 +171,7 @@ Answers<ClosestPoint> projectEdges(RankExchange& exchange, const BoundaryProject
     [&](const BoundaryEdge& edge) { return projector.projectMidpoint(edge); }, work);
 }
 
-WorkBalance findMidpoints(RankExchange& exchange, const SimplexMesh& mesh,
+WorkBalance findMidpoints(RankExchange& exchange, const Mesh& mesh,
   const Classification& classification, const BoundaryCache& cache, ClassifiedBoundary& classified)
 {
   const auto& ends = classified.boundary.edges.edges();
@@ -203,7 +203,7 @@ WorkBalance findMidpoints(RankExchange& exchange, const SimplexMesh& mesh,
   return answers.balance;
 }
 
-std::vector<MidpointOnCAD> projectMidpoints(RankExchange& exchange, const SimplexMesh& mesh,
+std::vector<MidpointOnCAD> projectMidpoints(RankExchange& exchange, const Mesh& mesh,
   const MarkedEdges& edges, const std::vector<std::int64_t>& codes,
   const ClassifiedBoundary& classified, const Classification& classification,
   RunStatistics& statistics)
@@ -278,7 +278,7 @@ std::vector<std::int32_t> quadCodes(RankExchange& exchange, const EdgeTable& tab
   return codes;
 }
 
-void projectQuads(RankExchange& exchange, const SimplexMesh& mesh, const MarkedQuads& quads,
+void projectQuads(RankExchange& exchange, const Mesh& mesh, const MarkedQuads& quads,
   const ClassifiedBoundary& classified, const Classification& classification,
   std::vector<MidpointOnCAD>& hits)
 {

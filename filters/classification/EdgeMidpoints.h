@@ -39,7 +39,7 @@ struct SharedQuads
   SharedItems shared;
 };
 
-/// Collective; work of buildQuadTable, messages of findSharedSimplices.
+/// Collective; work of buildQuadTable, messages of findSharedCells.
 SharedQuads findQuads(RankExchange& exchange, const DistributedMesh& mesh, const EdgeTable& table);
 
 /// With this mark for all edges. Collective; work of buildEdgeTable, messages of findSharedEdges.
@@ -78,12 +78,12 @@ struct MidpointOnCAD
 /// ClassifiedBoundary::midpoints). Collective;
 /// one projection for each that does not stay straight and is not in the cache, shared out evenly
 /// over ranks and threads.
-WorkBalance findMidpoints(RankExchange& exchange, const SimplexMesh& mesh,
+WorkBalance findMidpoints(RankExchange& exchange, const Mesh& mesh,
   const Classification& classification, const BoundaryCache& cache, ClassifiedBoundary& classified);
 
 /// Where the midpoints of marked edges belong, by the class of their edge (S. Strunk, KTH 2013,
 /// Algorithm 4.3). Collective; one projection for each that is not known yet, shared out likewise.
-std::vector<MidpointOnCAD> projectMidpoints(RankExchange& exchange, const SimplexMesh& mesh,
+std::vector<MidpointOnCAD> projectMidpoints(RankExchange& exchange, const Mesh& mesh,
   const MarkedEdges& edges, const std::vector<std::int64_t>& codes,
   const ClassifiedBoundary& classified, const Classification& classification,
   RunStatistics& statistics);
@@ -104,7 +104,7 @@ struct MarkedQuads
 
 /// Appends where the middles of marked quadrilaterals belong. Collective; one projection for each
 /// on the CAD, shared out likewise.
-void projectQuads(RankExchange& exchange, const SimplexMesh& mesh, const MarkedQuads& quads,
+void projectQuads(RankExchange& exchange, const Mesh& mesh, const MarkedQuads& quads,
   const ClassifiedBoundary& classified, const Classification& classification,
   std::vector<MidpointOnCAD>& hits);
 

@@ -1,4 +1,4 @@
-// 1. A simplex is a candidate for a neighbour that holds all of its vertices.
+// 1. A cell is a candidate for a neighbour that holds all of its vertices.
 // 2. Each neighbour gets the sorted list of the candidates' keys (their sorted global ids).
 // 3. What is in both lists is shared.
 
@@ -19,7 +19,7 @@ template<std::size_t N>
 struct Candidate
 {
   std::array<GlobalId, N> key;
-  Index simplex;
+  Index cell;
 };
 
 template<std::size_t N>
@@ -36,15 +36,15 @@ std::vector<Index> slotsOfVertices(const SharedVertices& vertices, std::size_t v
   return slots;
 }
 
-// The other ranks that hold all vertices of a simplex.
+// The other ranks that hold all vertices of a cell.
 template<std::size_t N>
-std::vector<int> commonHolders(const SharedVertices& vertices, const std::vector<Index>& slots,
-  const std::array<Index, N>& simplex)
+std::vector<int> commonHolders(
+  const SharedVertices& vertices, const std::vector<Index>& slots, const std::array<Index, N>& cell)
 {
   std::vector<int> common;
-  for (std::size_t i = 0; i < N && simplex[i] >= 0; ++i)
+  for (std::size_t i = 0; i < N && cell[i] >= 0; ++i)
   {
-    const Index slot = slots[static_cast<std::size_t>(simplex[i])];
+    const Index slot = slots[static_cast<std::size_t>(cell[i])];
     if (slot < 0)
     {
       return {};
@@ -65,12 +65,12 @@ std::vector<int> commonHolders(const SharedVertices& vertices, const std::vector
 }
 
 template<std::size_t N>
-std::array<GlobalId, N> keyOf(const std::vector<GlobalId>& ids, const std::array<Index, N>& simplex)
+std::array<GlobalId, N> keyOf(const std::vector<GlobalId>& ids, const std::array<Index, N>& cell)
 {
   std::array<GlobalId, N> key;
   for (std::size_t i = 0; i < N; ++i)
   {
-    key[i] = simplex[i] < 0 ? -1 : ids[static_cast<std::size_t>(simplex[i])];
+    key[i] = cell[i] < 0 ? -1 : ids[static_cast<std::size_t>(cell[i])];
   }
   std::sort(key.begin(), key.end());
   return key;
@@ -78,7 +78,7 @@ std::array<GlobalId, N> keyOf(const std::vector<GlobalId>& ids, const std::array
 
 template<std::size_t N>
 Candidates<N> findCandidates(const SharedVertices& vertices, const std::vector<GlobalId>& ids,
-  const std::vector<std::array<Index, N>>& simplices)
+  const std::vector<std::array<Index, N>>& cells)
 {
   if (vertices.neighbours.empty())
   {
@@ -86,15 +86,15 @@ Candidates<N> findCandidates(const SharedVertices& vertices, const std::vector<G
   }
   const std::vector<Index> slots = slotsOfVertices(vertices, ids.size());
   Candidates<N> candidates(vertices.neighbours.size());
-  for (std::size_t s = 0; s < simplices.size(); ++s)
+  for (std::size_t s = 0; s < cells.size(); ++s)
   {
-    for (const int rank : commonHolders(vertices, slots, simplices[s]))
+    for (const int rank : commonHolders(vertices, slots, cells[s]))
     {
       const auto neighbour =
         std::lower_bound(vertices.neighbours.begin(), vertices.neighbours.end(), rank) -
         vertices.neighbours.begin();
       candidates[static_cast<std::size_t>(neighbour)].push_back(
-        { keyOf(ids, simplices[s]), static_cast<Index>(s) });
+        { keyOf(ids, cells[s]), static_cast<Index>(s) });
     }
   }
   for (std::vector<Candidate<N>>& list : candidates)
@@ -130,7 +130,7 @@ template<std::size_t N>
 std::vector<Index> presentInBoth(
   const std::vector<Candidate<N>>& mine, const std::vector<std::array<GlobalId, N>>& theirs)
 {
-  std::vector<Index> simplices;
+  std::vector<Index> cells;
   auto their = theirs.begin();
   for (const Candidate<N>& candidate : mine)
   {
@@ -140,19 +140,19 @@ std::vector<Index> presentInBoth(
     }
     if (their != theirs.end() && *their == candidate.key)
     {
-      simplices.push_back(candidate.simplex);
+      cells.push_back(candidate.cell);
     }
   }
-  return simplices;
+  return cells;
 }
 
 } // namespace
 
 template<std::size_t N>
-SharedItems findSharedSimplices(RankExchange& exchange, const SharedVertices& vertices,
-  const std::vector<GlobalId>& ids, const std::vector<std::array<Index, N>>& simplices)
+SharedItems findSharedCells(RankExchange& exchange, const SharedVertices& vertices,
+  const std::vector<GlobalId>& ids, const std::vector<std::array<Index, N>>& cells)
 {
-  const Candidates<N> candidates = findCandidates(vertices, ids, simplices);
+  const Candidates<N> candidates = findCandidates(vertices, ids, cells);
   exchange.agree(reasonAgainst(candidates));
 
   std::vector<std::vector<std::array<GlobalId, N>>> outgoing(candidates.size());
@@ -181,17 +181,17 @@ SharedItems findSharedSimplices(RankExchange& exchange, const SharedVertices& ve
   return makeSharedItems(vertices.rank, std::move(neighbours), std::move(items));
 }
 
-template SharedItems findSharedSimplices<2>(RankExchange&, const SharedVertices&,
+template SharedItems findSharedCells<2>(RankExchange&, const SharedVertices&,
   const std::vector<GlobalId>&, const std::vector<std::array<Index, 2>>&);
-template SharedItems findSharedSimplices<3>(RankExchange&, const SharedVertices&,
+template SharedItems findSharedCells<3>(RankExchange&, const SharedVertices&,
   const std::vector<GlobalId>&, const std::vector<std::array<Index, 3>>&);
-template SharedItems findSharedSimplices<4>(RankExchange&, const SharedVertices&,
+template SharedItems findSharedCells<4>(RankExchange&, const SharedVertices&,
   const std::vector<GlobalId>&, const std::vector<std::array<Index, 4>>&);
-template SharedItems findSharedSimplices<5>(RankExchange&, const SharedVertices&,
+template SharedItems findSharedCells<5>(RankExchange&, const SharedVertices&,
   const std::vector<GlobalId>&, const std::vector<std::array<Index, 5>>&);
-template SharedItems findSharedSimplices<6>(RankExchange&, const SharedVertices&,
+template SharedItems findSharedCells<6>(RankExchange&, const SharedVertices&,
   const std::vector<GlobalId>&, const std::vector<std::array<Index, 6>>&);
-template SharedItems findSharedSimplices<8>(RankExchange&, const SharedVertices&,
+template SharedItems findSharedCells<8>(RankExchange&, const SharedVertices&,
   const std::vector<GlobalId>&, const std::vector<std::array<Index, 8>>&);
 
 SharedVertices sharedWithMidpoints(

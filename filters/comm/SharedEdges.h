@@ -19,30 +19,30 @@ using SharedEdges = SharedItems;
 /// @param exchange the ranks.
 /// @param vertices the local vertices that several ranks hold.
 /// @param ids the global id of each local vertex.
-/// @param simplices each simplex once, its vertices in any order. A simplex that is in several
+/// @param cells each cell once, its vertices in any order. A cell that is in several
 ///   ranks' lists is shared by these ranks; the others' lists need not have it, though they may
 ///   hold all of its vertices.
 ///
 /// Items of a neighbour are ordered by their sorted global ids. Cost: one message to and from each
-/// neighbour of `vertices`, of 8 * N bytes for every simplex all of whose vertices that neighbour
+/// neighbour of `vertices`, of 8 * N bytes for every cell all of whose vertices that neighbour
 /// holds; no other rank is asked.
 ///
-/// Fails, on all ranks with the reason, where one of these simplices is listed twice.
+/// Fails, on all ranks with the reason, where one of these cells is listed twice.
 template<std::size_t N>
-SharedItems findSharedSimplices(RankExchange& exchange, const SharedVertices& vertices,
-  const std::vector<GlobalId>& ids, const std::vector<std::array<Index, N>>& simplices);
+SharedItems findSharedCells(RankExchange& exchange, const SharedVertices& vertices,
+  const std::vector<GlobalId>& ids, const std::vector<std::array<Index, N>>& cells);
 
-extern template SharedItems findSharedSimplices<2>(RankExchange&, const SharedVertices&,
+extern template SharedItems findSharedCells<2>(RankExchange&, const SharedVertices&,
   const std::vector<GlobalId>&, const std::vector<std::array<Index, 2>>&);
-extern template SharedItems findSharedSimplices<3>(RankExchange&, const SharedVertices&,
+extern template SharedItems findSharedCells<3>(RankExchange&, const SharedVertices&,
   const std::vector<GlobalId>&, const std::vector<std::array<Index, 3>>&);
-extern template SharedItems findSharedSimplices<4>(RankExchange&, const SharedVertices&,
+extern template SharedItems findSharedCells<4>(RankExchange&, const SharedVertices&,
   const std::vector<GlobalId>&, const std::vector<std::array<Index, 4>>&);
-extern template SharedItems findSharedSimplices<5>(RankExchange&, const SharedVertices&,
+extern template SharedItems findSharedCells<5>(RankExchange&, const SharedVertices&,
   const std::vector<GlobalId>&, const std::vector<std::array<Index, 5>>&);
-extern template SharedItems findSharedSimplices<6>(RankExchange&, const SharedVertices&,
+extern template SharedItems findSharedCells<6>(RankExchange&, const SharedVertices&,
   const std::vector<GlobalId>&, const std::vector<std::array<Index, 6>>&);
-extern template SharedItems findSharedSimplices<8>(RankExchange&, const SharedVertices&,
+extern template SharedItems findSharedCells<8>(RankExchange&, const SharedVertices&,
   const std::vector<GlobalId>&, const std::vector<std::array<Index, 8>>&);
 
 /// The shared points among the vertices and the midpoints of edges: the shared vertices, and the
@@ -51,11 +51,11 @@ extern template SharedItems findSharedSimplices<8>(RankExchange&, const SharedVe
 SharedVertices sharedWithMidpoints(
   const SharedVertices& vertices, const SharedEdges& edges, const std::vector<Index>& midpointOf);
 
-/// findSharedSimplices for edges.
+/// findSharedCells for edges.
 inline SharedEdges findSharedEdges(RankExchange& exchange, const SharedVertices& vertices,
   const std::vector<GlobalId>& ids, const std::vector<std::array<Index, 2>>& edges)
 {
-  return findSharedSimplices<2>(exchange, vertices, ids, edges);
+  return findSharedCells<2>(exchange, vertices, ids, edges);
 }
 
 } // namespace cadrefine

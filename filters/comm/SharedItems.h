@@ -12,7 +12,7 @@ namespace cadrefine
 {
 
 /// What this rank's piece has in common with those of other ranks. An item is a local number: of a
-/// vertex (findSharedVertices), or of an edge or facet (findSharedSimplices).
+/// vertex (findSharedVertices), or of an edge or facet (findSharedCells).
 struct SharedItems
 {
   /// Ranks on which an item is held, lowest first.

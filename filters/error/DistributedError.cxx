@@ -16,7 +16,7 @@ namespace cadrefine
 namespace
 {
 
-ErrorFacet makeErrorFacet(const SimplexMesh& mesh, const DistributedBoundary& boundary,
+ErrorFacet makeErrorFacet(const Mesh& mesh, const DistributedBoundary& boundary,
   const BoundaryClasses& classes, const Classification& classification, std::size_t f)
 {
   ErrorFacet facet;
@@ -71,7 +71,7 @@ Answers<FacetError> measureCurved(RankExchange& exchange, const DistributedMesh&
 }
 
 /// The facets, with all vertices and edges of this rank's boundary. Collective.
-ClassifiedSurface surfaceOf(RankExchange& exchange, const SimplexMesh& mesh,
+ClassifiedSurface surfaceOf(RankExchange& exchange, const Mesh& mesh,
   const ClassifiedBoundary& classified, const Classification& classification,
   const std::vector<std::size_t>& facets)
 {
@@ -155,7 +155,7 @@ std::size_t runsFor(RankExchange& exchange, std::size_t facets, int depth)
 }
 
 /// Errors of these facets, in their order.
-std::vector<FacetError> measureStraight(RankExchange& exchange, const SimplexMesh& mesh,
+std::vector<FacetError> measureStraight(RankExchange& exchange, const Mesh& mesh,
   const ClassifiedBoundary& classified, const Classification& classification,
   const std::vector<std::size_t>& facets, int depth)
 {
@@ -245,7 +245,7 @@ MeshError measureError(RankExchange& exchange, const DistributedMesh& mesh,
   ClassifiedBoundary& classified, const Classification& classification, const ErrorScope& scope,
   BoundaryCache& cache, bool remember)
 {
-  const SimplexMesh& piece = mesh.mesh();
+  const Mesh& piece = mesh.mesh();
   const DistributedBoundary& boundary = classified.boundary;
   std::vector<std::size_t> facets;
   for (std::size_t f = 0; f < boundary.facets.size(); ++f)

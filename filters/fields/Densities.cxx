@@ -34,7 +34,7 @@ double sizeOf(Shape, const std::array<Point3, Shape::corners>& corners)
 
 /// Rows of cells of the mesh's own dimension of which each comes from one: `sources`, without those
 /// of lower dimension.
-WeightedRows rowsOf(const SimplexMesh& mesh, const std::vector<Point3>& before,
+WeightedRows rowsOf(const Mesh& mesh, const std::vector<Point3>& before,
   const std::vector<Index>& sources, Index firstSource)
 {
   WeightedRows rows;
@@ -90,7 +90,7 @@ double sizeOfCurved(Shape, const CurvedCell<Shape>& nodes, const Vector3& plane)
 
 } // namespace
 
-WeightedRows densitiesOfCurved(const SimplexMesh& mesh, const MidNodes& nodes, const Vector3& plane)
+WeightedRows densitiesOfCurved(const Mesh& mesh, const MidNodes& nodes, const Vector3& plane)
 {
   WeightedRows rows;
   if (mesh.dimension == 2 && plane == Vector3{})
@@ -119,7 +119,7 @@ WeightedRows densitiesOfCurved(const SimplexMesh& mesh, const MidNodes& nodes, c
   return rows;
 }
 
-WeightedRows densitiesOfMoved(const SimplexMesh& mesh, const std::vector<Point3>& before)
+WeightedRows densitiesOfMoved(const Mesh& mesh, const std::vector<Point3>& before)
 {
   std::vector<Index> sources(mesh.cellCount());
   std::iota(sources.begin(), sources.end(), 0);
@@ -146,7 +146,7 @@ void placeByRows(const WeightedRows& rows, std::size_t oldCount, std::vector<Poi
 }
 
 WeightedRows densitiesOfRefined(
-  const SimplexMesh& mesh, const RefinementTrace& trace, std::vector<Point3> before)
+  const Mesh& mesh, const RefinementTrace& trace, std::vector<Point3> before)
 {
   const std::size_t oldCount = before.size();
   for (const auto& [a, b] : trace.parentEdges)

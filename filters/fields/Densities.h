@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cadrefine/base/WeightedRows.h>
-#include <cadrefine/mesh/SimplexMesh.h>
+#include <cadrefine/mesh/Mesh.h>
 #include <cadrefine/quadratic/MidNodes.h>
 #include <cadrefine/refinement/RefinementTrace.h>
 
@@ -15,17 +15,16 @@ namespace cadrefine
 /// the old volume (in 2D, area) over the new one. `before`: the vertices' places. A row for each
 /// cell with another volume than before, by its place in the order of makePointSet. Cells that are
 /// flat now keep their densities; what inverted ones held counts as if they were not.
-WeightedRows densitiesOfMoved(const SimplexMesh& mesh, const std::vector<Point3>& before);
+WeightedRows densitiesOfMoved(const Mesh& mesh, const std::vector<Point3>& before);
 
 /// The same for the cells of a refined mesh, from their parents: these were cut straight, then
 /// vertices moved. `before`: the places of the vertices that there were before the cut.
 WeightedRows densitiesOfRefined(
-  const SimplexMesh& mesh, const RefinementTrace& trace, std::vector<Point3> before);
+  const Mesh& mesh, const RefinementTrace& trace, std::vector<Point3> before);
 
 /// The same for cells that were straight and are of second order now: their volumes are integrals
 /// of polynomials (see jacobianOf), and exact. `plane` is the unit normal of a planar mesh; on
 /// surfaces in space, where areas are no such integrals, there are no rows.
-WeightedRows densitiesOfCurved(
-  const SimplexMesh& mesh, const MidNodes& nodes, const Vector3& plane);
+WeightedRows densitiesOfCurved(const Mesh& mesh, const MidNodes& nodes, const Vector3& plane);
 
 } // namespace cadrefine

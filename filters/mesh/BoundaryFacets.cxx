@@ -15,7 +15,7 @@ namespace
 
 /// visit(shape, cells) of the listed cells: those of one dimension less than the mesh's own.
 template<class Visit>
-void visitListed(const SimplexMesh& mesh, const Visit& visit)
+void visitListed(const Mesh& mesh, const Visit& visit)
 {
   visitShapes(mesh, mesh.dimension - 1, visit);
 }
@@ -42,7 +42,7 @@ Corners cornersOf(const std::array<Index, N>& cell)
   return corners;
 }
 
-Ids idsOf(const SimplexMesh& mesh, const Corners& corners)
+Ids idsOf(const Mesh& mesh, const Corners& corners)
 {
   Ids ids;
   std::transform(
@@ -50,7 +50,7 @@ Ids idsOf(const SimplexMesh& mesh, const Corners& corners)
   return ids;
 }
 
-Ids keyOf(const SimplexMesh& mesh, const Corners& corners)
+Ids keyOf(const Mesh& mesh, const Corners& corners)
 {
   Ids ids = idsOf(mesh, corners);
   std::sort(ids.begin(), ids.end());
@@ -89,7 +89,7 @@ std::vector<std::vector<Ids>> idsForNeighbours(const DistributedMesh& mesh)
 /// The listed cells of this rank, and those of others whose corners it has, by keys.
 std::vector<Listed> gatherListed(RankExchange& exchange, const DistributedMesh& distributed)
 {
-  const SimplexMesh& mesh = distributed.mesh();
+  const Mesh& mesh = distributed.mesh();
   std::vector<std::pair<GlobalId, Index>> vertexOf;
   for (const Index vertex : distributed.shared.all)
   {
@@ -141,7 +141,7 @@ std::size_t findListed(const std::vector<Listed>& all, const Ids& key)
 /// Finds which cells of this rank meet the listed ones.
 void meetListed(const DistributedMesh& distributed, std::vector<Listed>& all)
 {
-  const SimplexMesh& mesh = distributed.mesh();
+  const Mesh& mesh = distributed.mesh();
   std::vector<unsigned char> onListed(mesh.points.size(), 0);
   for (const Listed& listed : all)
   {
@@ -185,7 +185,7 @@ void settleShared(RankExchange& exchange, const DistributedMesh& mesh, bool anyL
   std::vector<Corners> corners(facets.size());
   std::transform(facets.begin(), facets.end(), corners.begin(),
     [](const Facet& facet) { return facet.vertices; });
-  const SharedItems shared = findSharedSimplices(exchange, mesh.shared, mesh.mesh().ids, corners);
+  const SharedItems shared = findSharedCells(exchange, mesh.shared, mesh.mesh().ids, corners);
   std::vector<GlobalId> smallest;
   if (anyListed)
   {

@@ -326,7 +326,7 @@ private:
 
   vtkPointSet* input_;
   CellOrder order_;
-  SimplexMesh& mesh_;
+  Mesh& mesh_;
   std::array<std::vector<vtkIdType>, 4>& cellOf_;
   NodesOfCells nodes_;
   std::array<std::size_t, shapeCount> firstOfShape_{}; ///< Its place in cellOf_.

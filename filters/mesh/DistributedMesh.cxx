@@ -34,7 +34,7 @@ MeshBounds boundsOf(const std::vector<Point3>& points)
 }
 
 /// The boxes round other ranks' pieces that meet the one round this rank's.
-std::vector<MeshBounds> boxesNearby(RankExchange& exchange, const SimplexMesh& mesh)
+std::vector<MeshBounds> boxesNearby(RankExchange& exchange, const Mesh& mesh)
 {
   const auto [low, high] = boundsOf(mesh.points);
   const auto gathered = exchange.gather({ low[0], low[1], low[2], high[0], high[1], high[2] });
@@ -62,7 +62,7 @@ bool isIn(const MeshBounds& box, const Point3& p)
 }
 
 /// 1 for the vertices of sides of cells that are met once in this piece.
-std::vector<unsigned char> onSurface(const SimplexMesh& mesh, const ParallelFor& parallelFor)
+std::vector<unsigned char> onSurface(const Mesh& mesh, const ParallelFor& parallelFor)
 {
   std::vector<unsigned char> flags(mesh.points.size(), 0);
   for (const Facet& facet : findOuterFacets(mesh, {}, parallelFor))
@@ -91,7 +91,7 @@ std::vector<unsigned char> onSurface(const SimplexMesh& mesh, const ParallelFor&
 /// Triangles in space leave room: where three sheets meet at an edge and this rank has two, each
 /// side there is met twice, but the vertices are the third sheet's too. Listed cells of lower
 /// dimension may be anywhere.
-std::vector<Index> candidates(RankExchange& exchange, const SimplexMesh& mesh)
+std::vector<Index> candidates(RankExchange& exchange, const Mesh& mesh)
 {
   constexpr std::size_t many = 4; // of this number of vertices, one
   const auto boxes = boxesNearby(exchange, mesh);
@@ -115,7 +115,7 @@ std::vector<Index> candidates(RankExchange& exchange, const SimplexMesh& mesh)
 
 /// The key of a cell: the vertex with the smallest id, and the ids of the others.
 template<std::size_t K>
-VertexKey<K> keyOf(const SimplexMesh& mesh, Index* first, Index* last)
+VertexKey<K> keyOf(const Mesh& mesh, Index* first, Index* last)
 {
   std::sort(first, last, [&](Index a, Index b) { return mesh.ids[a] < mesh.ids[b]; });
   VertexKey<K> key{ *first, {} };
@@ -128,7 +128,7 @@ VertexKey<K> keyOf(const SimplexMesh& mesh, Index* first, Index* last)
 template<std::size_t K>
 std::vector<GlobalId> numbersOfCells(RankExchange& exchange, const DistributedMesh& mesh)
 {
-  const SimplexMesh& piece = mesh.mesh();
+  const Mesh& piece = mesh.mesh();
   std::vector<VertexKey<K>> keys;
   reserveLong(keys, piece.cellCount());
   visitShapes(piece,
@@ -155,7 +155,7 @@ bool haveIds(const ConvertedMesh& converted)
 
 void numberCells(RankExchange& exchange, DistributedMesh& mesh)
 {
-  const SimplexMesh& cells = mesh.mesh();
+  const Mesh& cells = mesh.mesh();
   const bool mixed = exchange.any(cells.hasOtherThanSimplices());
   const auto numbers =
     mixed ? numbersOfCells<7>(exchange, mesh) : numbersOfCells<3>(exchange, mesh);
@@ -179,7 +179,7 @@ std::vector<GlobalId> numberFacets(
   return numberAtVertices(exchange, mesh.shared, mesh.mesh().ids, keys).numbers;
 }
 
-SharedVertices findShared(RankExchange& exchange, const SimplexMesh& mesh)
+SharedVertices findShared(RankExchange& exchange, const Mesh& mesh)
 {
   if (exchange.size() == 1)
   {
@@ -236,7 +236,7 @@ MeshBounds combineBounds(RankExchange& exchange, const MeshBounds& bounds)
   return { { least[0], least[1], least[2] }, { largest[0], largest[1], largest[2] } };
 }
 
-MeshBounds findBounds(RankExchange& exchange, const SimplexMesh& mesh)
+MeshBounds findBounds(RankExchange& exchange, const Mesh& mesh)
 {
   return combineBounds(exchange, boundsOf(mesh.points));
 }

@@ -19,8 +19,8 @@ struct DistributedMesh
   SharedVertices sharedPoints; ///< Of a mesh of second order: vertices and mid nodes.
   GlobalId vertexIdBound = 0;  ///< All ids of vertices and mid nodes are smaller.
 
-  SimplexMesh& mesh() { return converted.mesh; }
-  const SimplexMesh& mesh() const { return converted.mesh; }
+  Mesh& mesh() { return converted.mesh; }
+  const Mesh& mesh() const { return converted.mesh; }
   /// Vertices, and mid nodes after them.
   std::size_t pointCount() const;
   /// For each of them 1 if this rank owns it, else 0.
@@ -50,7 +50,7 @@ SharedVertices findSharedPoints(const DistributedMesh& mesh, const SharedEdges& 
 /// those on the surface of the piece alone. Six numbers are gathered from every rank. Work: a look
 /// at each vertex for each box that meets this rank's, that of findOuterFacets where only the
 /// surface is taken, and that of findSharedVertices.
-SharedVertices findShared(RankExchange& exchange, const SimplexMesh& mesh);
+SharedVertices findShared(RankExchange& exchange, const Mesh& mesh);
 
 /// Box round the whole mesh: low above high where it has no points.
 struct MeshBounds
@@ -62,7 +62,7 @@ struct MeshBounds
 /// That of all ranks' boxes. Collective; two reductions of three numbers.
 MeshBounds combineBounds(RankExchange& exchange, const MeshBounds& bounds);
 /// Collective; see combineBounds.
-MeshBounds findBounds(RankExchange& exchange, const SimplexMesh& mesh);
+MeshBounds findBounds(RankExchange& exchange, const Mesh& mesh);
 
 /// Counts of the whole mesh, no vertex or cell twice.
 struct MeshCounts

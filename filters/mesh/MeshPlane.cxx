@@ -5,7 +5,7 @@
 namespace cadrefine
 {
 
-Vector3 planeNormal(RankExchange& exchange, const SimplexMesh& mesh)
+Vector3 planeNormal(RankExchange& exchange, const Mesh& mesh)
 {
   std::vector<std::int64_t> turns(3, 0);
   std::vector<std::int64_t> outside(3, 0);

@@ -64,7 +64,7 @@ bool areDistinct(RankExchange& exchange, const std::vector<GlobalId>& numbers)
 
 /// Two ranks that own a vertex with this id, and where each has it. Collective.
 std::string describeTwins(
-  RankExchange& exchange, const SimplexMesh& mesh, const std::vector<char>& owned, GlobalId id)
+  RankExchange& exchange, const Mesh& mesh, const std::vector<char>& owned, GlobalId id)
 {
   std::vector<double> mine(4, 0);
   for (std::size_t v = 0; v < mesh.ids.size(); ++v)
@@ -98,7 +98,7 @@ std::string describeTwins(
 
 void checkIds(RankExchange& exchange, const DistributedMesh& mesh)
 {
-  const SimplexMesh& piece = mesh.mesh();
+  const Mesh& piece = mesh.mesh();
   const auto owned = mesh.shared.ownedHere(static_cast<Index>(piece.ids.size()));
   std::vector<GlobalId> ids;
   for (std::size_t v = 0; v < owned.size(); ++v)
@@ -116,7 +116,7 @@ void checkIds(RankExchange& exchange, const DistributedMesh& mesh)
 
 void checkInterface(RankExchange& exchange, const DistributedMesh& mesh)
 {
-  const SimplexMesh& piece = mesh.mesh();
+  const Mesh& piece = mesh.mesh();
   std::vector<Point3> points = piece.points;
   copyFromOwners(exchange, mesh.shared, points);
   const auto other = std::find_if(mesh.shared.all.begin(), mesh.shared.all.end(),
@@ -148,7 +148,7 @@ std::vector<Index> twinsAmong(std::vector<SortedCell<Corners>>& cells)
 /// Two cells of the piece with the same vertices, those with the smallest; none: empty.
 template<std::size_t Corners>
 std::vector<Index> twinsInPiece(
-  std::size_t vertexCount, const Simplices<Corners>& cells, const ParallelFor& parallelFor)
+  std::size_t vertexCount, const Cells<Corners>& cells, const ParallelFor& parallelFor)
 {
   const auto visit = [&](std::size_t begin, std::size_t end, const auto& use)
   {
@@ -187,8 +187,8 @@ std::vector<Index> twinsInPiece(
 
 /// `numbers` are those of the cells in the data set.
 template<std::size_t Corners>
-void checkCells(RankExchange& exchange, const DistributedMesh& mesh,
-  const Simplices<Corners>& cells, const vtkIdType* numbers)
+void checkCells(RankExchange& exchange, const DistributedMesh& mesh, const Cells<Corners>& cells,
+  const vtkIdType* numbers)
 {
   const auto twins = twinsInPiece(mesh.mesh().points.size(), cells, forOnThreads(exchange));
   exchange.agree(twins.empty()
@@ -199,7 +199,7 @@ void checkCells(RankExchange& exchange, const DistributedMesh& mesh,
                        " have the same points (the filter Clean Cells to Grid merges "
                        "cells)");
   const SharedItems shared =
-    findSharedSimplices<Corners>(exchange, mesh.shared, mesh.mesh().ids, cells);
+    findSharedCells<Corners>(exchange, mesh.shared, mesh.mesh().ids, cells);
   if (exchange.any(!shared.all.empty()))
   {
     const auto holders = shared.all.empty() ? SharedItems::Ranks{} : shared.holdersOfSlot(0);
@@ -216,7 +216,7 @@ void checkCells(RankExchange& exchange, const DistributedMesh& mesh,
 
 /// The corners of the cells of this dimension of this rank with this id.
 std::string cornersOf(
-  const SimplexMesh& mesh, int dimension, const std::vector<GlobalId>& ids, GlobalId id)
+  const Mesh& mesh, int dimension, const std::vector<GlobalId>& ids, GlobalId id)
 {
   std::string text;
   auto next = ids.begin();
@@ -246,7 +246,7 @@ void checkPieces(RankExchange& exchange, const DistributedMesh& mesh)
     checkInterface(exchange, mesh);
     checkIds(exchange, mesh);
   }
-  const SimplexMesh& piece = mesh.mesh();
+  const Mesh& piece = mesh.mesh();
   const vtkIdType* numbers = mesh.converted.cellOf[piece.dimension].data();
   if (piece.dimension > 1)
   {
@@ -262,8 +262,8 @@ void checkPieces(RankExchange& exchange, const DistributedMesh& mesh)
   }
 }
 
-void complainOfRepeatedCells(RankExchange& exchange, const SimplexMesh& mesh,
-  const std::array<std::vector<GlobalId>, 4>& cellIds)
+void complainOfRepeatedCells(
+  RankExchange& exchange, const Mesh& mesh, const std::array<std::vector<GlobalId>, 4>& cellIds)
 {
   std::vector<GlobalId> all;
   for (const auto& ids : cellIds)

@@ -19,7 +19,7 @@ void checkPieces(RankExchange& exchange, const DistributedMesh& mesh);
 
 /// Throws Error, on all ranks, that names the corners of two cells of the mesh that have the same
 /// global id. Collective; for where it is known that there are such cells.
-[[noreturn]] void complainOfRepeatedCells(RankExchange& exchange, const SimplexMesh& mesh,
-  const std::array<std::vector<GlobalId>, 4>& cellIds);
+[[noreturn]] void complainOfRepeatedCells(
+  RankExchange& exchange, const Mesh& mesh, const std::array<std::vector<GlobalId>, 4>& cellIds);
 
 } // namespace cadrefine

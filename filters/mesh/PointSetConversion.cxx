@@ -82,14 +82,14 @@ PointIds pointIds(RankExchange& exchange, vtkPointSet* input, const std::vector<
 }
 
 template<class Use, std::size_t Corners>
-void forEachCorner(Simplices<Corners>& cells, const ParallelFor& parallelFor, const Use& use)
+void forEachCorner(Cells<Corners>& cells, const ParallelFor& parallelFor, const Use& use)
 {
   forEachIndex(parallelFor, cells.size(), fineGrain,
     [&](std::size_t c) { std::for_each(cells[c].begin(), cells[c].end(), use); });
 }
 
 template<class Use>
-void forEachCorner(SimplexMesh& mesh, const ParallelFor& parallelFor, const Use& use)
+void forEachCorner(Mesh& mesh, const ParallelFor& parallelFor, const Use& use)
 {
   visitShapes(mesh, [&](auto, auto& cells) { forEachCorner(cells, parallelFor, use); });
 }
@@ -98,7 +98,7 @@ void forEachCorner(SimplexMesh& mesh, const ParallelFor& parallelFor, const Use&
 using Flags = std::vector<std::atomic<unsigned char>>;
 
 /// The points that cells use.
-Flags findUsed(SimplexMesh& mesh, std::size_t points, const ParallelFor& parallelFor)
+Flags findUsed(Mesh& mesh, std::size_t points, const ParallelFor& parallelFor)
 {
   Flags used(points);
   forEachCorner(
@@ -168,7 +168,7 @@ std::vector<Index> numberVertices(const std::vector<GlobalId>& ids, const Flags&
 /// `cellOf` has the numbers of these cells in the data set.
 template<std::size_t Corners>
 void checkCells(
-  const Simplices<Corners>& cells, const vtkIdType* cellOf, const ParallelFor& parallelFor)
+  const Cells<Corners>& cells, const vtkIdType* cellOf, const ParallelFor& parallelFor)
 {
   const auto check = [&](std::size_t c)
   {
@@ -266,7 +266,7 @@ void makeVertices(const std::vector<Point3>& points, const PointIds& ids, Conver
 
 /// Makes the wedges turn counter-clockwise, where most of all ranks turn the other way. Wedges
 /// among them that do turn counter-clockwise are then inverted cells.
-void turnWedges(RankExchange& exchange, SimplexMesh& mesh)
+void turnWedges(RankExchange& exchange, Mesh& mesh)
 {
   std::int64_t turns = 0;
   for (const auto& wedge : mesh.wedges)

@@ -4,7 +4,7 @@
 #include "comm/RankExchange.h"
 
 #include <cadrefine/base/ParallelFor.h>
-#include <cadrefine/mesh/SimplexMesh.h>
+#include <cadrefine/mesh/Mesh.h>
 #include <cadrefine/quadratic/MidNodes.h>
 
 #include <vtkSmartPointer.h>
@@ -23,7 +23,7 @@ namespace cadrefine
 /// A piece of a mesh, and where its vertices and cells come from in the data set it was made from.
 struct ConvertedMesh
 {
-  SimplexMesh mesh;
+  Mesh mesh;
   std::vector<vtkIdType> pointOf; ///< Of vertices, and mid nodes after them.
   /// By the dimension of the cells, of which each shape is in the order of the data set.
   std::array<std::vector<vtkIdType>, 4> cellOf;
@@ -49,7 +49,7 @@ constexpr std::array<Index, 6> turned(const std::array<Index, 6>& wedge)
 /// Its edges by their places in the other.
 constexpr int edgesOfTurned[9] = { 3, 4, 5, 0, 1, 2, 6, 7, 8 };
 
-/// Reads cells of the shapes of SimplexMesh.h from a vtkUnstructuredGrid or vtkPolyData on each
+/// Reads cells of the shapes of Mesh.h from a vtkUnstructuredGrid or vtkPolyData on each
 /// rank. Wedges may turn either way, but all the same. Cells that are marked as ghosts or hidden
 /// and points that no cell uses are left out, marks of points do not count; points with the same
 /// global id on a rank become one vertex. Vertices come in the order of the points. Ids come from
@@ -74,11 +74,11 @@ ConvertedMesh convert(
 /// those of lower dimension first. No arrays. With mid nodes, cells are of second order,
 /// and the nodes' points follow those of the vertices; throws Error where `input` is vtkPolyData,
 /// which has no such cells.
-vtkSmartPointer<vtkPointSet> makePointSet(vtkPointSet* input, const SimplexMesh& mesh,
+vtkSmartPointer<vtkPointSet> makePointSet(vtkPointSet* input, const Mesh& mesh,
   const std::optional<MidNodes>& midNodes = std::nullopt,
   const ParallelFor& parallelFor = serialFor);
 
 /// Cell numbers of a data set made by makePointSet are those of dimension 0 first, then 1, 2, 3.
-vtkIdType firstCellOfDimension(const SimplexMesh& mesh, int dimension);
+vtkIdType firstCellOfDimension(const Mesh& mesh, int dimension);
 
 } // namespace cadrefine

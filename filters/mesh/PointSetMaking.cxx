@@ -38,7 +38,7 @@ public:
   explicit CellWriter(ParallelFor parallelFor) : parallelFor_(std::move(parallelFor)) {}
 
   template<std::size_t... Corners>
-  vtkSmartPointer<vtkCellArray> write(const Simplices<Corners>&... cells)
+  vtkSmartPointer<vtkCellArray> write(const Cells<Corners>&... cells)
   {
     vtkNew<vtkTypeInt64Array> offsets;
     vtkNew<vtkTypeInt64Array> connectivity;
@@ -55,7 +55,7 @@ public:
 
 private:
   template<std::size_t Corners>
-  void append(const Simplices<Corners>& cells)
+  void append(const Cells<Corners>& cells)
   {
     const vtkTypeInt64 first = nextOffset_[-1];
     const auto writeCell = [&](std::size_t c)
@@ -73,7 +73,7 @@ private:
   vtkTypeInt64* nextCorner_ = nullptr;
 };
 
-vtkSmartPointer<vtkPointSet> makePolyData(const SimplexMesh& mesh, const ParallelFor& parallelFor)
+vtkSmartPointer<vtkPointSet> makePolyData(const Mesh& mesh, const ParallelFor& parallelFor)
 {
   auto output = vtkSmartPointer<vtkPolyData>::New();
   CellWriter writer(parallelFor);
@@ -85,19 +85,19 @@ vtkSmartPointer<vtkPointSet> makePolyData(const SimplexMesh& mesh, const Paralle
 
 /// The edges of a shape in the order in which VTK has their mid nodes.
 template<class Shape>
-std::vector<int> orderOfNodes(Shape, const SimplexMesh&)
+std::vector<int> orderOfNodes(Shape, const Mesh&)
 {
   std::vector<int> order(std::size(Shape::edges));
   std::iota(order.begin(), order.end(), 0);
   return order;
 }
 
-std::vector<int> orderOfNodes(shapes::Tetrahedron, const SimplexMesh&)
+std::vector<int> orderOfNodes(shapes::Tetrahedron, const Mesh&)
 {
   return { 0, 3, 1, 2, 4, 5 };
 }
 
-std::vector<int> orderOfNodes(shapes::Wedge, const SimplexMesh& mesh)
+std::vector<int> orderOfNodes(shapes::Wedge, const Mesh& mesh)
 {
   return mesh.wedgesAsDocumented
            ? std::vector<int>(std::begin(edgesOfTurned), std::end(edgesOfTurned))
@@ -106,14 +106,14 @@ std::vector<int> orderOfNodes(shapes::Wedge, const SimplexMesh& mesh)
 
 /// The cells of a shape as data sets have them.
 template<class Shape>
-const auto& asWritten(Shape, const SimplexMesh& mesh)
+const auto& asWritten(Shape, const Mesh& mesh)
 {
   return mesh.*Shape::cells;
 }
 
-Simplices<6> asWritten(shapes::Wedge, const SimplexMesh& mesh)
+Cells<6> asWritten(shapes::Wedge, const Mesh& mesh)
 {
-  Simplices<6> wedges = mesh.wedges;
+  Cells<6> wedges = mesh.wedges;
   if (mesh.wedgesAsDocumented)
   {
     std::transform(wedges.begin(), wedges.end(), wedges.begin(), turned);
@@ -123,13 +123,13 @@ Simplices<6> asWritten(shapes::Wedge, const SimplexMesh& mesh)
 
 /// Each cell with the points of its mid nodes after its corners.
 template<class Shape>
-auto withNodes(Shape shape, const SimplexMesh& mesh, const EdgeTable& table)
+auto withNodes(Shape shape, const Mesh& mesh, const EdgeTable& table)
 {
   const auto firstNode = static_cast<Index>(mesh.points.size());
   const auto& cells = asWritten(shape, mesh);
   const auto& edgesOf = table.*edgesOfCells(shape);
   const std::vector<int> order = orderOfNodes(shape, mesh);
-  Simplices<Shape::corners + std::size(Shape::edges)> result(cells.size());
+  Cells<Shape::corners + std::size(Shape::edges)> result(cells.size());
   for (std::size_t c = 0; c < cells.size(); ++c)
   {
     const auto node = std::copy(cells[c].begin(), cells[c].end(), result[c].begin());
@@ -140,7 +140,7 @@ auto withNodes(Shape shape, const SimplexMesh& mesh, const EdgeTable& table)
 }
 
 vtkSmartPointer<vtkCellArray> makeCells(
-  const SimplexMesh& mesh, const MidNodes& midNodes, const ParallelFor& parallelFor)
+  const Mesh& mesh, const MidNodes& midNodes, const ParallelFor& parallelFor)
 {
   const auto quadratic = [&](auto shape) { return withNodes(shape, mesh, midNodes.table); };
   return CellWriter(parallelFor)
@@ -149,7 +149,7 @@ vtkSmartPointer<vtkCellArray> makeCells(
       quadratic(shapes::Pyramid{}), quadratic(shapes::Wedge{}), quadratic(shapes::Hexahedron{}));
 }
 
-vtkSmartPointer<vtkCellArray> makeCells(const SimplexMesh& mesh, const ParallelFor& parallelFor)
+vtkSmartPointer<vtkCellArray> makeCells(const Mesh& mesh, const ParallelFor& parallelFor)
 {
   return CellWriter(parallelFor)
     .write(mesh.vertices, mesh.segments, mesh.triangles, mesh.quadrilaterals, mesh.tetrahedra,
@@ -164,7 +164,7 @@ constexpr unsigned char secondOrder[] = { VTK_VERTEX, VTK_QUADRATIC_EDGE, VTK_QU
   VTK_QUADRATIC_HEXAHEDRON };
 
 vtkSmartPointer<vtkPointSet> makeUnstructuredGrid(
-  const SimplexMesh& mesh, const std::optional<MidNodes>& midNodes, const ParallelFor& parallelFor)
+  const Mesh& mesh, const std::optional<MidNodes>& midNodes, const ParallelFor& parallelFor)
 {
   vtkNew<vtkUnsignedCharArray> types;
   setLength(types.Get(), mesh.cellCount());
@@ -180,7 +180,7 @@ vtkSmartPointer<vtkPointSet> makeUnstructuredGrid(
 
 } // namespace
 
-vtkIdType firstCellOfDimension(const SimplexMesh& mesh, int dimension)
+vtkIdType firstCellOfDimension(const Mesh& mesh, int dimension)
 {
   vtkIdType first = 0;
   for (int d = 0; d < dimension; ++d)
@@ -190,7 +190,7 @@ vtkIdType firstCellOfDimension(const SimplexMesh& mesh, int dimension)
   return first;
 }
 
-vtkSmartPointer<vtkPointSet> makePointSet(vtkPointSet* input, const SimplexMesh& mesh,
+vtkSmartPointer<vtkPointSet> makePointSet(vtkPointSet* input, const Mesh& mesh,
   const std::optional<MidNodes>& midNodes, const ParallelFor& parallelFor)
 {
   const bool isPolyData = vtkPolyData::SafeDownCast(input) != nullptr;

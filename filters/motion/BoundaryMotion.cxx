@@ -49,7 +49,7 @@ struct Motion
   LayerColumns columns;
   std::vector<Index> aimed; ///< Vertices that are to reach the CAD; some more than once.
 
-  SimplexMesh& mesh() const { return distributed.mesh(); }
+  Mesh& mesh() const { return distributed.mesh(); }
   bool isStuck(Index vertex) const { return mesh().points[vertex] != moves.targets[vertex]; }
   bool isHeld(std::size_t vertex) const { return !held.empty() && held[vertex]; }
   bool isInterior(std::size_t vertex) const
@@ -66,7 +66,7 @@ std::vector<Index> movingVertices(const Moves& moves)
 }
 
 /// A mesh of area in space has no invalid cells.
-bool isInvalid(const SimplexMesh& mesh, const Vector3& plane, Index cell)
+bool isInvalid(const Mesh& mesh, const Vector3& plane, Index cell)
 {
   bool invalid = false;
   if (mesh.dimension == 3 || plane != Vector3{})
@@ -78,14 +78,14 @@ bool isInvalid(const SimplexMesh& mesh, const Vector3& plane, Index cell)
   return invalid;
 }
 
-std::vector<Index> invalidCells(const SimplexMesh& mesh, const Vector3& plane)
+std::vector<Index> invalidCells(const Mesh& mesh, const Vector3& plane)
 {
   return indicesWhere(mesh.cellCount(mesh.dimension),
     [&](std::size_t c) { return isInvalid(mesh, plane, static_cast<Index>(c)); });
 }
 
 /// See planeNormal. Collective.
-Vector3 planeOf(RankExchange& exchange, const SimplexMesh& mesh)
+Vector3 planeOf(RankExchange& exchange, const Mesh& mesh)
 {
   return mesh.dimension == 2 ? planeNormal(exchange, mesh) : Vector3{};
 }
@@ -93,7 +93,7 @@ Vector3 planeOf(RankExchange& exchange, const SimplexMesh& mesh)
 /// Collective.
 std::vector<unsigned char> findHeld(RankExchange& exchange, const DistributedMesh& mesh)
 {
-  const SimplexMesh& piece = mesh.mesh();
+  const Mesh& piece = mesh.mesh();
   if (!exchange.any(piece.hasOtherThanSimplices()))
   {
     return {};
@@ -247,7 +247,7 @@ void moveTo(Motion& motion, const Region& region, std::vector<Index> moving = {}
     moves.whole[vertex] = slides;
   }
   takeAlong(motion, moving, settled);
-  const SimplexMesh& mesh = motion.mesh();
+  const Mesh& mesh = motion.mesh();
   settle(motion,
     motion.columns.any()
       ? MoveGuard(mesh, moves, motion.start, motion.plane, motion.parallelFor)
@@ -378,7 +378,7 @@ std::vector<Point3> wantedPoints(RankExchange& exchange, const DistributedMesh& 
   const BoundaryProjector& projector, const Classification& classification,
   const std::vector<unsigned char>& fixed)
 {
-  const SimplexMesh& piece = mesh.mesh();
+  const Mesh& piece = mesh.mesh();
   const auto& distances = classification.distances;
   const auto off = indicesWhere(distances.size(), [&](std::size_t v) { return distances[v] > 0; });
   if (!exchange.any(!off.empty()))

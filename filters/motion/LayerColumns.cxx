@@ -85,7 +85,7 @@ struct Place
   std::int64_t isSet = 0;
 };
 
-Vector3 unitNormal(const SimplexMesh& mesh, const Facet& facet, const Vector3& plane)
+Vector3 unitNormal(const Mesh& mesh, const Facet& facet, const Vector3& plane)
 {
   std::array<Point3, 4> p{};
   std::transform(
@@ -94,7 +94,7 @@ Vector3 unitNormal(const SimplexMesh& mesh, const Facet& facet, const Vector3& p
     facet.corners() == 2 ? cross(p[1] - p[0], plane) : twofoldAreaVector(p, facet.corners()));
 }
 
-std::array<GlobalId, 4> idsOf(const SimplexMesh& mesh, const Facet& side)
+std::array<GlobalId, 4> idsOf(const Mesh& mesh, const Facet& side)
 {
   std::array<GlobalId, 4> ids{ -1, -1, -1, -1 };
   std::transform(
@@ -225,7 +225,7 @@ private:
 std::vector<BestFacet> findBestFacets(RankExchange& exchange, const DistributedMesh& mesh,
   const Moves& moves, const std::vector<Facet>& facets, const Vector3& plane)
 {
-  const SimplexMesh& piece = mesh.mesh();
+  const Mesh& piece = mesh.mesh();
   std::vector<BestFacet> best(piece.points.size());
   for (const Facet& facet : facets)
   {
@@ -250,7 +250,7 @@ LayerColumns::LayerColumns(RankExchange& exchange, const DistributedMesh& mesh, 
   const std::vector<unsigned char>& fixed, const Vector3& plane)
   : mesh_(mesh), projector_(projector), classification_(classification), plane_(plane)
 {
-  const SimplexMesh& piece = mesh.mesh();
+  const Mesh& piece = mesh.mesh();
   const bool isSurface = piece.dimension == 2 && plane == Vector3{};
   any_ = exchange.any(piece.hasOtherThanSimplices()) && !isSurface;
   if (!any_)
@@ -305,7 +305,7 @@ void LayerColumns::listMembers(
     members_.push_back({ vertex, static_cast<Index>(found - columns_.begin()), level, height, 0 });
   }
 
-  const SimplexMesh& mesh = mesh_.mesh();
+  const Mesh& mesh = mesh_.mesh();
   std::vector<std::pair<GlobalId, Index>> moving;
   for (std::size_t v = 0; v < mesh.ids.size(); ++v)
   {
@@ -410,7 +410,7 @@ std::vector<Vector3> LayerColumns::movesOfWalls(RankExchange& exchange, const Mo
 std::vector<unsigned char> LayerColumns::findBlocked(
   RankExchange& exchange, const std::vector<Vector3>& ofWalls) const
 {
-  const SimplexMesh& mesh = mesh_.mesh();
+  const Mesh& mesh = mesh_.mesh();
   std::vector<Vector3> ofVertices(mesh.points.size(), Vector3{});
   for (const Member& member : members_)
   {

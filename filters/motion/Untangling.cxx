@@ -23,7 +23,7 @@ struct LocalPatch
   std::vector<Index> patchVertex; ///< Of the mesh's vertices; -1 where it is not in the patch.
 };
 
-LocalPatch makePatch(const SimplexMesh& mesh, const MovingVertices& vertices, const Vector3& plane)
+LocalPatch makePatch(const Mesh& mesh, const MovingVertices& vertices, const Vector3& plane)
 {
   LocalPatch local{ {}, {}, std::vector<Index>(mesh.points.size(), -1) };
   Patch& patch = local.patch;
@@ -107,7 +107,7 @@ CellRecord recordOf(const std::array<Index, Corners>& cell, const Patch& patch)
 /// For each neighbour the records of the patch's cells at a vertex that it shares, given the
 /// neighbours of each vertex.
 template<std::size_t Corners>
-void collectRecords(const Simplices<Corners>& cells, const Patch& patch,
+void collectRecords(const Cells<Corners>& cells, const Patch& patch,
   const std::vector<std::vector<int>>& neighboursOf, std::vector<std::vector<CellRecord>>& toOthers)
 {
   std::vector<int> receivers;

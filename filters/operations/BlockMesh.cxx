@@ -21,7 +21,7 @@ std::array<Index, Corners> sorted(std::array<Index, Corners> corners)
   return corners;
 }
 
-EditableMesh::Kind kindOf(const SimplexMesh& mesh, BoundaryKind boundary)
+EditableMesh::Kind kindOf(const Mesh& mesh, BoundaryKind boundary)
 {
   if (mesh.dimension == 3)
   {
@@ -76,7 +76,7 @@ void BlockMesh::fill(const Members& members, const std::vector<GlobalId>& cellId
 }
 
 template<std::size_t Corners>
-void BlockMesh::addVertices(const Simplices<Corners>& all, const std::vector<Index>& cells)
+void BlockMesh::addVertices(const Cells<Corners>& all, const std::vector<Index>& cells)
 {
   for (const Index cell : cells)
   {

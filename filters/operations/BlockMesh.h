@@ -58,7 +58,7 @@ public:
 
 private:
   template<std::size_t Corners>
-  void addVertices(const Simplices<Corners>& all, const std::vector<Index>& cells);
+  void addVertices(const Cells<Corners>& all, const std::vector<Index>& cells);
   EditableMesh::Vertex vertexOf(Index v) const;
   template<std::size_t Corners>
   std::array<Index, Corners> localCorners(std::array<Index, Corners> corners) const;
@@ -69,7 +69,7 @@ private:
   Index lineOf(const std::array<Index, 2>& ends) const;
   void keepEndsOfTags();
 
-  const SimplexMesh& mesh_;
+  const Mesh& mesh_;
   const std::vector<Point3>& wanted_;
   const std::vector<std::int64_t>& blocksOfVertices_;
   const Classification& classification_;

@@ -144,7 +144,7 @@ void numberNewVertices(RankExchange& exchange, const std::vector<std::int64_t>& 
 }
 
 /// The vertices that cells have, ascending.
-std::vector<Index> usedVertices(const SimplexMesh& mesh)
+std::vector<Index> usedVertices(const Mesh& mesh)
 {
   std::vector<unsigned char> used(mesh.points.size(), 0);
   const auto mark = [&](const auto& cells)
@@ -175,7 +175,7 @@ void keepOnly(const std::vector<Index>& kept, std::vector<T>& list)
 void dropVertices(
   const std::vector<Index>& kept, DistributedMesh& mesh, Classification& classification)
 {
-  SimplexMesh& cells = mesh.mesh();
+  Mesh& cells = mesh.mesh();
   std::vector<Index> numbers(cells.points.size(), -1);
   for (std::size_t i = 0; i < kept.size(); ++i)
   {
@@ -217,13 +217,13 @@ void moveParameters(const std::vector<Point3>& before, const std::vector<Point3>
 }
 
 /// Cells of the mesh's own dimension that are simplices.
-std::size_t simplexCount(const SimplexMesh& mesh)
+std::size_t simplexCount(const Mesh& mesh)
 {
   return visitCells(mesh, [](const auto& cells) { return cells.size(); });
 }
 
 /// The triangles that are no cells of the mesh's own dimension.
-std::size_t listedTriangles(const SimplexMesh& mesh)
+std::size_t listedTriangles(const Mesh& mesh)
 {
   return mesh.dimension == 3 ? mesh.triangles.size() : 0;
 }
@@ -246,7 +246,7 @@ std::pair<std::map<std::int64_t, Members>, Members> findMembers(const Distribute
   {
     sort(ofCells[boundary.facets[f].cell], &Members::facets, f);
   }
-  const SimplexMesh& cells = mesh.mesh();
+  const Mesh& cells = mesh.mesh();
   for (std::size_t t = 0; t < listedTriangles(cells); ++t)
   {
     sort(blockOf(cells.triangles[t], ofVertices), &Members::triangles, t);
@@ -260,7 +260,7 @@ std::pair<std::map<std::int64_t, Members>, Members> findMembers(const Distribute
 
 template<std::size_t Corners>
 std::vector<Point3> centresOf(
-  const Simplices<Corners>& all, const std::vector<Index>& cells, const std::vector<Point3>& points)
+  const Cells<Corners>& all, const std::vector<Index>& cells, const std::vector<Point3>& points)
 {
   std::vector<Point3> centres;
   centres.reserve(cells.size());
@@ -282,7 +282,7 @@ OperationBlocks findOperationBlocks(RankExchange& exchange, const DistributedMes
   std::vector<unsigned char> flags, const BlockSettings& settings, const ParallelFor& parallelFor)
 {
   const auto larger = [](unsigned char a, unsigned char b) { return std::max(a, b); };
-  const SimplexMesh& piece = mesh.mesh();
+  const Mesh& piece = mesh.mesh();
   combineShared(exchange, mesh.shared, flags, larger);
   for (int ring = 1; ring < settings.rings; ++ring)
   {
@@ -316,7 +316,7 @@ std::vector<int> ranksOfBlocks(
   }
   const std::int64_t here = exchange.rank();
   const auto ofVertices = blocksOfVertices(exchange, mesh, blocks.ofCells);
-  const SimplexMesh& piece = mesh.mesh();
+  const Mesh& piece = mesh.mesh();
   std::vector<std::int64_t> lowest(blocks.sizes.size(), exchange.size());
   std::vector<std::int64_t> highest(blocks.sizes.size(), -1);
   std::vector<std::int64_t> ofCells(piece.vertices.size(), noBlock);
@@ -404,7 +404,7 @@ OperationTrace operateOnBlocks(RankExchange& exchange, DistributedMesh& mesh,
   {
     maker.add(meshes[i], results[i].added, rows[i], list[i].first);
   }
-  SimplexMesh made = maker.make(trace.cells);
+  Mesh made = maker.make(trace.cells);
   numberNewVertices(exchange, maker.blocks(), task.blocks.sizes.size(), mesh, made.ids);
   mesh.converted.cellIds = numberChildren(exchange, mesh, trace.cells);
   const std::size_t oldCount = mesh.mesh().points.size();

@@ -14,9 +14,8 @@ namespace
 /// Of these cells those that are kept, and in the places of others their descendants, those of one
 /// in the order in which they came; where those of each begin. Sorts the descendants by parents.
 template<std::size_t Corners>
-void merge(const Simplices<Corners>& cells, const std::vector<Index>& kept,
-  std::vector<Descendant<Corners>>& descendants, Simplices<Corners>& result,
-  std::vector<Index>& firsts)
+void merge(const Cells<Corners>& cells, const std::vector<Index>& kept,
+  std::vector<Descendant<Corners>>& descendants, Cells<Corners>& result, std::vector<Index>& firsts)
 {
   std::stable_sort(descendants.begin(), descendants.end(),
     [](const auto& a, const auto& b) { return a.parent < b.parent; });
@@ -142,9 +141,9 @@ void PieceMaker::addRows(
   append(rows.ofDensities, later, parentOf, rows_.ofDensities);
 }
 
-SimplexMesh PieceMaker::make(RefinementTrace& trace)
+Mesh PieceMaker::make(RefinementTrace& trace)
 {
-  SimplexMesh result;
+  Mesh result;
   result.dimension = mesh_.dimension;
   result.wedgesAsDocumented = mesh_.wedgesAsDocumented;
   result.points = std::move(points_);
@@ -176,7 +175,7 @@ SimplexMesh PieceMaker::make(RefinementTrace& trace)
 }
 
 /// In the order of their targets.
-void PieceMaker::placeRows(const SimplexMesh& made, RefinementTrace& trace) const
+void PieceMaker::placeRows(const Mesh& made, RefinementTrace& trace) const
 {
   std::vector<PlacedRow> ofVertices;
   for (std::size_t r = 0; r < rows_.ofVertices.size(); ++r)

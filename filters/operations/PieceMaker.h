@@ -28,7 +28,7 @@ class PieceMaker
 {
 public:
   /// `others` is in no block. Keeps references.
-  PieceMaker(const SimplexMesh& mesh, const Members& others)
+  PieceMaker(const Mesh& mesh, const Members& others)
     : mesh_(mesh), others_(others), points_(mesh.points)
   {
   }
@@ -44,14 +44,14 @@ public:
 
   /// With all vertices, also those that no cell has any more; no ids of new ones. Writes where
   /// cells and fields come from into the trace. Once. Work: one look at each cell.
-  SimplexMesh make(RefinementTrace& trace);
+  Mesh make(RefinementTrace& trace);
 
 private:
   bool comesBefore(Index a, Index b) const;
-  void placeRows(const SimplexMesh& made, RefinementTrace& trace) const;
+  void placeRows(const Mesh& made, RefinementTrace& trace) const;
   void addRows(const BlockMesh& block, const std::vector<Index>& vertices, const FieldRows& rows);
 
-  const SimplexMesh& mesh_;
+  const Mesh& mesh_;
   const Members& others_;
   std::vector<Point3> points_;
   std::vector<std::array<Index, 2>> parents_;

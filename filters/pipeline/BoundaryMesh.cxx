@@ -41,7 +41,7 @@ std::vector<Index> verticesOf(const ClassifiedFacets& chosen, std::size_t vertex
 }
 
 /// Appends a facet to the cells of its shape.
-void addCell(SimplexMesh& mesh, const Facet& facet)
+void addCell(Mesh& mesh, const Facet& facet)
 {
   visitShapes(mesh, facet.corners() > 2 ? 2 : 1,
     [&](auto, auto& cells)
@@ -58,10 +58,10 @@ void addCell(SimplexMesh& mesh, const Facet& facet)
     });
 }
 
-SimplexMesh facetsAsCells(
-  const SimplexMesh& mesh, const ClassifiedFacets& chosen, const std::vector<Index>& vertices)
+Mesh facetsAsCells(
+  const Mesh& mesh, const ClassifiedFacets& chosen, const std::vector<Index>& vertices)
 {
-  SimplexMesh result;
+  Mesh result;
   std::vector<Index> placeOf(mesh.points.size(), -1);
   for (const Index vertex : vertices)
   {
@@ -113,7 +113,7 @@ ClassifiedFacets facetsAmong(
   return { boundary.facetDimension(), taken(boundary.facets, chosen), taken(entities, chosen) };
 }
 
-void checkForBoundary(const SimplexMesh& mesh)
+void checkForBoundary(const Mesh& mesh)
 {
   if (mesh.dimension == 0)
   {
@@ -170,7 +170,7 @@ Sides compareWithListed(RankExchange& exchange, const DistributedMesh& mesh,
     placeOf[k] = std::lower_bound(distinct.begin(), distinct.end(), keys[k]) - distinct.begin();
     k < ofFacets.size() ? void(entities[placeOf[k]] = ofFacets[k]) : void(isListed[placeOf[k]] = 1);
   }
-  const SharedItems shared = findSharedSimplices(exchange, mesh.shared, mesh.mesh().ids, distinct);
+  const SharedItems shared = findSharedCells(exchange, mesh.shared, mesh.mesh().ids, distinct);
   const auto larger = [](auto a, auto b) { return std::max(a, b); };
   combineShared(exchange, shared, entities, larger);
   combineShared(exchange, shared, isListed, larger);
@@ -313,7 +313,7 @@ MeshWithBoundary makeWithFacets(const PipelineContext& context, MeshState& state
 MeshWithBoundary makeWithFaces(
   const PipelineContext& context, MeshState& state, const std::vector<EntityId>& ofFacets)
 {
-  const SimplexMesh& mesh = state.mesh.mesh();
+  const Mesh& mesh = state.mesh.mesh();
   std::vector<EntityId> entities(mesh.cellCount());
   for (std::size_t f = 0; f < ofFacets.size(); ++f)
   {
@@ -330,7 +330,7 @@ MeshWithBoundary makeWithFaces(
 MeshState boundaryMesh(
   const PipelineContext& context, MeshState state, const std::vector<std::string>& faces)
 {
-  const SimplexMesh& mesh = state.mesh.mesh();
+  const Mesh& mesh = state.mesh.mesh();
   checkForBoundary(mesh);
   const ClassifiedFacets chosen = facetsAmong(context, state, faces);
   const std::vector<Index> vertices = verticesOf(chosen, mesh.points.size());

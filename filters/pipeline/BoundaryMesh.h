@@ -38,7 +38,7 @@ struct MeshWithBoundary
 /// classified, and stays as it is.
 ///
 /// Collective. Work: that of boundaryMesh, of sorting the facets, and of makeDataSet; messages as
-/// findSharedSimplices.
+/// findSharedCells.
 MeshWithBoundary makeDataSetWithBoundary(const PipelineContext& context, MeshState& state);
 
 } // namespace cadrefine

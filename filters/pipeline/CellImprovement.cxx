@@ -202,7 +202,7 @@ private:
     return true;
   }
 
-  SimplexMesh& mesh() { return state_.mesh.mesh(); }
+  Mesh& mesh() { return state_.mesh.mesh(); }
 
   /// Collective.
   std::vector<Point3> wanted()

@@ -70,7 +70,7 @@ private:
   /// Those none of whose cells is marked. Collective.
   std::vector<unsigned char> verticesThatMayGo()
   {
-    const SimplexMesh& mesh = state_.mesh.mesh();
+    const Mesh& mesh = state_.mesh.mesh();
     std::vector<unsigned char> mayGo(mesh.points.size(), 1);
     const auto keep = [&](const auto& corners)
     {

@@ -18,7 +18,7 @@ namespace
 
 constexpr const char* blockArray = "cadrefine:block";
 
-CellRange cellsOf(const SimplexMesh& mesh, int dimension)
+CellRange cellsOf(const Mesh& mesh, int dimension)
 {
   return { firstCellOfDimension(mesh, dimension), mesh.cellCount(dimension) };
 }
@@ -26,7 +26,7 @@ CellRange cellsOf(const SimplexMesh& mesh, int dimension)
 /// Brings each block to one rank. The blocks after that.
 OperationBlocks gather(const PipelineContext& context, MeshState& state, OperationBlocks blocks)
 {
-  const SimplexMesh& mesh = state.mesh.mesh();
+  const Mesh& mesh = state.mesh.mesh();
   const auto ranks = ranksOfBlocks(context.exchange, state.mesh, blocks);
   if (!context.exchange.any(!ranks.empty()))
   {
@@ -70,7 +70,7 @@ std::vector<unsigned char> flagsOfKept(
 
 void findNumberings(RankExchange& exchange, MeshState& state)
 {
-  const SimplexMesh& mesh = state.mesh.mesh();
+  const Mesh& mesh = state.mesh.mesh();
   if (!state.numberings && mesh.dimension > 0)
   {
     state.numberings =
@@ -85,7 +85,7 @@ std::int64_t operate(const PipelineContext& context, MeshState& state,
   const OperationBlocks blocks = gather(
     context, state, findOperationBlocks(exchange, state.mesh, flags, settings, state.parallelFor));
   ClassifiedBoundary& boundary = boundaryOf(context, state);
-  const SimplexMesh& mesh = state.mesh.mesh();
+  const Mesh& mesh = state.mesh.mesh();
   findNumberings(exchange, state);
   const auto labels = [&](int dimension)
   { return labelsOf(state.arrays.ofCells, cellsOf(mesh, dimension), *state.numberings); };

@@ -65,7 +65,7 @@ std::vector<EntityId> entitiesOfFacets(const PipelineContext& context, MeshState
 {
   ClassifiedBoundary& classified = boundaryOf(context, state);
   const DistributedBoundary& boundary = classified.boundary;
-  const SimplexMesh& mesh = state.mesh.mesh();
+  const Mesh& mesh = state.mesh.mesh();
   const bool triangles = boundary.kind == BoundaryKind::Triangles;
   if (!triangles && !classified.midpoints)
   {

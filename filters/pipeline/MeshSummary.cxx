@@ -19,7 +19,7 @@ namespace cadrefine
 namespace
 {
 
-CellQualities measureCells(RankExchange& exchange, const SimplexMesh& mesh)
+CellQualities measureCells(RankExchange& exchange, const Mesh& mesh)
 {
   CellQualities result;
   if (mesh.dimension < 2)
@@ -61,7 +61,7 @@ QualitySummary overRanks(RankExchange& exchange, const QualitySummary& mine)
 
 CellQualities measureQuality(RankExchange& exchange, const DistributedMesh& mesh)
 {
-  const SimplexMesh& piece = mesh.mesh();
+  const Mesh& piece = mesh.mesh();
   CellQualities result = measureCells(exchange, piece);
   QualitySummary mine =
     piece.dimension == 3 ? summariseCells(piece, forOnThreads(exchange)) : summaryOf(result);

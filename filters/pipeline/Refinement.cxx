@@ -161,7 +161,7 @@ private:
   std::vector<unsigned char> cellsAt(
     const std::vector<EntityId>& entities, const IsWanted& isWanted) const
   {
-    const SimplexMesh& mesh = state_.mesh.mesh();
+    const Mesh& mesh = state_.mesh.mesh();
     std::vector<unsigned char> cells(state_.mesh.converted.cellIds[mesh.dimension].size(), 0);
     for (std::size_t f = 0; f < entities.size(); ++f)
     {
@@ -242,7 +242,7 @@ private:
     {
       return false;
     }
-    const SimplexMesh& mesh = state_.mesh.mesh();
+    const Mesh& mesh = state_.mesh.mesh();
     const auto firsts = countChildren(mesh, plan)[mesh.dimension];
     return exchange_.sum(firsts.empty() ? 0 : firsts.back()) > options_.maximumCells;
   }
@@ -317,7 +317,7 @@ private:
     state_.mapping.addMidNodes(edges);
     if (!state_.mapping.needs().densities.empty())
     {
-      const SimplexMesh& mesh = state_.mesh.mesh();
+      const Mesh& mesh = state_.mesh.mesh();
       state_.mapping.scale(densitiesOfCurved(mesh, *state_.mesh.converted.midNodes,
         mesh.dimension == 2 ? planeNormal(exchange_, mesh) : Vector3{}));
     }

@@ -59,7 +59,7 @@ std::vector<Entry> firstOf(RankExchange& exchange, std::vector<Entry> mine, std:
   return all;
 }
 
-double measureOf(const SimplexMesh& mesh, const Facet& facet)
+double measureOf(const Mesh& mesh, const Facet& facet)
 {
   std::array<Point3, 4> p{};
   std::transform(

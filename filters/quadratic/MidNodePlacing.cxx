@@ -34,7 +34,7 @@ void makeMidNodes(RankExchange& exchange, DistributedMesh& mesh, MarkedEdges edg
 void settle(RankExchange& exchange, const DistributedMesh& mesh, const MarkedEdges& edges,
   MidNodeMoves& moves)
 {
-  const SimplexMesh& piece = mesh.mesh();
+  const Mesh& piece = mesh.mesh();
   const Vector3 plane = piece.dimension == 2 ? planeNormal(exchange, piece) : Vector3{};
   const auto combine = [&]
   {

@@ -117,7 +117,7 @@ NewVerticesOfMesh makeNewVertices(
 }
 
 /// Edges that stand over each other count as the longest of them, on whatever rank. Collective.
-void orderStacks(RankExchange& exchange, const SimplexMesh& mesh, RefinementPlan& plan)
+void orderStacks(RankExchange& exchange, const Mesh& mesh, RefinementPlan& plan)
 {
   if (!exchange.any(!mesh.wedges.empty()))
   {
@@ -145,7 +145,7 @@ void orderStacks(RankExchange& exchange, const SimplexMesh& mesh, RefinementPlan
 /// for one all of whose edges are marked. Collective.
 bool markBadlyCut(RankExchange& exchange, const DistributedMesh& mesh, RefinementPlan& plan)
 {
-  const SimplexMesh& piece = mesh.mesh();
+  const Mesh& piece = mesh.mesh();
   const std::vector<Index> bad =
     cellsCutBadly(piece, plan.table, plan.quads.table, plan.marks, plan.uniform);
   std::vector<Index> toMark; // at once: a cell whose neighbours mark all its edges has another try
@@ -221,7 +221,7 @@ std::array<std::vector<GlobalId>, 4> numberChildren(
 }
 
 Moves movesOntoCAD(
-  const SimplexMesh& mesh, const BoundaryProjector& projector, Classification& classification)
+  const Mesh& mesh, const BoundaryProjector& projector, Classification& classification)
 {
   Moves moves(mesh);
   for (std::size_t v = 0; v < classification.entities.size(); ++v)
@@ -275,7 +275,7 @@ RefinementPlan planLongestEdge(RankExchange& exchange, const DistributedMesh& me
   return plan;
 }
 
-ChildRanges countChildren(const SimplexMesh& mesh, const RefinementPlan& plan)
+ChildRanges countChildren(const Mesh& mesh, const RefinementPlan& plan)
 {
   return plan.uniform ? countUniformChildren(mesh)
                       : countMarkedChildren(mesh, plan.table, plan.quads.table, plan.marks);

@@ -42,7 +42,7 @@ RefinementPlan planLongestEdge(RankExchange& exchange, const DistributedMesh& me
   const std::vector<unsigned char>& cellMarks, const FacetsToCut* toCut, bool keepLayers);
 
 /// How many cells `refine` makes of each cell.
-ChildRanges countChildren(const SimplexMesh& mesh, const RefinementPlan& plan);
+ChildRanges countChildren(const Mesh& mesh, const RefinementPlan& plan);
 
 /// Cuts the mesh as planned (new vertices at midpoints; new ids by a parallel sort of the ids of
 /// the edges' ends, so that they do not depend on the partition). What is shared with other ranks
@@ -74,6 +74,6 @@ RefinementTrace refineOntoCAD(RankExchange& exchange, DistributedMesh& mesh,
 
 /// Moves of all vertices that are not at their places on the CAD to these, which are found anew.
 Moves movesOntoCAD(
-  const SimplexMesh& mesh, const BoundaryProjector& projector, Classification& classification);
+  const Mesh& mesh, const BoundaryProjector& projector, Classification& classification);
 
 } // namespace cadrefine

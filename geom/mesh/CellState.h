@@ -1,8 +1,8 @@
 // Validity and quality of one cell of any shape.
 #pragma once
 
+#include <cadrefine/mesh/Mesh.h>
 #include <cadrefine/mesh/Quality.h>
-#include <cadrefine/mesh/SimplexMesh.h>
 
 #include <algorithm>
 #include <array>

@@ -34,7 +34,7 @@ std::vector<Index> orderByIds(const std::vector<GlobalId>& ids)
 /// edge is to stand.
 template<std::size_t Corners, std::size_t Edges, class Use>
 void forEachSide(
-  const Simplices<Corners>& cells, const int (&ends)[Edges][2], std::size_t& place, const Use& use)
+  const Cells<Corners>& cells, const int (&ends)[Edges][2], std::size_t& place, const Use& use)
 {
   for (const auto& cell : cells)
   {
@@ -47,7 +47,7 @@ void forEachSide(
 
 /// visit(shape, cells) of the shapes that have edges, those of the highest dimension first.
 template<class Visit>
-void visitWithEdges(const SimplexMesh& mesh, const Visit& visit)
+void visitWithEdges(const Mesh& mesh, const Visit& visit)
 {
   for (int d = 3; d > 0; --d)
   {
@@ -63,14 +63,14 @@ void visitWithEdges(const SimplexMesh& mesh, const Visit& visit)
 }
 
 template<class Use>
-void forEachSide(const SimplexMesh& mesh, const Use& use)
+void forEachSide(const Mesh& mesh, const Use& use)
 {
   std::size_t place = 0;
   visitWithEdges(mesh,
     [&](auto shape, const auto& cells) { forEachSide(cells, decltype(shape)::edges, place, use); });
 }
 
-std::size_t countSides(const SimplexMesh& mesh)
+std::size_t countSides(const Mesh& mesh)
 {
   std::size_t sides = 0;
   visitWithEdges(mesh, [&](auto shape, const auto& cells)
@@ -91,7 +91,7 @@ struct Side
 class SidePlaces
 {
 public:
-  SidePlaces(const SimplexMesh& mesh, EdgeTable& table)
+  SidePlaces(const Mesh& mesh, EdgeTable& table)
   {
     std::size_t place = 0;
     visitWithEdges(mesh,
@@ -136,7 +136,7 @@ private:
 class EdgeNumberer
 {
 public:
-  EdgeNumberer(const SimplexMesh& mesh, const std::vector<Index>& order, EdgeTable& table)
+  EdgeNumberer(const Mesh& mesh, const std::vector<Index>& order, EdgeTable& table)
     : order_(order), table_(table), places_(mesh, table), edgeTo_(order.size(), -1)
   {
     table_.firstOfRank.reserve(order.size() + 1);
@@ -176,7 +176,7 @@ private:
   std::vector<Index> others_;
 };
 
-void measureLengths(const SimplexMesh& mesh, EdgeTable& table)
+void measureLengths(const Mesh& mesh, EdgeTable& table)
 {
   resizeLong(table.squaredLengths, table.edges.size());
   std::transform(table.edges.begin(), table.edges.end(), table.squaredLengths.begin(),
@@ -229,7 +229,7 @@ Index EdgeTable::find(Index a, Index b) const
            : -1;
 }
 
-EdgeTable buildEdgeTable(const SimplexMesh& mesh)
+EdgeTable buildEdgeTable(const Mesh& mesh)
 {
   requireAtMost(countSides(mesh), "edges of cells", Side::most);
   EdgeTable table;

@@ -1,7 +1,7 @@
 // The edges of a mesh.
 #pragma once
 
-#include <cadrefine/mesh/SimplexMesh.h>
+#include <cadrefine/mesh/Mesh.h>
 
 #include <algorithm>
 #include <array>
@@ -93,7 +93,7 @@ constexpr auto edgesOfCells(shapes::Segment)
 /// Sorts the sides of all cells by one end, and the edges there by the other: work and memory
 /// linear in the number of cells but for a logarithm of the edges at a vertex. Throws Error where
 /// there are more than 2^32 - 1 sides (715 million tetrahedra) or 2^31 - 1 edges.
-EdgeTable buildEdgeTable(const SimplexMesh& mesh);
+EdgeTable buildEdgeTable(const Mesh& mesh);
 
 /// The total order by which the longest edge is chosen: by (squared length, smaller id, larger id).
 /// It needs no tolerance and is the same on every rank, since lengths are computed from the end

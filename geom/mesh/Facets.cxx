@@ -88,7 +88,7 @@ struct SimplexSides
 {
   using Others = std::uint64_t;
 
-  const Simplices<Corners>& cells;
+  const Cells<Corners>& cells;
   const int (&sides)[Sides][SideCorners];
   const std::vector<unsigned char>& among;
 
@@ -142,7 +142,7 @@ class MixedSides
 public:
   using Others = MixedOthers;
 
-  MixedSides(const SimplexMesh& mesh, const std::vector<unsigned char>& among)
+  MixedSides(const Mesh& mesh, const std::vector<unsigned char>& among)
     : mesh_(mesh), among_(among), cellCount_(mesh.cellCount(mesh.dimension))
   {
   }
@@ -207,7 +207,7 @@ private:
            std::all_of(side.begin(), side.end(), [&](Index corner) { return among_[corner]; });
   }
 
-  const SimplexMesh& mesh_;
+  const Mesh& mesh_;
   const std::vector<unsigned char>& among_;
   std::size_t cellCount_;
 };
@@ -317,7 +317,7 @@ std::vector<Facet> outerFacets(
 } // namespace
 
 std::vector<Facet> findOuterFacets(
-  const SimplexMesh& mesh, const std::vector<unsigned char>& among, const ParallelFor& parallelFor)
+  const Mesh& mesh, const std::vector<unsigned char>& among, const ParallelFor& parallelFor)
 {
   const std::size_t vertices = mesh.points.size();
   if (mesh.hasOtherThanSimplices())
@@ -331,7 +331,7 @@ std::vector<Facet> findOuterFacets(
                parallelFor);
 }
 
-std::vector<Facet> facetsOfSurface(const SimplexMesh& mesh)
+std::vector<Facet> facetsOfSurface(const Mesh& mesh)
 {
   std::vector<Facet> facets;
   facets.reserve(mesh.cellCount(2));

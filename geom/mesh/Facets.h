@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cadrefine/base/ParallelFor.h>
-#include <cadrefine/mesh/SimplexMesh.h>
+#include <cadrefine/mesh/Mesh.h>
 
 #include <algorithm>
 #include <array>
@@ -56,7 +56,7 @@ void forEachSide(Shape shape, const Corners& corners, Index cell, const Use& use
 
 /// The same of all cells of the mesh's own dimension, which is 2 or 3.
 template<class Use>
-void forEachSide(const SimplexMesh& mesh, const Use& use)
+void forEachSide(const Mesh& mesh, const Use& use)
 {
   Index cell = 0;
   visitOwnShapes(mesh,
@@ -73,10 +73,10 @@ void forEachSide(const SimplexMesh& mesh, const Use& use)
 /// the cells. Lists the cells at the smallest vertices of their sides: work linear in the number of
 /// cells but for a logarithm of the sides at a vertex, memory 8 bytes a cell. With `among`, a flag
 /// for each vertex, only the sides are looked at whose vertices all have one.
-std::vector<Facet> findOuterFacets(const SimplexMesh& mesh,
-  const std::vector<unsigned char>& among = {}, const ParallelFor& parallelFor = serialFor);
+std::vector<Facet> findOuterFacets(const Mesh& mesh, const std::vector<unsigned char>& among = {},
+  const ParallelFor& parallelFor = serialFor);
 
 /// The triangles and quadrilaterals of a mesh in space, each a facet.
-std::vector<Facet> facetsOfSurface(const SimplexMesh& mesh);
+std::vector<Facet> facetsOfSurface(const Mesh& mesh);
 
 } // namespace cadrefine

@@ -86,7 +86,7 @@ void QualitySummary::add(const QualitySummary& other)
   smallestCube = std::min(smallestCube, other.smallestCube);
 }
 
-QualitySummary summariseCells(const SimplexMesh& mesh, const ParallelFor& parallelFor)
+QualitySummary summariseCells(const Mesh& mesh, const ParallelFor& parallelFor)
 {
   QualitySummary result;
   std::mutex mutex;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cadrefine/base/ParallelFor.h>
-#include <cadrefine/mesh/SimplexMesh.h>
+#include <cadrefine/mesh/Mesh.h>
 
 #include <cstdint>
 #include <limits>
@@ -29,6 +29,6 @@ struct QualitySummary
 /// few: a volume that is larger than the rounding errors in it is positive, and of mean ratios the
 /// cubes are compared. Some 10 ns a tetrahedron. The summary of two meshes is that of their cells
 /// together.
-QualitySummary summariseCells(const SimplexMesh& mesh, const ParallelFor& parallelFor = serialFor);
+QualitySummary summariseCells(const Mesh& mesh, const ParallelFor& parallelFor = serialFor);
 
 } // namespace cadrefine

@@ -16,7 +16,7 @@ constexpr bool standsOnAnother(Shape)
 
 /// visit(shape, corners) of the cell of this number, if cells of its shape stand on others.
 template<class Visit>
-void visitCell(const SimplexMesh& mesh, Index cell, const Visit& visit)
+void visitCell(const Mesh& mesh, Index cell, const Visit& visit)
 {
   visitOwnCell(mesh, cell,
     [&](auto shape, const auto& corners)
@@ -51,7 +51,7 @@ Index leaving(Shape, const Corners& corners, const Facet& side, Index vertex)
 
 } // namespace
 
-CellStacks::CellStacks(const SimplexMesh& mesh)
+CellStacks::CellStacks(const Mesh& mesh)
   : mesh_(mesh),
     cellsAt_(mesh.points.size(),
       [&](const auto& use)

@@ -3,7 +3,7 @@
 
 #include <cadrefine/base/VertexBuckets.h>
 #include <cadrefine/mesh/Facets.h>
-#include <cadrefine/mesh/SimplexMesh.h>
+#include <cadrefine/mesh/Mesh.h>
 
 namespace cadrefine
 {
@@ -14,7 +14,7 @@ namespace cadrefine
 class CellStacks
 {
 public:
-  explicit CellStacks(const SimplexMesh& mesh);
+  explicit CellStacks(const Mesh& mesh);
 
   /// The side of the cell `side.cell` that is opposite to this side of it, with the same cell,
   /// corner k of both joined by an edge; without corners where the cell has no such side.
@@ -25,7 +25,7 @@ public:
   Facet beyond(const Facet& side) const;
 
 private:
-  const SimplexMesh& mesh_;
+  const Mesh& mesh_;
   VertexBuckets<Index> cellsAt_; ///< In their numbers among the cells of the mesh's own dimension.
 };
 

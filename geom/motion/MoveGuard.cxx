@@ -38,7 +38,7 @@ CellState stateFrom(Shape shape, const std::array<Point3, Shape::corners>& p, co
 
 } // namespace
 
-Moves::Moves(const SimplexMesh& mesh)
+Moves::Moves(const Mesh& mesh)
   : targets(mesh.points), fractions(mesh.points.size(), 0.0), whole(mesh.points.size(), 0)
 {
 }
@@ -49,7 +49,7 @@ void Moves::add(Index vertex, const Point3& target)
   fractions[vertex] = 1;
 }
 
-Point3 Moves::position(const SimplexMesh& mesh, Index vertex) const
+Point3 Moves::position(const Mesh& mesh, Index vertex) const
 {
   const double fraction = fractions[vertex];
   if (fraction == 1)
@@ -61,7 +61,7 @@ Point3 Moves::position(const SimplexMesh& mesh, Index vertex) const
 }
 
 std::vector<Index> cellsAt(
-  const SimplexMesh& mesh, const std::vector<unsigned char>& flags, const ParallelFor& parallelFor)
+  const Mesh& mesh, const std::vector<unsigned char>& flags, const ParallelFor& parallelFor)
 {
   std::vector<Index> all;
   Index first = 0;
@@ -102,7 +102,7 @@ std::vector<Index> cellsOfShape(
 }
 
 void flagVertices(
-  const SimplexMesh& mesh, const std::vector<Index>& cells, std::vector<unsigned char>& flags)
+  const Mesh& mesh, const std::vector<Index>& cells, std::vector<unsigned char>& flags)
 {
   std::size_t first = 0;
   visitOwnShapes(mesh,
@@ -119,21 +119,19 @@ void flagVertices(
     });
 }
 
-MoveGuard::MoveGuard(const SimplexMesh& mesh, const Moves& moves)
-  : MoveGuard(mesh, moves, mesh.points, {})
+MoveGuard::MoveGuard(const Mesh& mesh, const Moves& moves) : MoveGuard(mesh, moves, mesh.points, {})
 {
 }
 
-MoveGuard::MoveGuard(const SimplexMesh& mesh, const Moves& moves,
-  const std::vector<Point3>& reference, const Vector3& plane, const ParallelFor& parallelFor)
+MoveGuard::MoveGuard(const Mesh& mesh, const Moves& moves, const std::vector<Point3>& reference,
+  const Vector3& plane, const ParallelFor& parallelFor)
   : MoveGuard(
       mesh, moves, reference, plane, cellsAt(mesh, movingVertices(moves), parallelFor), parallelFor)
 {
 }
 
-MoveGuard::MoveGuard(const SimplexMesh& mesh, const Moves& moves,
-  const std::vector<Point3>& reference, const Vector3& plane, const std::vector<Index>& cells,
-  const ParallelFor& parallelFor)
+MoveGuard::MoveGuard(const Mesh& mesh, const Moves& moves, const std::vector<Point3>& reference,
+  const Vector3& plane, const std::vector<Index>& cells, const ParallelFor& parallelFor)
   : mesh_(mesh), parallelFor_(parallelFor)
 {
   std::size_t first = 0;

@@ -3,7 +3,7 @@
 
 #include <cadrefine/base/ParallelFor.h>
 #include <cadrefine/mesh/CellState.h>
-#include <cadrefine/mesh/SimplexMesh.h>
+#include <cadrefine/mesh/Mesh.h>
 
 #include <array>
 #include <vector>
@@ -19,22 +19,22 @@ struct Moves
   std::vector<unsigned char> whole; ///< 1: the vertex moves all of its way or not at all.
 
   /// No moves of the vertices of `mesh`.
-  explicit Moves(const SimplexMesh& mesh);
+  explicit Moves(const Mesh& mesh);
   void add(Index vertex, const Point3& target);
   /// Where the vertex stands: its target exactly at fraction 1.
-  Point3 position(const SimplexMesh& mesh, Index vertex) const;
+  Point3 position(const Mesh& mesh, Index vertex) const;
 };
 
 /// Cells of the mesh's own dimension with a flagged vertex, ascending. Work: one look at each cell.
 std::vector<Index> cellsAt(
-  const SimplexMesh& mesh, const std::vector<unsigned char>& flags, const ParallelFor& parallelFor);
+  const Mesh& mesh, const std::vector<unsigned char>& flags, const ParallelFor& parallelFor);
 /// The cells of a shape, numbered from 0, among these numbers, ascending, of cells of the mesh's
 /// own dimension, of which `count` from `first` on are of that shape.
 std::vector<Index> cellsOfShape(
   const std::vector<Index>& numbers, std::size_t first, std::size_t count);
 /// Flags the vertices of these cells.
 void flagVertices(
-  const SimplexMesh& mesh, const std::vector<Index>& cells, std::vector<unsigned char>& flags);
+  const Mesh& mesh, const std::vector<Index>& cells, std::vector<unsigned char>& flags);
 
 /// Keeps cells valid while their vertices move, from a mesh whose points are the starting state.
 ///
@@ -56,15 +56,15 @@ public:
   static constexpr int maximumHalvings = 12;
 
   /// For these moves; the starting state is the reference.
-  MoveGuard(const SimplexMesh& mesh, const Moves& moves);
+  MoveGuard(const Mesh& mesh, const Moves& moves);
   /// `reference` has a point for each vertex; all cells accept the starting state. `plane` is the
   /// unit normal of a planar mesh, from whose end its triangles should turn; where it is zero,
   /// triangles keep the side that they have in the reference state. `cells` are those with a vertex
   /// that moves (others among them are left out); without them all are looked at. Memory for those
   /// with a vertex that moves. Keeps a reference to the mesh. All methods loop by `parallelFor`.
-  MoveGuard(const SimplexMesh& mesh, const Moves& moves, const std::vector<Point3>& reference,
+  MoveGuard(const Mesh& mesh, const Moves& moves, const std::vector<Point3>& reference,
     const Vector3& plane, const ParallelFor& parallelFor = serialFor);
-  MoveGuard(const SimplexMesh& mesh, const Moves& moves, const std::vector<Point3>& reference,
+  MoveGuard(const Mesh& mesh, const Moves& moves, const std::vector<Point3>& reference,
     const Vector3& plane, const std::vector<Index>& cells,
     const ParallelFor& parallelFor = serialFor);
 
@@ -96,7 +96,7 @@ private:
   template<class Predicate>
   std::vector<Index> cornersWhere(const Predicate& holds) const;
 
-  const SimplexMesh& mesh_;
+  const Mesh& mesh_;
   ParallelFor parallelFor_;
   std::array<std::vector<GuardedCell>, 4> guarded_; ///< By the order of the shapes.
 };

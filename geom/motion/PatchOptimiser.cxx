@@ -134,7 +134,7 @@ void PatchOptimiser::findLevels()
 }
 
 template<std::size_t Corners>
-void PatchOptimiser::prepare(const Simplices<Corners>& cells)
+void PatchOptimiser::prepare(const Cells<Corners>& cells)
 {
   std::vector<Index> sorted(cells.size());
   std::vector<std::array<GlobalId, Corners>> keys;
@@ -244,7 +244,7 @@ bool PatchOptimiser::mustWait(Index vertex) const
 
 ShapeEnergy PatchOptimiser::energyAt(Index vertex) const
 {
-  const SimplexMesh& mesh = patch_.mesh;
+  const Mesh& mesh = patch_.mesh;
   const auto& p = mesh.points;
   ShapeEnergy energy(mesh.dimension);
   for (std::size_t s = firstOfStar_[vertex]; s < firstOfStar_[vertex + 1]; ++s)

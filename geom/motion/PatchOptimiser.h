@@ -4,7 +4,7 @@
 #include <cadrefine/base/EntityId.h>
 #include <cadrefine/base/ParallelFor.h>
 #include <cadrefine/classification/BoundaryProjector.h>
-#include <cadrefine/mesh/SimplexMesh.h>
+#include <cadrefine/mesh/Mesh.h>
 #include <cadrefine/motion/ShapeEnergy.h>
 
 #include <array>
@@ -19,7 +19,7 @@ namespace cadrefine
 /// Cells and what may be done with their vertices: an entry in each list for each vertex.
 struct Patch
 {
-  SimplexMesh mesh;          ///< Points: where the vertices stand, or are to stand; may be tangled.
+  Mesh mesh;                 ///< Points: where the vertices stand, or are to stand; may be tangled.
   std::vector<Point3> start; ///< Where they stood in the mesh; gives the size of a cell.
   std::vector<unsigned char> free;     ///< 1: it may move.
   std::vector<unsigned char> complete; ///< 1: all cells of the whole mesh round it are here.
@@ -68,7 +68,7 @@ private:
   double measure(const std::array<Index, 3>& cell) const;
   Vector3 normalAt(const std::array<Index, 3>& triangle) const;
   template<std::size_t Corners>
-  void prepare(const Simplices<Corners>& cells);
+  void prepare(const Cells<Corners>& cells);
   template<class Visit>
   void forCornersRound(Index vertex, const Visit& visit) const;
   bool comesBefore(Index other, Index vertex) const;

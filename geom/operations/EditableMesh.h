@@ -3,7 +3,7 @@
 
 #include <cadrefine/base/EntityId.h>
 #include <cadrefine/classification/BoundaryProjector.h>
-#include <cadrefine/mesh/SimplexMesh.h>
+#include <cadrefine/mesh/Mesh.h>
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cadrefine/base/WeightedRows.h>
-#include <cadrefine/mesh/SimplexMesh.h>
+#include <cadrefine/mesh/Mesh.h>
 #include <cadrefine/operations/EditableMesh.h>
 
 #include <cstddef>

@@ -178,9 +178,9 @@ private:
     return copies;
   }
 
-  static Simplices<Dimension + 1> cornersOf(const std::vector<Cell>& cells)
+  static Cells<Dimension + 1> cornersOf(const std::vector<Cell>& cells)
   {
-    Simplices<Dimension + 1> corners;
+    Cells<Dimension + 1> corners;
     corners.reserve(cells.size());
     for (const Cell& cell : cells)
     {
@@ -417,7 +417,7 @@ private:
       return;
     }
     const std::vector<Index>& around = cells().at(vertex);
-    const Simplices<Dimension + 1> corners = cornersOf(copiesOf(around));
+    const Cells<Dimension + 1> corners = cornersOf(copiesOf(around));
     const double before = costOf(around);
     double least = 0;
     for (const Corners& cell : corners)

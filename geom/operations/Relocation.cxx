@@ -52,10 +52,10 @@ template<std::size_t Corners>
 struct Star
 {
   Index vertex;
-  const Simplices<Corners>& cells;
+  const Cells<Corners>& cells;
   std::vector<Vector3> sides;
 
-  Star(const EditableMesh& mesh, Index center, const Simplices<Corners>& around)
+  Star(const EditableMesh& mesh, Index center, const Cells<Corners>& around)
     : vertex(center), cells(around), sides(around.size(), mesh.plane())
   {
     if constexpr (Corners == 3)
@@ -184,25 +184,25 @@ double relocate(EditableMesh& mesh, const Star<Corners>& star, const Path& path)
 
 } // namespace
 
-double relocate(EditableMesh& mesh, Index vertex, const Simplices<4>& cells)
+double relocate(EditableMesh& mesh, Index vertex, const Cells<4>& cells)
 {
   return relocate(mesh, Star(mesh, vertex, cells), Inside{ Directions::everywhere() });
 }
 
-double relocate(EditableMesh& mesh, Index vertex, const Simplices<3>& cells)
+double relocate(EditableMesh& mesh, Index vertex, const Cells<3>& cells)
 {
   return relocate(mesh, Star(mesh, vertex, cells), Inside{ Directions::across(mesh.plane()) });
 }
 
 double relocateOnCAD(
-  EditableMesh& mesh, Index vertex, const Simplices<4>& cells, const BoundaryProjector& projector)
+  EditableMesh& mesh, Index vertex, const Cells<4>& cells, const BoundaryProjector& projector)
 {
   return relocate(
     mesh, Star(mesh, vertex, cells), OnEntity{ projector, mesh.vertex(vertex).entity });
 }
 
 double relocateOnCAD(
-  EditableMesh& mesh, Index vertex, const Simplices<3>& cells, const BoundaryProjector& projector)
+  EditableMesh& mesh, Index vertex, const Cells<3>& cells, const BoundaryProjector& projector)
 {
   return relocate(
     mesh, Star(mesh, vertex, cells), OnEntity{ projector, mesh.vertex(vertex).entity });

@@ -11,14 +11,14 @@ namespace cadrefine
 /// halved until the worst of these cells, which are all that are to be at it, gets better and none
 /// becomes invalid: in space, or in the plane of a planar mesh. Returns the quality of the worst;
 /// -2 where one is invalid from the start.
-double relocate(EditableMesh& mesh, Index vertex, const Simplices<4>& cells);
-double relocate(EditableMesh& mesh, Index vertex, const Simplices<3>& cells);
+double relocate(EditableMesh& mesh, Index vertex, const Cells<4>& cells);
+double relocate(EditableMesh& mesh, Index vertex, const Cells<3>& cells);
 
 /// The same of a vertex on the CAD, along its face or edge, where it stays. Work: some 3
 /// projections a step.
 double relocateOnCAD(
-  EditableMesh& mesh, Index vertex, const Simplices<4>& cells, const BoundaryProjector& projector);
+  EditableMesh& mesh, Index vertex, const Cells<4>& cells, const BoundaryProjector& projector);
 double relocateOnCAD(
-  EditableMesh& mesh, Index vertex, const Simplices<3>& cells, const BoundaryProjector& projector);
+  EditableMesh& mesh, Index vertex, const Cells<3>& cells, const BoundaryProjector& projector);
 
 } // namespace cadrefine

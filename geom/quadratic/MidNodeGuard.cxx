@@ -56,7 +56,7 @@ bool stepBackWhere(const std::vector<Index>& cells, const std::vector<unsigned c
 
 } // namespace
 
-MidNodeMoves::MidNodeMoves(const SimplexMesh& mesh, const EdgeTable& table)
+MidNodeMoves::MidNodeMoves(const Mesh& mesh, const EdgeTable& table)
   : fractions(table.edges.size(), 0.0)
 {
   middles.reserve(table.edges.size());
@@ -95,8 +95,8 @@ void keepPyramidsStraight(const EdgeTable& table, MidNodeMoves& moves)
   }
 }
 
-MidNodeGuard::MidNodeGuard(const SimplexMesh& mesh, const EdgeTable& table,
-  const MidNodeMoves& moves, const Vector3& plane, const ParallelFor& parallelFor)
+MidNodeGuard::MidNodeGuard(const Mesh& mesh, const EdgeTable& table, const MidNodeMoves& moves,
+  const Vector3& plane, const ParallelFor& parallelFor)
   : mesh_(mesh), table_(table), plane_(plane), parallelFor_(parallelFor),
     seen_(moves.fractions.size(), -1.0)
 {

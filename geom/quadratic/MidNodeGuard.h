@@ -3,7 +3,7 @@
 
 #include <cadrefine/base/ParallelFor.h>
 #include <cadrefine/mesh/EdgeTable.h>
-#include <cadrefine/mesh/SimplexMesh.h>
+#include <cadrefine/mesh/Mesh.h>
 
 #include <vector>
 
@@ -18,7 +18,7 @@ struct MidNodeMoves
   std::vector<double> fractions; ///< In [0, 1]; 0 where it does not move.
 
   /// No moves of the mid nodes of `mesh`.
-  MidNodeMoves(const SimplexMesh& mesh, const EdgeTable& table);
+  MidNodeMoves(const Mesh& mesh, const EdgeTable& table);
   void add(Index edge, const Point3& target);
   /// Where the node stands: its target exactly at fraction 1, the middle exactly at 0.
   Point3 position(Index edge) const;
@@ -53,7 +53,7 @@ public:
   /// `plane` is the unit normal of a planar mesh, from whose end its cells should turn; where it is
   /// zero, cells of area keep the side of their straight normal. Keeps references to mesh and
   /// table. Work: one look at each cell; memory for those with a node that moves.
-  MidNodeGuard(const SimplexMesh& mesh, const EdgeTable& table, const MidNodeMoves& moves,
+  MidNodeGuard(const Mesh& mesh, const EdgeTable& table, const MidNodeMoves& moves,
     const Vector3& plane, const ParallelFor& parallelFor = serialFor);
 
   /// One sweep: takes the mid nodes of every invalid cell back a step. Returns true where it took
@@ -65,7 +65,7 @@ private:
   std::vector<unsigned char> findInvalid(
     Shape shape, const std::vector<Index>& cells, const MidNodeMoves& moves) const;
 
-  const SimplexMesh& mesh_;
+  const Mesh& mesh_;
   const EdgeTable& table_;
   Vector3 plane_;
   ParallelFor parallelFor_;

@@ -4,7 +4,7 @@ namespace cadrefine
 {
 
 std::vector<unsigned char> findValidCells(
-  const SimplexMesh& mesh, const MidNodes& nodes, const Vector3& plane)
+  const Mesh& mesh, const MidNodes& nodes, const Vector3& plane)
 {
   std::vector<unsigned char> valid;
   const auto nodeAt = [&](Index edge) { return nodes.points[edge]; };

@@ -3,7 +3,7 @@
 
 #include <cadrefine/mesh/CellState.h>
 #include <cadrefine/mesh/EdgeTable.h>
-#include <cadrefine/mesh/SimplexMesh.h>
+#include <cadrefine/mesh/Mesh.h>
 #include <cadrefine/quadratic/CurvedCells.h>
 
 #include <array>
@@ -23,14 +23,14 @@ struct MidNodes
 };
 
 /// The middle of an edge of a straight mesh: the same bits wherever it is computed.
-inline Point3 middleOf(const SimplexMesh& mesh, const std::array<Index, 2>& ends)
+inline Point3 middleOf(const Mesh& mesh, const std::array<Index, 2>& ends)
 {
   return 0.5 * (mesh.points[ends[0]] + mesh.points[ends[1]]);
 }
 
 /// The nodes of a cell whose mid nodes, given its edges, are nodeAt(edge).
 template<std::size_t Corners, std::size_t Edges, class NodeAt>
-std::array<Point3, Corners + Edges> gatherNodes(const SimplexMesh& mesh,
+std::array<Point3, Corners + Edges> gatherNodes(const Mesh& mesh,
   const std::array<Index, Corners>& cell, const std::array<Index, Edges>& edges,
   const NodeAt& nodeAt)
 {
@@ -49,8 +49,7 @@ std::array<Point3, Corners + Edges> gatherNodes(const SimplexMesh& mesh,
 /// Whether the cell of second order is valid (see isValid); one of area as seen from `plane`, or
 /// where that is zero (in space) from the side of its straight normal.
 template<class Shape, class NodeAt>
-bool isCellValid(Shape shape, const SimplexMesh& mesh,
-  const std::array<Index, Shape::corners>& cell,
+bool isCellValid(Shape shape, const Mesh& mesh, const std::array<Index, Shape::corners>& cell,
   const std::array<Index, std::size(Shape::edges)>& edges, const Vector3& plane,
   const NodeAt& nodeAt)
 {
@@ -68,6 +67,6 @@ bool isCellValid(Shape shape, const SimplexMesh& mesh,
 /// Whether each cell of the mesh's own dimension is valid (see isValid). `plane` is the unit normal
 /// of a planar mesh, zero for others. Work: that of isValid for each cell.
 std::vector<unsigned char> findValidCells(
-  const SimplexMesh& mesh, const MidNodes& nodes, const Vector3& plane);
+  const Mesh& mesh, const MidNodes& nodes, const Vector3& plane);
 
 } // namespace cadrefine

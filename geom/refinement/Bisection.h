@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cadrefine/mesh/EdgeTable.h>
-#include <cadrefine/mesh/SimplexMesh.h>
+#include <cadrefine/mesh/Mesh.h>
 
 #include <array>
 

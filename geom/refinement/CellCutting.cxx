@@ -92,7 +92,7 @@ std::vector<std::array<Index, 4>> piecesOfQuad(
 }
 
 /// Seen from the end of its normal, which points to the apex.
-void addOver(const std::array<Index, 4>& base, Index apex, SimplexMesh& children)
+void addOver(const std::array<Index, 4>& base, Index apex, Mesh& children)
 {
   if (base[3] < 0)
   {
@@ -104,8 +104,7 @@ void addOver(const std::array<Index, 4>& base, Index apex, SimplexMesh& children
   }
 }
 
-void addBetween(
-  const std::array<Index, 4>& low, const std::array<Index, 4>& high, SimplexMesh& children)
+void addBetween(const std::array<Index, 4>& low, const std::array<Index, 4>& high, Mesh& children)
 {
   if (low[3] < 0)
   {
@@ -118,7 +117,7 @@ void addBetween(
   }
 }
 
-void addFlat(const std::array<Index, 4>& piece, SimplexMesh& children)
+void addFlat(const std::array<Index, 4>& piece, Mesh& children)
 {
   if (piece[3] < 0)
   {
@@ -171,8 +170,8 @@ struct CellCutting::Stack
   std::vector<Piece> high;
 };
 
-CellCutting::CellCutting(const SimplexMesh& mesh, const EdgeTable& table, const QuadTable& quads,
-  const Midpoints& midpoints)
+CellCutting::CellCutting(
+  const Mesh& mesh, const EdgeTable& table, const QuadTable& quads, const Midpoints& midpoints)
   : mesh_(mesh), table_(table), quads_(quads), midpoints_(midpoints), order_(table)
 {
 }
@@ -314,7 +313,7 @@ bool CellCutting::findStack(Shape shape, Index cell, Stack& stack) const
   return false;
 }
 
-void CellCutting::cutStack(const Stack& stack, SimplexMesh& children) const
+void CellCutting::cutStack(const Stack& stack, Mesh& children) const
 {
   for (std::size_t i = 0; i < stack.low.size(); ++i)
   {
@@ -331,7 +330,7 @@ void CellCutting::cutStack(const Stack& stack, SimplexMesh& children) const
 }
 
 template<class Shape>
-void CellCutting::cutAround(Shape shape, Index cell, Index apex, SimplexMesh& children) const
+void CellCutting::cutAround(Shape shape, Index cell, Index apex, Mesh& children) const
 {
   for (const auto& face : Shape::faces)
   {
@@ -346,7 +345,7 @@ void CellCutting::cutAround(Shape shape, Index cell, Index apex, SimplexMesh& ch
 }
 
 template<class Shape>
-void CellCutting::cutVolume(Shape shape, Index cell, Index apex, SimplexMesh& children) const
+void CellCutting::cutVolume(Shape shape, Index cell, Index apex, Mesh& children) const
 {
   Stack stack;
   if (!isCut(shape, cell))
@@ -387,7 +386,7 @@ bool CellCutting::needsApex(shapes::Hexahedron shape, Index cell) const
   return isCut(shape, cell) && !findStack(shape, cell, stack);
 }
 
-void CellCutting::cut(shapes::Pyramid shape, Index cell, Index apex, SimplexMesh& children) const
+void CellCutting::cut(shapes::Pyramid shape, Index cell, Index apex, Mesh& children) const
 {
   if (!isCutInBaseAlone(cell))
   {
@@ -401,17 +400,17 @@ void CellCutting::cut(shapes::Pyramid shape, Index cell, Index apex, SimplexMesh
   }
 }
 
-void CellCutting::cut(shapes::Wedge shape, Index cell, Index apex, SimplexMesh& children) const
+void CellCutting::cut(shapes::Wedge shape, Index cell, Index apex, Mesh& children) const
 {
   cutVolume(shape, cell, apex, children);
 }
 
-void CellCutting::cut(shapes::Hexahedron shape, Index cell, Index apex, SimplexMesh& children) const
+void CellCutting::cut(shapes::Hexahedron shape, Index cell, Index apex, Mesh& children) const
 {
   cutVolume(shape, cell, apex, children);
 }
 
-void CellCutting::cut(shapes::Quadrilateral shape, Index cell, SimplexMesh& children) const
+void CellCutting::cut(shapes::Quadrilateral shape, Index cell, Mesh& children) const
 {
   constexpr int corners[4] = { 0, 1, 2, 3 };
   for (const Piece& piece : piecesOf(shape, cell, corners, 4))

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <cadrefine/mesh/EdgeTable.h>
+#include <cadrefine/mesh/Mesh.h>
 #include <cadrefine/mesh/QuadTable.h>
-#include <cadrefine/mesh/SimplexMesh.h>
 #include <cadrefine/refinement/Midpoints.h>
 
 namespace cadrefine
@@ -12,7 +12,7 @@ namespace cadrefine
 /// visit(shape, first, cells) of the cells of volume that are not simplices, `first` being the
 /// number of the first one.
 template<class Visit>
-void visitOthers(const SimplexMesh& mesh, const Visit& visit)
+void visitOthers(const Mesh& mesh, const Visit& visit)
 {
   auto first = static_cast<Index>(mesh.tetrahedra.size());
   const auto visitOne = [&](auto shape)
@@ -43,8 +43,8 @@ class CellCutting
 {
 public:
   /// All must outlive this object.
-  CellCutting(const SimplexMesh& mesh, const EdgeTable& table, const QuadTable& quads,
-    const Midpoints& midpoints);
+  CellCutting(
+    const Mesh& mesh, const EdgeTable& table, const QuadTable& quads, const Midpoints& midpoints);
 
   /// Whether a cell is cut with a new vertex in the middle.
   bool needsApex(shapes::Pyramid, Index cell) const;
@@ -53,10 +53,10 @@ public:
 
   /// Appends the children of a cell (itself where it is not cut); `apex` is its new vertex, if it
   /// needs one. The number is that among the cells of its shape.
-  void cut(shapes::Pyramid, Index cell, Index apex, SimplexMesh& children) const;
-  void cut(shapes::Wedge, Index cell, Index apex, SimplexMesh& children) const;
-  void cut(shapes::Hexahedron, Index cell, Index apex, SimplexMesh& children) const;
-  void cut(shapes::Quadrilateral, Index cell, SimplexMesh& children) const;
+  void cut(shapes::Pyramid, Index cell, Index apex, Mesh& children) const;
+  void cut(shapes::Wedge, Index cell, Index apex, Mesh& children) const;
+  void cut(shapes::Hexahedron, Index cell, Index apex, Mesh& children) const;
+  void cut(shapes::Quadrilateral, Index cell, Mesh& children) const;
 
 private:
   /// A part of a side; -1 for the fourth vertex of a triangle.
@@ -75,14 +75,14 @@ private:
   bool findStack(Shape, Index cell, const int* low, const int* high, int count, Stack& stack) const;
   template<class Shape>
   bool findStack(Shape, Index cell, Stack& stack) const;
-  void cutStack(const Stack& stack, SimplexMesh& children) const;
+  void cutStack(const Stack& stack, Mesh& children) const;
   template<class Shape>
-  void cutAround(Shape, Index cell, Index apex, SimplexMesh& children) const;
+  void cutAround(Shape, Index cell, Index apex, Mesh& children) const;
   template<class Shape>
-  void cutVolume(Shape, Index cell, Index apex, SimplexMesh& children) const;
+  void cutVolume(Shape, Index cell, Index apex, Mesh& children) const;
   bool isCutInBaseAlone(Index pyramid) const;
 
-  const SimplexMesh& mesh_;
+  const Mesh& mesh_;
   const EdgeTable& table_;
   const QuadTable& quads_;
   const Midpoints& midpoints_;

@@ -84,7 +84,7 @@ void markAcross(const EdgeTable& table, const std::array<Index, Edges>& edges,
 
 } // namespace
 
-void markLongestEdges(const SimplexMesh& mesh, const EdgeTable& table,
+void markLongestEdges(const Mesh& mesh, const EdgeTable& table,
   const std::vector<unsigned char>& cellMarks, bool keepLayers, EdgeMarks& marks)
 {
   const EdgeOrder order(table);

@@ -3,7 +3,7 @@
 
 #include <cadrefine/base/VertexBuckets.h>
 #include <cadrefine/mesh/EdgeTable.h>
-#include <cadrefine/mesh/SimplexMesh.h>
+#include <cadrefine/mesh/Mesh.h>
 
 #include <array>
 #include <cstddef>
@@ -47,7 +47,7 @@ using EdgeMarks = std::vector<unsigned char>;
 /// These are monotone too.
 
 /// Rule 1 for the cells of the mesh's own dimension; `cellMarks` has one entry for each of them.
-void markLongestEdges(const SimplexMesh& mesh, const EdgeTable& table,
+void markLongestEdges(const Mesh& mesh, const EdgeTable& table,
   const std::vector<unsigned char>& cellMarks, bool keepLayers, EdgeMarks& marks);
 
 /// What an edge counts as in the order of edges (see EdgeOrder).

@@ -12,7 +12,7 @@ namespace
 
 /// The corners of the cells in whose middle a vertex is, in their order.
 template<class Use>
-void forCornersOfCells(const SimplexMesh& mesh, const Midpoints& midpoints, const Use& use)
+void forCornersOfCells(const Mesh& mesh, const Midpoints& midpoints, const Use& use)
 {
   auto next = midpoints.cells.begin();
   visitOthers(mesh,
@@ -76,7 +76,7 @@ void addHexahedronMidpoints(const QuadTable& quads, Midpoints& midpoints)
 }
 
 void addApexes(
-  const SimplexMesh& mesh, const EdgeTable& table, const QuadTable& quads, Midpoints& midpoints)
+  const Mesh& mesh, const EdgeTable& table, const QuadTable& quads, Midpoints& midpoints)
 {
   const CellCutting cutting(mesh, table, quads, midpoints);
   visitOthers(mesh,
@@ -105,7 +105,7 @@ std::vector<Index> quadsCutInFour(const QuadTable& quads, const EdgeMarks& marks
     });
 }
 
-Midpoints makeMidpoints(const SimplexMesh& mesh, const EdgeTable& table, const EdgeMarks& marks)
+Midpoints makeMidpoints(const Mesh& mesh, const EdgeTable& table, const EdgeMarks& marks)
 {
   Midpoints result;
   result.firstVertex = static_cast<Index>(mesh.points.size());
@@ -127,7 +127,7 @@ Midpoints makeMidpoints(const SimplexMesh& mesh, const EdgeTable& table, const E
   return result;
 }
 
-Midpoints makeMidpoints(const SimplexMesh& mesh, const EdgeTable& table, const QuadTable& quads,
+Midpoints makeMidpoints(const Mesh& mesh, const EdgeTable& table, const QuadTable& quads,
   const EdgeMarks& marks, bool uniform)
 {
   Midpoints midpoints = makeMidpoints(mesh, table, marks);
@@ -141,7 +141,7 @@ Midpoints makeMidpoints(const SimplexMesh& mesh, const EdgeTable& table, const Q
   return midpoints;
 }
 
-WeightedRows rowsInMiddle(const SimplexMesh& mesh, const Midpoints& midpoints)
+WeightedRows rowsInMiddle(const Mesh& mesh, const Midpoints& midpoints)
 {
   WeightedRows rows;
   Index vertex = midpoints.nextVertex() - static_cast<Index>(midpoints.cells.size());
@@ -158,8 +158,7 @@ WeightedRows rowsInMiddle(const SimplexMesh& mesh, const Midpoints& midpoints)
   return rows;
 }
 
-void appendNewPoints(
-  const SimplexMesh& mesh, const Midpoints& midpoints, std::vector<Point3>& points)
+void appendNewPoints(const Mesh& mesh, const Midpoints& midpoints, std::vector<Point3>& points)
 {
   const std::size_t halves = midpoints.parentEdges.size() - midpoints.cells.size();
   for (std::size_t n = 0; n < halves; ++n)

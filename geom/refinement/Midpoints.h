@@ -3,8 +3,8 @@
 
 #include <cadrefine/base/WeightedRows.h>
 #include <cadrefine/mesh/EdgeTable.h>
+#include <cadrefine/mesh/Mesh.h>
 #include <cadrefine/mesh/QuadTable.h>
-#include <cadrefine/mesh/SimplexMesh.h>
 #include <cadrefine/refinement/LongestEdgeMarking.h>
 
 #include <algorithm>
@@ -49,20 +49,19 @@ std::array<Index, Count> midpointsOf(
 std::vector<Index> quadsCutInFour(const QuadTable& quads, const EdgeMarks& marks);
 
 /// Those on edges alone.
-Midpoints makeMidpoints(const SimplexMesh& mesh, const EdgeTable& table, const EdgeMarks& marks);
+Midpoints makeMidpoints(const Mesh& mesh, const EdgeTable& table, const EdgeMarks& marks);
 
 /// All; a vertex in a quadrilateral is halfway between the middles of the first and the third of
 /// its edges in the table, one in a hexahedron halfway between that in the face with the smallest
 /// number and the opposite one. `uniform`: for splitUniformly, which needs none in the middle of
 /// corners.
-Midpoints makeMidpoints(const SimplexMesh& mesh, const EdgeTable& table, const QuadTable& quads,
+Midpoints makeMidpoints(const Mesh& mesh, const EdgeTable& table, const QuadTable& quads,
   const EdgeMarks& marks, bool uniform);
 
 /// Those in the middle of corners, as sums of these.
-WeightedRows rowsInMiddle(const SimplexMesh& mesh, const Midpoints& midpoints);
+WeightedRows rowsInMiddle(const Mesh& mesh, const Midpoints& midpoints);
 
 /// Appends where the new vertices are to the points of the mesh.
-void appendNewPoints(
-  const SimplexMesh& mesh, const Midpoints& midpoints, std::vector<Point3>& points);
+void appendNewPoints(const Mesh& mesh, const Midpoints& midpoints, std::vector<Point3>& points);
 
 } // namespace cadrefine

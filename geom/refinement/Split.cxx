@@ -19,7 +19,7 @@ namespace
 
 /// The split mesh with its points but without cells.
 SplitMesh withNewPoints(
-  const SimplexMesh& mesh, const Midpoints& midpoints, const std::vector<GlobalId>& ids)
+  const Mesh& mesh, const Midpoints& midpoints, const std::vector<GlobalId>& ids)
 {
   SplitMesh result;
   result.mesh.dimension = mesh.dimension;
@@ -76,7 +76,7 @@ std::vector<Index> evenChildren(std::size_t cells, Index children)
 }
 
 void splitSegments(
-  const SimplexMesh& mesh, const EdgeTable& table, const Midpoints& midpoints, SplitMesh& result)
+  const Mesh& mesh, const EdgeTable& table, const Midpoints& midpoints, SplitMesh& result)
 {
   result.mesh.segments.reserve(result.firstChildren[1].back());
   for (std::size_t c = 0; c < mesh.segments.size(); ++c)
@@ -96,9 +96,9 @@ void splitSegments(
 }
 
 template<std::size_t Corners, std::size_t Edges>
-void bisectAll(const Simplices<Corners>& cells, const std::vector<std::array<Index, Edges>>& edges,
+void bisectAll(const Cells<Corners>& cells, const std::vector<std::array<Index, Edges>>& edges,
   const EdgeOrder& order, const Midpoints& midpoints, const std::vector<Index>& firstChildren,
-  Simplices<Corners>& children)
+  Cells<Corners>& children)
 {
   reserveLong(children, firstChildren.back());
   const auto vertexOf = [&](Index edge) { return midpoints.ofEdge[edge]; };
@@ -140,8 +140,7 @@ std::vector<Index> countParts(const std::vector<std::array<Index, Edges>>& cellE
 class ChildNumbering
 {
 public:
-  ChildNumbering(const SimplexMesh& children, int dimension)
-    : children_(children), dimension_(dimension)
+  ChildNumbering(const Mesh& children, int dimension) : children_(children), dimension_(dimension)
   {
   }
 
@@ -175,7 +174,7 @@ public:
   }
 
 private:
-  const SimplexMesh& children_;
+  const Mesh& children_;
   int dimension_;
   std::array<std::size_t, 4> counts_{};
   std::vector<std::pair<std::size_t, std::size_t>> taken_; ///< Shape, and place among its cells.
@@ -183,8 +182,8 @@ private:
 
 /// Cuts all cells of volume that are not simplices; use(cell) after each, by its number.
 template<class Use>
-void cutOthers(const SimplexMesh& mesh, const CellCutting& cutting, const Midpoints& midpoints,
-  SimplexMesh& children, const Use& use)
+void cutOthers(const Mesh& mesh, const CellCutting& cutting, const Midpoints& midpoints,
+  Mesh& children, const Use& use)
 {
   auto next = midpoints.cells.begin();
   Index apex = midpoints.nextVertex() - static_cast<Index>(midpoints.cells.size());
@@ -202,8 +201,7 @@ void cutOthers(const SimplexMesh& mesh, const CellCutting& cutting, const Midpoi
 }
 
 template<class Use>
-void cutQuadrilaterals(
-  const SimplexMesh& mesh, const CellCutting& cutting, SimplexMesh& children, const Use& use)
+void cutQuadrilaterals(const Mesh& mesh, const CellCutting& cutting, Mesh& children, const Use& use)
 {
   for (Index c = 0; c < static_cast<Index>(mesh.quadrilaterals.size()); ++c)
   {
@@ -212,7 +210,7 @@ void cutQuadrilaterals(
   }
 }
 
-void clearCells(SimplexMesh& mesh)
+void clearCells(Mesh& mesh)
 {
   visitShapes(mesh, [](auto, auto& cells) { cells.clear(); });
 }
@@ -226,8 +224,7 @@ void appendChildren(std::size_t children, std::vector<Index>& firsts)
 }
 
 /// Of simplices and cells of lower dimension.
-ChildRanges countPartsOfSimplices(
-  const SimplexMesh& mesh, const EdgeTable& table, const EdgeMarks& marks)
+ChildRanges countPartsOfSimplices(const Mesh& mesh, const EdgeTable& table, const EdgeMarks& marks)
 {
   const EdgeOrder order(table);
   ChildRanges firsts;
@@ -244,7 +241,7 @@ ChildRanges countPartsOfSimplices(
 }
 
 /// Cuts the cells that are not simplices, and appends where the children of each end.
-void splitOthers(const SimplexMesh& mesh, const EdgeTable& table, const QuadTable& quads,
+void splitOthers(const Mesh& mesh, const EdgeTable& table, const QuadTable& quads,
   const Midpoints& midpoints, SplitMesh& result)
 {
   const CellCutting cutting(mesh, table, quads, midpoints);
@@ -261,7 +258,7 @@ void splitOthers(const SimplexMesh& mesh, const EdgeTable& table, const QuadTabl
   result.ofVertices = rowsInMiddle(mesh, midpoints);
 }
 
-bool areValid(const SimplexMesh& cells, const std::vector<Point3>& points)
+bool areValid(const Mesh& cells, const std::vector<Point3>& points)
 {
   bool valid = true;
   visitOwnShapes(cells,
@@ -275,7 +272,7 @@ bool areValid(const SimplexMesh& cells, const std::vector<Point3>& points)
 }
 
 /// Whether the cell of volume of this number is valid.
-bool isValid(const SimplexMesh& mesh, Index cell)
+bool isValid(const Mesh& mesh, Index cell)
 {
   bool valid = false;
   visitOwnCell(mesh, cell,
@@ -287,14 +284,14 @@ bool isValid(const SimplexMesh& mesh, Index cell)
 } // namespace
 
 ChildRanges countMarkedChildren(
-  const SimplexMesh& mesh, const EdgeTable& table, const QuadTable& quads, const EdgeMarks& marks)
+  const Mesh& mesh, const EdgeTable& table, const QuadTable& quads, const EdgeMarks& marks)
 {
   ChildRanges firsts = countPartsOfSimplices(mesh, table, marks);
   if (mesh.hasOtherThanSimplices())
   {
     const Midpoints midpoints = makeMidpoints(mesh, table, quads, marks, false);
     const CellCutting cutting(mesh, table, quads, midpoints);
-    SimplexMesh children;
+    Mesh children;
     const auto count = [&](int dimension)
     {
       appendChildren(children.cellCount(dimension), firsts[dimension]);
@@ -306,7 +303,7 @@ ChildRanges countMarkedChildren(
   return firsts;
 }
 
-ChildRanges countUniformChildren(const SimplexMesh& mesh)
+ChildRanges countUniformChildren(const Mesh& mesh)
 {
   ChildRanges firsts{ evenChildren(mesh.vertices.size(), 1), evenChildren(mesh.segments.size(), 2),
     evenChildren(mesh.cellCount(2), 4), evenChildren(mesh.cellCount(3), 8) };
@@ -326,7 +323,7 @@ ChildRanges countUniformChildren(const SimplexMesh& mesh)
   return firsts;
 }
 
-SplitMesh splitMarked(const SimplexMesh& mesh, const EdgeTable& table, const QuadTable& quads,
+SplitMesh splitMarked(const Mesh& mesh, const EdgeTable& table, const QuadTable& quads,
   const EdgeMarks& marks, const Midpoints& midpoints, const std::vector<GlobalId>& ids)
 {
   SplitMesh result = withNewPoints(mesh, midpoints, ids);
@@ -345,13 +342,13 @@ SplitMesh splitMarked(const SimplexMesh& mesh, const EdgeTable& table, const Qua
   return result;
 }
 
-std::vector<Index> cellsCutBadly(const SimplexMesh& mesh, const EdgeTable& table,
-  const QuadTable& quads, const EdgeMarks& marks, bool uniform)
+std::vector<Index> cellsCutBadly(const Mesh& mesh, const EdgeTable& table, const QuadTable& quads,
+  const EdgeMarks& marks, bool uniform)
 {
   const Midpoints midpoints = makeMidpoints(mesh, table, quads, marks, uniform);
   std::vector<Point3> points = mesh.points;
   appendNewPoints(mesh, midpoints, points);
-  SimplexMesh children;
+  Mesh children;
   std::vector<Index> bad;
   const auto look = [&](Index cell)
   {
@@ -379,14 +376,14 @@ std::vector<Index> cellsCutBadly(const SimplexMesh& mesh, const EdgeTable& table
   return bad;
 }
 
-SplitMesh splitUniformly(const SimplexMesh& mesh, const EdgeTable& table, const QuadTable& quads,
+SplitMesh splitUniformly(const Mesh& mesh, const EdgeTable& table, const QuadTable& quads,
   const Midpoints& midpoints, const std::vector<GlobalId>& ids)
 {
   SplitMesh result = withNewPoints(mesh, midpoints, ids);
   result.firstChildren = countUniformChildren(mesh);
   result.mesh.vertices = mesh.vertices;
   splitSegments(mesh, table, midpoints, result);
-  SimplexMesh& fine = result.mesh;
+  Mesh& fine = result.mesh;
   const auto onEdges = [&](const auto& edges) { return midpointsOf(edges, midpoints.ofEdge); };
   const auto inQuads = [&](const auto& ofCell) { return midpointsOf(ofCell, midpoints.ofQuad); };
   reserveLong(fine.triangles, 4 * mesh.triangles.size());

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cadrefine/base/WeightedRows.h>
-#include <cadrefine/mesh/SimplexMesh.h>
+#include <cadrefine/mesh/Mesh.h>
 #include <cadrefine/refinement/Midpoints.h>
 
 #include <array>
@@ -21,7 +21,7 @@ using ChildNumbers = std::array<std::vector<Index>, 4>;
 /// A split mesh. Its first points are those of the mesh that was split, the new ones follow.
 struct SplitMesh
 {
-  SimplexMesh mesh;
+  Mesh mesh;
   /// Ends of the line that each new vertex halves, smaller id first, in the order of the new
   /// points: of an edge, or of one between such new points before it.
   std::vector<std::array<Index, 2>> parentEdges;
@@ -33,13 +33,13 @@ struct SplitMesh
 /// How many cells splitMarked and splitUniformly make of each. Throw Error where one rank cannot
 /// hold them (PieceLimit.h).
 ChildRanges countMarkedChildren(
-  const SimplexMesh& mesh, const EdgeTable& table, const QuadTable& quads, const EdgeMarks& marks);
-ChildRanges countUniformChildren(const SimplexMesh& mesh);
+  const Mesh& mesh, const EdgeTable& table, const QuadTable& quads, const EdgeMarks& marks);
+ChildRanges countUniformChildren(const Mesh& mesh);
 
 /// Recursive bisection of each simplex at the longest of its marked edges; `midpoints` are those of
 /// `marks`. Children have the parent's orientation and, since they are parts of it cut straight,
 /// its validity. Other cells: see CellCutting. `ids` are the global ids of the new vertices.
-SplitMesh splitMarked(const SimplexMesh& mesh, const EdgeTable& table, const QuadTable& quads,
+SplitMesh splitMarked(const Mesh& mesh, const EdgeTable& table, const QuadTable& quads,
   const EdgeMarks& marks, const Midpoints& midpoints, const std::vector<GlobalId>& ids);
 
 /// The valid cells of volume that are not simplices of which splitMarked, or `uniform`,
@@ -47,13 +47,13 @@ SplitMesh splitMarked(const SimplexMesh& mesh, const EdgeTable& table, const Qua
 /// dimension. Of most cells both make parts cut straight; but not where a vertex in the middle does
 /// not see all sides, where a quadrilateral is cut in triangles, and of pyramids whose base is far
 /// from plane, of which alone there are such cells in uniform splitting.
-std::vector<Index> cellsCutBadly(const SimplexMesh& mesh, const EdgeTable& table,
-  const QuadTable& quads, const EdgeMarks& marks, bool uniform);
+std::vector<Index> cellsCutBadly(const Mesh& mesh, const EdgeTable& table, const QuadTable& quads,
+  const EdgeMarks& marks, bool uniform);
 
 /// Regular splitting (see UniformCutting.h); every edge, quadrilateral and hexahedron must have a
 /// midpoint. Triangles and quadrilaterals give 4, tetrahedra, wedges and hexahedra 8, pyramids 4
 /// tetrahedra and 6 pyramids.
-SplitMesh splitUniformly(const SimplexMesh& mesh, const EdgeTable& table, const QuadTable& quads,
+SplitMesh splitUniformly(const Mesh& mesh, const EdgeTable& table, const QuadTable& quads,
   const Midpoints& midpoints, const std::vector<GlobalId>& ids);
 
 } // namespace cadrefine

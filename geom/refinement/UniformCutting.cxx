@@ -13,7 +13,7 @@ constexpr int diagonals[3][2] = { { 0, 5 }, { 1, 4 }, { 2, 3 } };
 constexpr int rings[3][4] = { { 1, 3, 4, 2 }, { 2, 5, 3, 0 }, { 0, 4, 5, 1 } };
 
 /// Whether diagonal (a, b) is shorter than (c, d); ties by the ids of their ends.
-bool shorterDiagonal(const SimplexMesh& mesh, std::array<Index, 2> ab, std::array<Index, 2> cd)
+bool shorterDiagonal(const Mesh& mesh, std::array<Index, 2> ab, std::array<Index, 2> cd)
 {
   const auto inIdOrder = [&](std::array<Index, 2>& ends)
   {
@@ -35,7 +35,7 @@ constexpr int cornerSteps[8][3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 
 } // namespace
 
 void splitTriangleUniformly(
-  const std::array<Index, 3>& v, const std::array<Index, 3>& m, Simplices<3>& children)
+  const std::array<Index, 3>& v, const std::array<Index, 3>& m, Cells<3>& children)
 {
   children.push_back({ v[0], m[0], m[2] });
   children.push_back({ m[0], v[1], m[1] });
@@ -43,8 +43,8 @@ void splitTriangleUniformly(
   children.push_back({ m[0], m[1], m[2] });
 }
 
-void splitQuadrilateralUniformly(const std::array<Index, 4>& v, const std::array<Index, 4>& m,
-  Index middle, Simplices<4>& children)
+void splitQuadrilateralUniformly(
+  const std::array<Index, 4>& v, const std::array<Index, 4>& m, Index middle, Cells<4>& children)
 {
   children.push_back({ v[0], m[0], middle, m[3] });
   children.push_back({ m[0], v[1], m[1], middle });
@@ -52,8 +52,8 @@ void splitQuadrilateralUniformly(const std::array<Index, 4>& v, const std::array
   children.push_back({ m[3], middle, m[2], v[3] });
 }
 
-void splitTetrahedronUniformly(const SimplexMesh& mesh, const std::array<Index, 4>& v,
-  const std::array<Index, 6>& m, Simplices<4>& children)
+void splitTetrahedronUniformly(const Mesh& mesh, const std::array<Index, 4>& v,
+  const std::array<Index, 6>& m, Cells<4>& children)
 {
   children.push_back({ v[0], m[0], m[1], m[2] });
   children.push_back({ m[0], v[1], m[3], m[4] });
@@ -76,7 +76,7 @@ void splitTetrahedronUniformly(const SimplexMesh& mesh, const std::array<Index, 
 }
 
 void splitPyramidUniformly(const std::array<Index, 5>& v, const std::array<Index, 8>& m, Index base,
-  Simplices<5>& pyramids, Simplices<4>& tetrahedra)
+  Cells<5>& pyramids, Cells<4>& tetrahedra)
 {
   pyramids.push_back({ v[0], m[0], base, m[3], m[4] });
   pyramids.push_back({ m[0], v[1], m[1], base, m[5] });
@@ -91,7 +91,7 @@ void splitPyramidUniformly(const std::array<Index, 5>& v, const std::array<Index
 }
 
 void splitWedgeUniformly(const std::array<Index, 6>& v, const std::array<Index, 9>& m,
-  const std::array<Index, 3>& q, Simplices<6>& children)
+  const std::array<Index, 3>& q, Cells<6>& children)
 {
   const std::array<Index, 6> levels[3] = { { v[0], v[1], v[2], m[0], m[1], m[2] },
     { m[6], m[7], m[8], q[0], q[1], q[2] }, { v[3], v[4], v[5], m[3], m[4], m[5] } };
@@ -108,7 +108,7 @@ void splitWedgeUniformly(const std::array<Index, 6>& v, const std::array<Index, 
 }
 
 void splitHexahedronUniformly(const std::array<Index, 8>& v, const std::array<Index, 12>& m,
-  const std::array<Index, 6>& q, Index middle, Simplices<8>& children)
+  const std::array<Index, 6>& q, Index middle, Cells<8>& children)
 {
   Index lattice[3][3][3]; // of half the size of the hexahedron
   const auto at = [&](const int* corners, int count) -> Index&

@@ -28,7 +28,7 @@ namespace cadrefine
 namespace
 {
 
-using Mesh = vtkSmartPointer<vtkPointSet>;
+using PointSet = vtkSmartPointer<vtkPointSet>;
 using Columns = std::map<std::string, std::vector<double>>;
 using Configure = std::function<void(vtkAdaptToCAD*)>;
 
@@ -75,7 +75,7 @@ protected:
   cadtest::TemporaryFolder folder;
   std::string sphere = cadtest::writeInto(folder, cadtest::sphere(2), ".step");
 
-  static Mesh prepared(Mesh mesh)
+  static PointSet prepared(PointSet mesh)
   {
     cadtest::addArrays(mesh);
     vtkNew<vtkDoubleArray> indicator;
@@ -89,7 +89,7 @@ protected:
     return mesh;
   }
 
-  Mesh pieceOf(vtkPointSet* whole, cadtest::Dealing dealing) const
+  PointSet pieceOf(vtkPointSet* whole, cadtest::Dealing dealing) const
   {
     return cadtest::pieceOf(
       whole, cadtest::deal(dealing, whole, exchange.size()), exchange.rank(), false);
@@ -128,8 +128,8 @@ protected:
     EXPECT_GT(expected.columns.at("Step").size(), 2u);
   }
 
-  void expectSameAsOneRank(
-    const std::string& cadFile, Mesh whole, cadtest::Dealing dealing, const Configure& configure)
+  void expectSameAsOneRank(const std::string& cadFile, PointSet whole, cadtest::Dealing dealing,
+    const Configure& configure)
   {
     const cadtest::FilterRun filters(cadFile, worldController());
     whole = prepared(whole);
@@ -139,7 +139,7 @@ protected:
       });
   }
 
-  void expectFailure(const Mesh& whole, const std::string& reason, const Configure& configure)
+  void expectFailure(const PointSet& whole, const std::string& reason, const Configure& configure)
   {
     const cadtest::FilterRun filters(sphere, worldController());
     const auto outcome =
@@ -154,7 +154,7 @@ protected:
     }
   }
 
-  static Mesh ball() { return cadtest::toGrid(cadtest::ballMesh(2, 0.03)); }
+  static PointSet ball() { return cadtest::toGrid(cadtest::ballMesh(2, 0.03)); }
 };
 
 class AdaptPiecesBy
@@ -222,7 +222,7 @@ void abortSecondStep(vtkObject* caller, unsigned long, void*, void*)
 TEST_F(AdaptPieces, keepTheStepWhereOneRankIsInterrupted)
 {
   const cadtest::FilterRun filters(sphere, worldController());
-  const Mesh whole = prepared(ball());
+  const PointSet whole = prepared(ball());
   vtkNew<vtkCallbackCommand> command;
   command->SetCallback(abortSecondStep);
   const auto outcome = filters.attempt<vtkAdaptToCAD>(pieceOf(whole, cadtest::Dealing::Random),
@@ -279,7 +279,7 @@ void byAllSteps(vtkAdaptToCAD* filter)
 TEST_F(AdaptPieces, showTheSameSteps)
 {
   const cadtest::FilterRun filters(sphere, worldController());
-  const Mesh whole = prepared(ball());
+  const PointSet whole = prepared(ball());
   Steps steps{ exchange, {} };
   filters.attempt<vtkAdaptToCAD>(pieceOf(whole, cadtest::Dealing::Random),
     [&](vtkAdaptToCAD* filter)
@@ -312,7 +312,7 @@ TEST_F(AdaptPieces, showTheSameSteps)
 TEST_F(AdaptPieces, keepTheStepAfterWhichOneObserverAborts)
 {
   const cadtest::FilterRun filters(sphere, worldController());
-  const Mesh whole = prepared(ball());
+  const PointSet whole = prepared(ball());
   vtkNew<vtkCallbackCommand> command;
   command->SetCallback(
     [](vtkObject* caller, unsigned long, void*, void*)
@@ -341,7 +341,7 @@ TEST_F(AdaptPieces, keepTheStepAfterWhichOneObserverAborts)
 
 TEST_F(AdaptPieces, failTogether)
 {
-  const Mesh whole = prepared(ball());
+  const PointSet whole = prepared(ball());
   expectFailure(whole, "region is empty",
     [](vtkAdaptToCAD* filter)
     {
@@ -375,7 +375,7 @@ TEST_F(AdaptPieces, failWhereOneValueHasNoPart)
 {
   for (const double bad : { -1.0, std::numeric_limits<double>::infinity() })
   {
-    const Mesh whole = prepared(ball());
+    const PointSet whole = prepared(ball());
     whole->GetCellData()->GetArray("Indicator")->SetTuple1(19, bad);
     for (const int strategy : { vtkAdaptToCAD::BULK, vtkAdaptToCAD::FRACTION_OF_LARGEST })
     {
@@ -399,7 +399,7 @@ TEST_F(AdaptPieces, failWhereOneValueHasNoPart)
 
 TEST_F(AdaptPieces, failWhereOneValueIsNoNumber)
 {
-  const Mesh whole = prepared(ball());
+  const PointSet whole = prepared(ball());
   whole->GetCellData()
     ->GetArray("Indicator")
     ->SetTuple1(19, std::numeric_limits<double>::quiet_NaN());

@@ -49,7 +49,7 @@ protected:
 
   static void expectSound(vtkPointSet* data)
   {
-    const SimplexMesh mesh = cadtest::toMesh(data);
+    const Mesh mesh = cadtest::toMesh(data);
     EXPECT_TRUE(cadtest::isValid(mesh));
     EXPECT_TRUE(cadtest::hasNoHangingVertex(mesh));
   }

@@ -43,7 +43,7 @@ protected:
   /// 20 triangles with tags 0 ... 19, then 20 tetrahedra with tags 20 ... 39.
   static vtkSmartPointer<vtkUnstructuredGrid> makeMesh()
   {
-    SimplexMesh mesh = cadtest::ballMesh(radius, 0.03);
+    Mesh mesh = cadtest::ballMesh(radius, 0.03);
     mesh.triangles = cadtest::sphereMesh(radius, 0.03).triangles;
     auto grid = cadtest::toGrid(mesh);
     cadtest::addArrays(grid);
@@ -164,8 +164,8 @@ TEST_F(TaggedBall, keepsTagTrianglesOnTheBoundary)
   for (int step = 0; step < 4; ++step)
   {
     data = filters.measure(filters.refineWhereErrorExceeds(data, 0.02), 1);
-    const SimplexMesh mesh = cadtest::toMesh(data);
-    SimplexMesh surface = mesh;
+    const Mesh mesh = cadtest::toMesh(data);
+    Mesh surface = mesh;
     surface.dimension = 2;
     EXPECT_EQ(mesh.triangles.size(), cadtest::countOuterSides(mesh));
     EXPECT_EQ(cadtest::countOuterSides(surface), 0u);
@@ -252,7 +252,7 @@ TEST_F(TaggedBall, marksByAnyCellArray)
       filter->SetMarkingArray("Tag");
       filter->SetThreshold(38.5); // the last tetrahedron alone
     });
-  const SimplexMesh mesh = cadtest::toMesh(data);
+  const Mesh mesh = cadtest::toMesh(data);
   EXPECT_GT(mesh.tetrahedra.size(), 20u);
   EXPECT_LT(mesh.tetrahedra.size(), 40u);
   EXPECT_TRUE(cadtest::isValid(mesh));
@@ -260,7 +260,7 @@ TEST_F(TaggedBall, marksByAnyCellArray)
 
 TEST(MeshValidity, findsTheInvertedTetrahedron)
 {
-  SimplexMesh mesh = cadtest::cubeMesh(2, 0.1, 1);
+  Mesh mesh = cadtest::cubeMesh(2, 0.1, 1);
   std::swap(mesh.tetrahedra[7][0], mesh.tetrahedra[7][1]);
   const cadtest::FilterRun filters(static_cast<vtkDataObject*>(nullptr));
   const auto data = filters.run<vtkMeshValidity>(cadtest::toGrid(mesh), [](vtkMeshValidity*) {});
@@ -283,7 +283,7 @@ TEST(MeshValidity, findsFlatCellsAndTrianglesThatTurnOver)
   EXPECT_EQ(cadtest::fieldValue(
               filters.run<vtkMeshValidity>(flat, [](vtkMeshValidity*) {}), "InvalidCells"),
     1);
-  SimplexMesh square = cadtest::squareMesh(3, 0.1, 1);
+  Mesh square = cadtest::squareMesh(3, 0.1, 1);
   std::swap(square.triangles[4][0], square.triangles[4][1]);
   const auto data =
     filters.run<vtkMeshValidity>(cadtest::toPolyData(square), [](vtkMeshValidity*) {});

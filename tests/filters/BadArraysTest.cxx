@@ -127,8 +127,7 @@ TEST_F(BadArrays, cannotBeConservedWithoutRealNumbers)
       mesh->GetPointData()->AddArray(
         make<vtkDoubleArray>("OfPoints", 1, mesh->GetNumberOfPoints()));
     }
-    const auto add = [&](vtkSimplexMeshAlgorithm* filter)
-    { filter->AddConservedArray(name.c_str()); };
+    const auto add = [&](vtkMeshAlgorithm* filter) { filter->AddConservedArray(name.c_str()); };
     expectError(filters.attempt<vtkProjectOntoCAD>(mesh, add), reason);
     expectError(filters.attempt<vtkRefineWithCAD>(mesh, add), reason);
     expectError(filters.attempt<vtkAdaptToCAD>(mesh, add), reason);

@@ -85,8 +85,8 @@ TEST_F(BadCells, pointsThatAreNotUsed)
 TEST_F(BadCells, repeatedPointsAreOne)
 {
   const Grid whole = ball();
-  const SimplexMesh mesh = cadtest::ballMesh(2, 0.03);
-  SimplexMesh apart = mesh;
+  const Mesh mesh = cadtest::ballMesh(2, 0.03);
+  Mesh apart = mesh;
   apart.points.clear();
   apart.tetrahedra.clear();
   for (const auto& cell : mesh.tetrahedra)
@@ -223,7 +223,7 @@ TEST_F(BadCells, tagsThatAreListedTwice)
 TEST_F(BadCells, invertedAndFlatCells)
 {
   const cadtest::FilterRun alone(filters.cad());
-  SimplexMesh mesh = cadtest::toMesh(alone.refineStraight(ball()));
+  Mesh mesh = cadtest::toMesh(alone.refineStraight(ball()));
   const auto isInner = [&](Index v) { return norm(mesh.points[v]) < 1.2; };
   const auto flat = std::find_if(mesh.tetrahedra.begin(), mesh.tetrahedra.end(),
     [&](const auto& cell) { return isInner(cell[0]); });
@@ -246,8 +246,8 @@ TEST_F(BadCells, invertedAndFlatCells)
 /// Moving vertices would make valid cells of it, but no ball.
 TEST_F(BadCells, allCellsInverted)
 {
-  SimplexMesh mesh = cadtest::ballMesh(2, 0.03);
-  const auto turn = [](SimplexMesh which)
+  Mesh mesh = cadtest::ballMesh(2, 0.03);
+  const auto turn = [](Mesh which)
   {
     for (auto& cell : which.tetrahedra)
     {
@@ -362,9 +362,9 @@ TEST_F(BadCells, planeMeshesOutsideTheCoordinatePlanes)
   const auto tilt = [](const Point3& p) {
     return Point3{ p[0], 0.8 * p[1] - 0.6 * p[2], 0.6 * p[1] + 0.8 * p[2] };
   };
-  SimplexMesh mesh = cadtest::squareMesh(4, 0.1, 1);
+  Mesh mesh = cadtest::squareMesh(4, 0.1, 1);
   std::swap(mesh.triangles[5][0], mesh.triangles[5][1]);
-  const auto invalidOf = [&](const SimplexMesh& which)
+  const auto invalidOf = [&](const Mesh& which)
   {
     const auto whole = cadtest::toPolyData(which);
     return cadtest::fieldValue(

@@ -58,7 +58,7 @@ protected:
   /// one rank both. Points by coordinates, that of `move` moved by `by`.
   Grid cubeOfRank(Index move = -1, double by = 0) const
   {
-    SimplexMesh mesh = cadtest::cubeMesh(2, 0, 1);
+    Mesh mesh = cadtest::cubeMesh(2, 0, 1);
     if (exchange.rank() == 0 || isLast())
     {
       for (Point3& point : mesh.points)
@@ -350,7 +350,7 @@ TEST_F(BadIds, allCellsAreGhosts)
 TEST_F(BadIds, ghostsThatDoNotExistElsewhere)
 {
   const Grid grid = isLast() ? ball() : Grid::New();
-  SimplexMesh mesh = cadtest::ballMesh(2, 0.03);
+  Mesh mesh = cadtest::ballMesh(2, 0.03);
   const auto array = ghosts(grid->GetNumberOfCells(), 0);
   if (isLast())
   {
@@ -400,10 +400,10 @@ TEST_F(BadIds, ghostsThatAreNotMarked)
   {
     GTEST_SKIP() << "one piece cannot overlap";
   }
-  const SimplexMesh cube = cadtest::cubeMesh(4, 0, 1);
+  const Mesh cube = cadtest::cubeMesh(4, 0, 1);
   for (const double depth : { 0.25, 0.5, 1.0 })
   {
-    SimplexMesh mesh = cube;
+    Mesh mesh = cube;
     mesh.tetrahedra.clear();
     for (const auto& cell : cube.tetrahedra)
     {

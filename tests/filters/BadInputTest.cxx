@@ -117,7 +117,7 @@ TEST_F(BadInput, pointsWithoutCellsThatUseThem)
 
 TEST_F(BadInput, linesOnly)
 {
-  SimplexMesh mesh = cadtest::oneTriangle({ { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } } });
+  Mesh mesh = cadtest::oneTriangle({ { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } } });
   mesh.triangles.clear();
   mesh.segments = { { 0, 1 }, { 1, 2 } };
   expectProjectionFails(cadtest::toGrid(mesh), "lines");

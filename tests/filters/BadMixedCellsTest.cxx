@@ -21,7 +21,7 @@ namespace
 {
 
 /// Of all shapes, near the sphere of radius 2.
-SimplexMesh mixedBall()
+Mesh mixedBall()
 {
   return cadtest::randomlyMixedMesh(cadtest::hexahedralBallMesh(2, 0.02, 1, { 0.6, 1 }), 4);
 }
@@ -34,7 +34,7 @@ std::array<Index, 6> turned(const std::array<Index, 6>& w)
 class BadMixedCells : public BadMesh
 {
 protected:
-  Grid gridOnLastRank(const SimplexMesh& mesh) const
+  Grid gridOnLastRank(const Mesh& mesh) const
   {
     return isLast() ? cadtest::toGrid(mesh) : Grid::New();
   }
@@ -117,7 +117,7 @@ TEST_F(BadMixedCells, areOnTwoRanks)
 {
   if (exchange.size() > 1)
   {
-    SimplexMesh mesh = cadtest::hexahedralBallMesh(2, 0.02, 1, { 1 });
+    Mesh mesh = cadtest::hexahedralBallMesh(2, 0.02, 1, { 1 });
     const auto whole = cadtest::toGrid(mesh);
     auto rankOfCell = cadtest::deal(cadtest::Dealing::Blocks, whole, exchange.size());
     const auto piece = cadtest::pieceOf(whole, rankOfCell, exchange.rank(), true);
@@ -129,7 +129,7 @@ TEST_F(BadMixedCells, areOnTwoRanks)
 /// Most decide how wedges are turned; the others are inverted.
 TEST_F(BadMixedCells, wedgesOfBothOrientations)
 {
-  SimplexMesh mesh = cadtest::mixedMesh(
+  Mesh mesh = cadtest::mixedMesh(
     cadtest::hexahedraMesh(2, 0, 1), [](std::size_t) { return cadtest::BoxKind::Wedges; }, 1);
   for (Point3& point : mesh.points)
   {
@@ -147,7 +147,7 @@ TEST_F(BadMixedCells, wedgesOfBothOrientations)
 
 TEST_F(BadMixedCells, areInvertedOrFolded)
 {
-  SimplexMesh mesh = cadtest::hexahedralBallMesh(2, 0.02, 2, { 0.6, 1 });
+  Mesh mesh = cadtest::hexahedralBallMesh(2, 0.02, 2, { 0.6, 1 });
   auto& inverted = mesh.hexahedra[30];
   inverted = { inverted[4], inverted[5], inverted[6], inverted[7], inverted[0], inverted[1],
     inverted[2], inverted[3] };
@@ -158,7 +158,7 @@ TEST_F(BadMixedCells, areInvertedOrFolded)
 
 TEST_F(BadMixedCells, quadrilateralsAreFoldedOrTurnTheOtherWay)
 {
-  SimplexMesh mesh = cadtest::quadrilateralsMesh(4, 0, 1);
+  Mesh mesh = cadtest::quadrilateralsMesh(4, 0, 1);
   std::swap(mesh.quadrilaterals[5][1], mesh.quadrilaterals[5][2]);
   std::swap(mesh.quadrilaterals[9][1], mesh.quadrilaterals[9][3]);
   const auto piece = pieceOf(cadtest::toGrid(mesh));
@@ -175,8 +175,8 @@ TEST_F(BadMixedCells, coordinatesTooLargeForVolumes)
 /// Without global ids: every cell has points of its own, at the same places.
 TEST_F(BadMixedCells, repeatedPointsAreOne)
 {
-  const SimplexMesh mesh = mixedBall();
-  SimplexMesh apart = mesh;
+  const Mesh mesh = mixedBall();
+  Mesh apart = mesh;
   apart.points.clear();
   visitShapes(apart,
     [&](auto, auto& cells)
@@ -196,7 +196,7 @@ TEST_F(BadMixedCells, repeatedPointsAreOne)
 /// Hexahedra and quadrilaterals with their corners in rows.
 TEST_F(BadMixedCells, voxelsAndPixelsAreHexahedraAndQuadrilaterals)
 {
-  const SimplexMesh mesh =
+  const Mesh mesh =
     cadtest::withListedBoundary(cadtest::hexahedralBallMesh(2, 0.02, 1, { 0.6, 1 }));
   const Grid whole = cadtest::toGrid(mesh);
   const auto inRows = Grid::New();

@@ -28,7 +28,7 @@ protected:
   }
 
   /// Every point times `factor`, then moved.
-  static SimplexMesh placed(SimplexMesh mesh, double factor, const Vector3& by)
+  static Mesh placed(Mesh mesh, double factor, const Vector3& by)
   {
     for (Point3& point : mesh.points)
     {
@@ -115,7 +115,7 @@ TEST_F(BadPlaces, tiny)
 /// A box: with edges and corners.
 TEST_F(BadPlaces, boxesAnywhere)
 {
-  const SimplexMesh mesh = cadtest::cubeMesh(2, 0, 1);
+  const Mesh mesh = cadtest::cubeMesh(2, 0, 1);
   for (const double size : { 1e-9, 1.0, 1e7 })
   {
     SCOPED_TRACE(size);
@@ -143,7 +143,7 @@ TEST_F(BadPlaces, boxesAnywhere)
 
 TEST_F(BadPlaces, boundaryFarFromTheCAD)
 {
-  const SimplexMesh mesh = placed(cadtest::ballMesh(2, 0.03), 1, { 100, 0, 0 });
+  const Mesh mesh = placed(cadtest::ballMesh(2, 0.03), 1, { 100, 0, 0 });
   const auto whole = cadtest::toGrid(mesh);
   const auto outcome =
     filters.attempt<vtkProjectOntoCAD>(pieceOf(whole), [](vtkProjectOntoCAD*) {});
@@ -162,7 +162,7 @@ TEST_F(BadPlaces, insideOut)
   EXPECT_LE(farthestOff(mesh, {}, 2), 1e-12);
   EXPECT_EQ(cadtest::fieldValue(run.measure(mesh, 1), "GlobalGeometricError"),
     cadtest::fieldValue(filters.measure(expected, 1), "GlobalGeometricError"));
-  const SimplexMesh cube = cadtest::cubeMesh(2, 0, 1);
+  const Mesh cube = cadtest::cubeMesh(2, 0, 1);
   const auto box = with(cadtest::box(1, 1, 1).Reversed());
   expectSound(box.project(pieceOf(cadtest::toGrid(cube))), 26);
 }

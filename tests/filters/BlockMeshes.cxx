@@ -1,7 +1,7 @@
 #include "BlockMeshes.h"
 
 #include <cadrefine/base/Vector3.h>
-#include <cadrefine/mesh/SimplexMesh.h>
+#include <cadrefine/mesh/Mesh.h>
 
 #include <vtkCell.h>
 #include <vtkCellData.h>

@@ -264,7 +264,7 @@ TEST(CADBoundary, hasListedFacetsBetweenMaterials)
   constexpr double radius = 2;
   const cadtest::TemporaryFolder folder;
   const cadtest::FilterRun filters(cadtest::writeInto(folder, cadtest::sphere(radius), ".step"));
-  const SimplexMesh mesh = cadtest::ballInShellMesh(radius, 0.03);
+  const Mesh mesh = cadtest::ballInShellMesh(radius, 0.03);
   const auto boundary = boundaryOf(filters, filters.project(cadtest::toGrid(mesh)));
   std::size_t onSphere = 0;
   for (vtkIdType cell = 0; cell < boundary->GetNumberOfCells(); ++cell)
@@ -412,7 +412,7 @@ TEST_F(BoundaryCells, ofASurfaceAreItsTriangles)
 TEST_F(BoundaryCells, keepListedCells)
 {
   const cadtest::FilterRun filters(cadtest::writeInto(folder, cadtest::sphere(2), ".step"));
-  const SimplexMesh listed = cadtest::ballInShellMesh(2, 0.03);
+  const Mesh listed = cadtest::ballInShellMesh(2, 0.03);
   const auto coarse = cadtest::toGrid(listed);
   cadtest::addArrays(coarse);
   const auto mesh = filters.run<vtkAdaptToCAD>(coarse,

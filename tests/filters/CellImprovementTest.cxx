@@ -74,7 +74,7 @@ Shape shapeOf(vtkPointSet* mesh)
 /// vertices inside these at random places, as far as cells stay valid.
 vtkSmartPointer<vtkPointSet> spoiltMesh(const cadtest::FilterRun& filters)
 {
-  SimplexMesh mesh = cadtest::toMesh(filters.refineUniformly(
+  Mesh mesh = cadtest::toMesh(filters.refineUniformly(
     filters.project(cadtest::readGrid(CADREFINE_TRUTH "/box_minus_cylinder_coarse.vtu"))));
   const std::set<Index> outer = cadtest::outerVertices(mesh);
   std::vector<std::vector<std::size_t>> cellsAt(mesh.points.size());
@@ -179,7 +179,7 @@ TEST_P(CellImprovement, isThatOfOneRank)
 }
 
 /// The edges of every seventh tetrahedron, each once.
-Simplices<2> edgesOfSome(const SimplexMesh& mesh)
+Cells<2> edgesOfSome(const Mesh& mesh)
 {
   std::set<std::array<Index, 2>> edges;
   for (std::size_t c = 0; c < mesh.tetrahedra.size(); c += 7)
@@ -197,7 +197,7 @@ Simplices<2> edgesOfSome(const SimplexMesh& mesh)
 TEST_P(CellImprovement, keepsListedSegments)
 {
   const cadtest::FilterRun filters(CADREFINE_TRUTH "/box_minus_cylinder.brep");
-  SimplexMesh mesh = cadtest::toMesh(spoiltMesh(filters));
+  Mesh mesh = cadtest::toMesh(spoiltMesh(filters));
   mesh.segments = edgesOfSome(mesh);
   const auto whole = filters.moveOntoCAD(cadtest::toGrid(mesh));
   const auto model = readCADFile(CADREFINE_TRUTH "/box_minus_cylinder.brep");
@@ -206,7 +206,7 @@ TEST_P(CellImprovement, keepsListedSegments)
   const auto gathered = cadtest::gather(exchange, improved(exchange, piece, *model));
   if (exchange.rank() == 0)
   {
-    const SimplexMesh after = cadtest::toMesh(gathered);
+    const Mesh after = cadtest::toMesh(gathered);
     EXPECT_NE(after.tetrahedra.size(), mesh.tetrahedra.size());
     EXPECT_GE(after.segments.size(), mesh.segments.size());
     std::set<std::array<Index, 2>> edges;
@@ -228,8 +228,7 @@ TEST_P(CellImprovement, keepsListedSegments)
 /// Gives the triangles materials by the side of x = 0 on which their centroids are, and moves
 /// vertices inside these to placeOf(vertex, a random point near it), unless triangles turn over.
 template<class PlaceOf>
-vtkSmartPointer<vtkUnstructuredGrid> spoiltTriangles(
-  SimplexMesh mesh, double part, const PlaceOf& placeOf)
+vtkSmartPointer<vtkUnstructuredGrid> spoiltTriangles(Mesh mesh, double part, const PlaceOf& placeOf)
 {
   std::vector<std::vector<std::size_t>> cellsAt(mesh.points.size());
   for (std::size_t c = 0; c < mesh.triangles.size(); ++c)
@@ -291,7 +290,7 @@ vtkSmartPointer<vtkUnstructuredGrid> spoiltTriangles(
 /// The areas of triangles by their material, and the worst.
 Shape shapeOfTriangles(vtkPointSet* data)
 {
-  const SimplexMesh mesh = cadtest::toMesh(data);
+  const Mesh mesh = cadtest::toMesh(data);
   vtkDataArray* materials = data->GetCellData()->GetArray("Material");
   Shape shape;
   for (std::size_t c = 0; c < mesh.triangles.size(); ++c)
@@ -314,7 +313,7 @@ protected:
   {
     Shape before;
     Shape after;
-    SimplexMesh mesh;
+    Mesh mesh;
   };
 
   Shapes compare(vtkPointSet* whole, const CADModel& model)
@@ -336,7 +335,7 @@ TEST_P(TriangleImprovement, inThePlaneIsThatOfOneRank)
   const cadtest::TemporaryFolder folder;
   const std::string file = cadtest::writeInto(folder, cadtest::circle(1), ".step");
   const cadtest::FilterRun filters(file);
-  const SimplexMesh disc = cadtest::toMesh(
+  const Mesh disc = cadtest::toMesh(
     filters.refineUniformly(filters.project(cadtest::toGrid(cadtest::discMesh(1, 0.02, 12))), 3));
   const std::set<Index> outer = cadtest::outerVertices(disc);
   const auto whole = filters.moveOntoCAD(spoiltTriangles(disc, 0.2,
@@ -368,7 +367,7 @@ TEST_P(TriangleImprovement, onASurfaceIsThatOfOneRank)
   const cadtest::TemporaryFolder folder;
   const std::string file = cadtest::writeInto(folder, cadtest::sphere(1), ".step");
   const cadtest::FilterRun filters(file);
-  const SimplexMesh sphere = cadtest::toMesh(
+  const Mesh sphere = cadtest::toMesh(
     filters.refineUniformly(filters.project(cadtest::toGrid(cadtest::sphereMesh(1, 0.02))), 3));
   const auto whole = filters.moveOntoCAD(
     spoiltTriangles(sphere, 0.25, [](Index, const Point3& point) { return normalized(point); }));

@@ -105,13 +105,13 @@ TEST_P(CoarseningPartition, setIsTheFirstInTheOrderOfIds)
   MeshState state = readMesh(exchange, piece);
   readClassification(context, piece, state);
   const ClassifiedBoundary& boundary = boundaryOf(context, state);
-  const SimplexMesh& mesh = state.mesh.mesh();
+  const Mesh& mesh = state.mesh.mesh();
   std::vector<unsigned char> mayGo(mesh.points.size());
   std::transform(boundary.boundary.onBoundary.begin(), boundary.boundary.onBoundary.end(),
     mayGo.begin(), [](unsigned char onBoundary) { return onBoundary == 0; });
   const auto goes = verticesToRemove(exchange, state.mesh, *state.classification, boundary, mayGo);
 
-  const SimplexMesh all = cadtest::toMesh(whole);
+  const Mesh all = cadtest::toMesh(whole);
   std::map<GlobalId, std::set<GlobalId>> neighbours;
   std::set<GlobalId> inside(all.ids.begin(), all.ids.end());
   for (const Index vertex : cadtest::outerVertices(all))

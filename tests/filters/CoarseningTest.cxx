@@ -118,7 +118,7 @@ TEST_F(CoarseningAeroplane, keepsVerticesOfMarkedCells)
   }
   int marked = 0;
   vtkDataArray* oldIds = mesh->GetPointData()->GetGlobalIds();
-  const SimplexMesh cells = cadtest::toMesh(mesh);
+  const Mesh cells = cadtest::toMesh(mesh);
   std::set<Index> kept;
   for (std::size_t c = 0; c < cells.tetrahedra.size(); ++c)
   {
@@ -147,7 +147,7 @@ TEST_F(CoarseningAeroplane, keepsTheShapeOfTheWalls)
   {
     std::array<double, 6> box{};
     data->GetBounds(box.data());
-    const SimplexMesh all = cadtest::toMesh(data);
+    const Mesh all = cadtest::toMesh(data);
     double area = 0;
     std::map<std::set<Index>, std::array<Index, 3>> sides;
     for (const auto& cell : all.tetrahedra)

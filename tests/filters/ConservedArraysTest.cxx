@@ -145,7 +145,7 @@ void addFields(vtkPointSet* mesh)
   mesh->GetPointData()->AddArray(linear);
 }
 
-void conserve(vtkSimplexMeshAlgorithm* filter)
+void conserve(vtkMeshAlgorithm* filter)
 {
   filter->AddConservedArray("Heat");
   filter->AddConservedArray("Flux");
@@ -164,7 +164,7 @@ class ConservedArrays
   , public testing::WithParamInterface<cadtest::Dealing>
 {
 protected:
-  static double operationsOf(vtkSimplexMeshAlgorithm* filter)
+  static double operationsOf(vtkMeshAlgorithm* filter)
   {
     const std::string text = filter->GetRunStatistics();
     const std::string name = "\"local operations\": ";
@@ -414,7 +414,7 @@ TEST_F(FieldsUnderOperations, ofQuadraticCellsKeepTheirIntegrals)
 /// In the plane, and on a surface in space.
 TEST_F(FieldsUnderOperations, ofTrianglesKeepTheirIntegrals)
 {
-  const auto expectKept = [&](const SimplexMesh& coarse, const TopoDS_Shape& shape)
+  const auto expectKept = [&](const Mesh& coarse, const TopoDS_Shape& shape)
   {
     const auto whole = cadtest::toGrid(coarse);
     addFields(whole);

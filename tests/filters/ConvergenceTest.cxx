@@ -34,7 +34,7 @@ struct Solid
 {
   std::string name;
   TopoDS_Shape shape;
-  SimplexMesh mesh;
+  Mesh mesh;
   double volume;
   double size;
   double (*distance)(const Point3&);
@@ -108,7 +108,7 @@ protected:
 
   void expectSound(const cadtest::FilterRun& run, vtkPointSet* data) const
   {
-    const SimplexMesh mesh = cadtest::toMesh(data);
+    const Mesh mesh = cadtest::toMesh(data);
     EXPECT_TRUE(cadtest::isValid(mesh));
     EXPECT_TRUE(cadtest::hasNoHangingVertex(mesh));
     EXPECT_TRUE(cadtest::isWatertight(mesh,

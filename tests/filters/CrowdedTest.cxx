@@ -23,7 +23,7 @@ class CrowdedBall : public testing::Test
 protected:
   cadtest::TemporaryFolder folder;
   cadtest::FilterRun filters{ cadtest::writeInto(folder, cadtest::sphere(radius), ".step") };
-  SimplexMesh mesh = cadtest::crowdedBallMesh(radius);
+  Mesh mesh = cadtest::crowdedBallMesh(radius);
 };
 
 /// The premise of the other tests.
@@ -49,13 +49,13 @@ TEST_F(CrowdedBall, isProjectedByMovingTheInnerVertex)
 /// volume, so that vertices stop and tell how far they still are.
 TEST_F(CrowdedBall, keepsDistancesWhereNothingMakesWay)
 {
-  const SimplexMesh thin = cadtest::oneTetrahedron(
+  const Mesh thin = cadtest::oneTetrahedron(
     { { { 1, 1, 0.02 }, { 2, 1, 0.03 }, { 1.3, 1.9, 0.02 }, { 1.4, 1.3, 0.25 } } });
   ASSERT_TRUE(cadtest::isValid(thin));
   cadtest::TemporaryFolder folderOfBox;
   const cadtest::FilterRun box(cadtest::writeInto(folderOfBox, cadtest::box(4, 4, 4), ".step"));
   const auto data = box.project(cadtest::toGrid(thin));
-  const SimplexMesh after = cadtest::toMesh(data);
+  const Mesh after = cadtest::toMesh(data);
   EXPECT_TRUE(cadtest::isValid(after));
   vtkDataArray* distances = data->GetPointData()->GetArray("CADDistance");
   vtkDataArray* dimensions = data->GetPointData()->GetArray("CADDimension");

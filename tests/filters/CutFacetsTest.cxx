@@ -39,7 +39,7 @@ double error(vtkPointSet* data)
 
 void expectSound(vtkPointSet* data)
 {
-  const SimplexMesh mesh = cadtest::toMesh(data);
+  const Mesh mesh = cadtest::toMesh(data);
   EXPECT_TRUE(cadtest::isValid(mesh));
   EXPECT_TRUE(cadtest::hasNoHangingVertex(mesh));
 }
@@ -48,7 +48,7 @@ void expectSound(vtkPointSet* data)
 using Side = std::set<Point3>;
 
 template<std::size_t N, class Visit>
-void visitSides(const SimplexMesh& mesh, const Simplices<N>& cells, const Visit& visit)
+void visitSides(const Mesh& mesh, const Cells<N>& cells, const Visit& visit)
 {
   for (std::size_t c = 0; c < cells.size(); ++c)
   {
@@ -68,11 +68,11 @@ void visitSides(const SimplexMesh& mesh, const Simplices<N>& cells, const Visit&
 }
 
 template<std::size_t N>
-std::map<Side, int> countSides(const SimplexMesh& mesh, const Simplices<N>& cells)
+std::map<Side, int> countSides(const Mesh& mesh, const Cells<N>& cells)
 {
   std::map<Side, int> counts;
   visitSides(mesh, cells,
-    [&](std::size_t, const std::vector<Index>& side, const SimplexMesh&)
+    [&](std::size_t, const std::vector<Index>& side, const Mesh&)
     {
       Side points;
       for (const Index v : side)
@@ -88,7 +88,7 @@ std::map<Side, int> countSides(const SimplexMesh& mesh, const Simplices<N>& cell
 /// and not on a wall (in one plane y = const).
 template<std::size_t N>
 std::set<Side> markedFacets(
-  vtkPointSet* measured, const SimplexMesh& mesh, const Simplices<N>& cells, double threshold)
+  vtkPointSet* measured, const Mesh& mesh, const Cells<N>& cells, double threshold)
 {
   vtkDataArray* errors = measured->GetCellData()->GetArray("GeometricError");
   vtkDataArray* dimensions = measured->GetPointData()->GetArray("CADDimension");
@@ -96,7 +96,7 @@ std::set<Side> markedFacets(
   const auto counts = countSides(mesh, cells);
   std::set<Side> facets;
   visitSides(mesh, cells,
-    [&](std::size_t c, const std::vector<Index>& side, const SimplexMesh&)
+    [&](std::size_t c, const std::vector<Index>& side, const Mesh&)
     {
       const bool onCAD = std::all_of(
         side.begin(), side.end(), [&](Index v) { return dimensions->GetTuple1(v) >= 0; });
@@ -118,8 +118,7 @@ std::set<Side> markedFacets(
 }
 
 template<std::size_t N>
-std::size_t countLeft(
-  const std::set<Side>& facets, const SimplexMesh& mesh, const Simplices<N>& cells)
+std::size_t countLeft(const std::set<Side>& facets, const Mesh& mesh, const Cells<N>& cells)
 {
   const auto counts = countSides(mesh, cells);
   return static_cast<std::size_t>(std::count_if(
@@ -133,15 +132,15 @@ TEST(CutFacets, cutsTheFacetsOfTheWing)
   const cadtest::FilterRun filters(CADREFINE_DATA "/naca0012_sharp.igs");
   const Data before =
     filters.measure(filters.project(cadtest::readGrid(CADREFINE_DATA "/naca0012_coarse.vtu")), 1);
-  const SimplexMesh coarse = cadtest::toMesh(before);
+  const Mesh coarse = cadtest::toMesh(before);
   const auto facets = markedFacets(before, coarse, coarse.tetrahedra, threshold);
   ASSERT_GT(facets.size(), 20u);
 
   const Data without = refine(filters, before, threshold, false);
   const Data with = refine(filters, before, threshold, true);
   expectSound(with);
-  const SimplexMesh mesh = cadtest::toMesh(with);
-  const SimplexMesh plain = cadtest::toMesh(without);
+  const Mesh mesh = cadtest::toMesh(with);
+  const Mesh plain = cadtest::toMesh(without);
   EXPECT_EQ(countLeft(facets, mesh, mesh.tetrahedra), 0u);
   EXPECT_EQ(countLeft(facets, plain, plain.tetrahedra), facets.size());
   EXPECT_NEAR(error(without), error(before), 1e-12) << "which is why the option is there";
@@ -162,12 +161,12 @@ TEST(CutFacets, cutsTheSegmentsOfThreeArcs)
   for (int step = 0; step < 4; ++step)
   {
     const Data before = with;
-    const SimplexMesh coarse = cadtest::toMesh(before);
+    const Mesh coarse = cadtest::toMesh(before);
     const auto facets = markedFacets(before, coarse, coarse.triangles, threshold);
     ASSERT_EQ(facets.size(), 10u << step);
     with = refine(filters, before, threshold, true);
     expectSound(with);
-    const SimplexMesh mesh = cadtest::toMesh(with);
+    const Mesh mesh = cadtest::toMesh(with);
     EXPECT_EQ(countLeft(facets, mesh, mesh.triangles), 0u);
     EXPECT_NEAR(error(with), error(before) / 4, 0.05 * error(before));
   }

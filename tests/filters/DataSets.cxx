@@ -38,7 +38,7 @@ using namespace cadrefine;
 namespace
 {
 
-vtkNew<vtkPoints> pointsOf(const SimplexMesh& mesh)
+vtkNew<vtkPoints> pointsOf(const Mesh& mesh)
 {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
@@ -72,7 +72,7 @@ testing::AssertionResult compareArrays(vtkFieldData* a, vtkFieldData* b)
 }
 
 template<std::size_t Corners>
-void insertCells(const Simplices<Corners>& cells, int type, vtkUnstructuredGrid* grid)
+void insertCells(const Cells<Corners>& cells, int type, vtkUnstructuredGrid* grid)
 {
   for (const auto& cell : cells)
   {
@@ -83,7 +83,7 @@ void insertCells(const Simplices<Corners>& cells, int type, vtkUnstructuredGrid*
 }
 
 template<std::size_t Corners>
-void readCell(vtkIdList* points, Simplices<Corners>& cells)
+void readCell(vtkIdList* points, Cells<Corners>& cells)
 {
   auto& cell = cells.emplace_back();
   for (std::size_t k = 0; k < Corners; ++k)
@@ -94,7 +94,7 @@ void readCell(vtkIdList* points, Simplices<Corners>& cells)
 
 /// Of which each last two of four corners are the other way round.
 template<std::size_t Corners>
-void readRows(vtkIdList* points, Simplices<Corners>& cells)
+void readRows(vtkIdList* points, Cells<Corners>& cells)
 {
   readCell(points, cells);
   for (std::size_t k = 2; k < Corners; k += 4)
@@ -103,7 +103,7 @@ void readRows(vtkIdList* points, Simplices<Corners>& cells)
   }
 }
 
-void readCell(int type, vtkIdList* points, SimplexMesh& mesh)
+void readCell(int type, vtkIdList* points, Mesh& mesh)
 {
   switch (type)
   {
@@ -141,7 +141,7 @@ void readCell(int type, vtkIdList* points, SimplexMesh& mesh)
 }
 
 /// As a mesh has them, where most are as VTK's documentation draws them.
-void turnWedges(SimplexMesh& mesh)
+void turnWedges(Mesh& mesh)
 {
   std::ptrdiff_t turned = 0;
   for (const auto& wedge : mesh.wedges)
@@ -210,7 +210,7 @@ std::map<std::string, Values> fieldValues(vtkPointSet* mesh)
 
 } // namespace
 
-vtkSmartPointer<vtkUnstructuredGrid> toGrid(const SimplexMesh& mesh)
+vtkSmartPointer<vtkUnstructuredGrid> toGrid(const Mesh& mesh)
 {
   auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
   grid->SetPoints(pointsOf(mesh));
@@ -226,7 +226,7 @@ vtkSmartPointer<vtkUnstructuredGrid> toGrid(const SimplexMesh& mesh)
   return grid;
 }
 
-vtkSmartPointer<vtkPolyData> toPolyData(const SimplexMesh& mesh)
+vtkSmartPointer<vtkPolyData> toPolyData(const Mesh& mesh)
 {
   vtkNew<vtkCellArray> polygons;
   for (const auto& [a, b, c] : mesh.triangles)
@@ -243,9 +243,9 @@ vtkSmartPointer<vtkPolyData> toPolyData(const SimplexMesh& mesh)
   return result;
 }
 
-SimplexMesh toMesh(vtkPointSet* dataSet)
+Mesh toMesh(vtkPointSet* dataSet)
 {
-  SimplexMesh mesh;
+  Mesh mesh;
   for (vtkIdType p = 0; p < dataSet->GetNumberOfPoints(); ++p)
   {
     dataSet->GetPoint(p, mesh.points.emplace_back().data());
@@ -324,8 +324,8 @@ std::map<std::string, std::vector<double>> columnsOf(vtkDataObject* table)
 
 testing::AssertionResult areSame(vtkPointSet* a, vtkPointSet* b)
 {
-  const SimplexMesh first = toMesh(a);
-  const SimplexMesh second = toMesh(b);
+  const Mesh first = toMesh(a);
+  const Mesh second = toMesh(b);
   if (first.points != second.points)
   {
     return testing::AssertionFailure() << "other points";
@@ -389,7 +389,7 @@ void addGlobalIds(vtkPointSet* dataSet)
 
 vtkSmartPointer<vtkPointSet> taggedBall()
 {
-  SimplexMesh mesh = ballMesh(2, 0.03);
+  Mesh mesh = ballMesh(2, 0.03);
   mesh.triangles = sphereMesh(2, 0.03).triangles;
   mesh.segments = { { mesh.triangles[0][0], mesh.triangles[0][1] } };
   mesh.vertices = { { 3 }, { 7 } };

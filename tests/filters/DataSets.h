@@ -1,7 +1,7 @@
 // Between the tests' meshes and VTK's data sets.
 #pragma once
 
-#include <cadrefine/mesh/SimplexMesh.h>
+#include <cadrefine/mesh/Mesh.h>
 
 #include <vtkSmartPointer.h>
 
@@ -20,12 +20,12 @@ namespace cadtest
 {
 
 /// All cells of the mesh, those of lower dimensions first. No arrays.
-vtkSmartPointer<vtkUnstructuredGrid> toGrid(const cadrefine::SimplexMesh& mesh);
+vtkSmartPointer<vtkUnstructuredGrid> toGrid(const cadrefine::Mesh& mesh);
 /// The triangles and quadrilaterals of the mesh. No arrays.
-vtkSmartPointer<vtkPolyData> toPolyData(const cadrefine::SimplexMesh& mesh);
+vtkSmartPointer<vtkPolyData> toPolyData(const cadrefine::Mesh& mesh);
 /// Points and cells of a data set (of cells of second order the corners); the points' numbers are
 /// the ids. Wedges are turned if most of them are as VTK's documentation draws them.
-cadrefine::SimplexMesh toMesh(vtkPointSet* dataSet);
+cadrefine::Mesh toMesh(vtkPointSet* dataSet);
 
 /// Reads a .vtu file; throws where it cannot be read or is empty.
 vtkSmartPointer<vtkUnstructuredGrid> readGrid(const std::string& path);

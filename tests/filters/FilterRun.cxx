@@ -84,8 +84,8 @@ void FilterRun::expectValid(vtkPointSet* input, vtkPointSet* output)
   {
     return;
   }
-  const cadrefine::SimplexMesh before = toMesh(input);
-  const cadrefine::SimplexMesh after = toMesh(output);
+  const cadrefine::Mesh before = toMesh(input);
+  const cadrefine::Mesh after = toMesh(output);
   if (after.dimension == before.dimension && areCellsValid(before))
   {
     EXPECT_TRUE(areCellsValid(after));

@@ -22,13 +22,13 @@ class Fit : public BadMesh
 protected:
   cadtest::FilterRun cube{ cadtest::writeInto(folder, cadtest::box(1, 1, 1), ".step"),
     worldController() };
-  SimplexMesh mesh = cadtest::cubeMesh(4, 0, 1);
+  Mesh mesh = cadtest::cubeMesh(4, 0, 1);
 
   static constexpr double size = 1.7320508075688772;
 
-  SimplexMesh placed(double factor, const Vector3& by) const
+  Mesh placed(double factor, const Vector3& by) const
   {
-    SimplexMesh result = mesh;
+    Mesh result = mesh;
     for (Point3& p : result.points)
     {
       p = factor * p + by;
@@ -36,7 +36,7 @@ protected:
     return result;
   }
 
-  cadtest::Outcome project(const SimplexMesh& of) const { return project(cadtest::toGrid(of)); }
+  cadtest::Outcome project(const Mesh& of) const { return project(cadtest::toGrid(of)); }
   cadtest::Outcome project(vtkUnstructuredGrid* whole) const
   {
     return cube.attempt<vtkProjectOntoCAD>(pieceOf(whole), [](vtkProjectOntoCAD*) {});
@@ -122,7 +122,7 @@ TEST_F(Fit, isReported)
 /// The lower half of the cube: five sixths of its boundary, half of the CAD.
 TEST_F(Fit, ofAMeshOfAPart)
 {
-  SimplexMesh half = mesh;
+  Mesh half = mesh;
   half.tetrahedra.clear();
   for (const auto& cell : mesh.tetrahedra)
   {
@@ -168,7 +168,7 @@ TEST_F(Fit, takesThePlaceOfAnother)
 /// A far field is no misfit, even where its size is a thousand times that of the CAD.
 TEST_F(Fit, ofAFarField)
 {
-  SimplexMesh shell = cadtest::ballInShellMesh(2, 0);
+  Mesh shell = cadtest::ballInShellMesh(2, 0);
   const auto outcome =
     filters.attempt<vtkProjectOntoCAD>(pieceOf(cadtest::toGrid(shell)), [](vtkProjectOntoCAD*) {});
   expectWarning(outcome, "");
@@ -207,7 +207,7 @@ TEST_F(Fit, tellsAShift)
 /// Half of the corner lies on the CAD, but most of the mesh is beside it.
 TEST_F(Fit, tellsAMeshElsewhere)
 {
-  SimplexMesh flat = mesh;
+  Mesh flat = mesh;
   for (Point3& p : flat.points)
   {
     p = { 0.2 * p[0], p[1], 7 * p[2] - 6.9 };

@@ -31,7 +31,7 @@ constexpr int between = 10;
 
 /// With the cell array Material: `core` for the first cells of the mesh's own dimension, `around`
 /// for others, and `between` for the listed ones.
-vtkSmartPointer<vtkPointSet> withMaterials(const SimplexMesh& mesh, int coreCells)
+vtkSmartPointer<vtkPointSet> withMaterials(const Mesh& mesh, int coreCells)
 {
   auto grid = cadtest::toGrid(mesh);
   vtkNew<vtkIntArray> materials;
@@ -48,10 +48,10 @@ vtkSmartPointer<vtkPointSet> withMaterials(const SimplexMesh& mesh, int coreCell
 }
 
 /// The cells of one material.
-SimplexMesh partOf(vtkPointSet* data, int material)
+Mesh partOf(vtkPointSet* data, int material)
 {
-  SimplexMesh mesh = cadtest::toMesh(data);
-  SimplexMesh part = mesh;
+  Mesh mesh = cadtest::toMesh(data);
+  Mesh part = mesh;
   part.tetrahedra.clear();
   part.triangles.clear();
   part.segments.clear();
@@ -96,13 +96,13 @@ protected:
   /// What holds after every step; the outer border stays, and with it the measure of the whole.
   static void expectSound(vtkPointSet* data, double wholeMeasure)
   {
-    const SimplexMesh mesh = cadtest::toMesh(data);
+    const Mesh mesh = cadtest::toMesh(data);
     EXPECT_TRUE(cadtest::isValid(mesh));
     EXPECT_TRUE(cadtest::hasNoHangingVertex(mesh));
     EXPECT_TRUE(cadtest::isWatertight(mesh, isFarOutside));
     EXPECT_EQ(cadtest::fieldValue(data, "UnprojectedVertices"), 0);
-    const SimplexMesh inside = partOf(data, core);
-    const SimplexMesh outside = partOf(data, around);
+    const Mesh inside = partOf(data, core);
+    const Mesh outside = partOf(data, around);
     EXPECT_NEAR(cadtest::measureOf(inside) + cadtest::measureOf(outside), wholeMeasure, 1e-11);
     EXPECT_TRUE(cadtest::isWatertight(inside,
       [](const std::vector<Point3>& side)
@@ -117,7 +117,7 @@ protected:
 TEST_F(InteriorBoundary, ofTetrahedraFollowsTheSphere)
 {
   const cadtest::FilterRun filters(cadtest::writeInto(folder, cadtest::sphere(radius), ".step"));
-  const SimplexMesh coarse = cadtest::ballInShellMesh(radius, 0.03);
+  const Mesh coarse = cadtest::ballInShellMesh(radius, 0.03);
   const double whole = cadtest::measureOf(coarse);
   auto data = filters.measure(filters.project(withMaterials(coarse, 20)), 4);
   expectSound(data, whole);
@@ -129,7 +129,7 @@ TEST_F(InteriorBoundary, ofTetrahedraFollowsTheSphere)
   {
     data = filters.measure(filters.refineUniformly(data), 3);
     expectSound(data, whole);
-    const SimplexMesh interface = partOf(data, between);
+    const Mesh interface = partOf(data, between);
     EXPECT_EQ(interface.triangles.size(), 20u << (2 * level));
     EXPECT_NEAR(cadtest::volumeInside(interface), cadtest::measureOf(partOf(data, core)), 1e-11);
     const double error = cadtest::fieldValue(data, "GlobalGeometricError");
@@ -141,7 +141,7 @@ TEST_F(InteriorBoundary, ofTetrahedraFollowsTheSphere)
 TEST_F(InteriorBoundary, ofTetrahedraIsRefinedWhereItsErrorIsLarge)
 {
   const cadtest::FilterRun filters(cadtest::writeInto(folder, cadtest::sphere(radius), ".step"));
-  const SimplexMesh coarse = cadtest::ballInShellMesh(radius, 0.03);
+  const Mesh coarse = cadtest::ballInShellMesh(radius, 0.03);
   auto data = filters.measure(filters.project(withMaterials(coarse, 20)), 2);
   const double first = cadtest::fieldValue(data, "GlobalGeometricError");
   for (int step = 0; step < 6; ++step)
@@ -155,7 +155,7 @@ TEST_F(InteriorBoundary, ofTetrahedraIsRefinedWhereItsErrorIsLarge)
 TEST_F(InteriorBoundary, ofTrianglesFollowsTheCircle)
 {
   const cadtest::FilterRun filters(cadtest::writeInto(folder, cadtest::circle(radius), ".brep"));
-  const SimplexMesh coarse = cadtest::discInRingMesh(radius, 0.02, 9);
+  const Mesh coarse = cadtest::discInRingMesh(radius, 0.02, 9);
   const double whole = cadtest::measureOf(coarse);
   auto data = filters.measure(filters.project(withMaterials(coarse, 9)), 4);
   double before = cadtest::fieldValue(data, "GlobalGeometricError");
@@ -175,7 +175,7 @@ TEST_F(InteriorBoundary, ofTrianglesFollowsTheCircle)
 TEST_F(InteriorBoundary, isLeftWhereItIsNotListed)
 {
   const cadtest::FilterRun filters(cadtest::writeInto(folder, cadtest::sphere(radius), ".step"));
-  SimplexMesh coarse = cadtest::ballInShellMesh(radius, 0.03);
+  Mesh coarse = cadtest::ballInShellMesh(radius, 0.03);
   coarse.triangles.clear();
   EXPECT_THROW(filters.project(cadtest::toGrid(coarse)), std::runtime_error);
 }
@@ -188,7 +188,7 @@ protected:
 
   static void expectSound(vtkPointSet* data, double measure, double tolerance)
   {
-    const SimplexMesh mesh = cadtest::toMesh(data);
+    const Mesh mesh = cadtest::toMesh(data);
     EXPECT_TRUE(cadtest::isValid(mesh));
     EXPECT_TRUE(cadtest::hasNoHangingVertex(mesh));
     EXPECT_NEAR(cadtest::measureOf(mesh), measure, tolerance);

@@ -55,7 +55,7 @@ std::vector<double> heightsOf(const LayerCase& tried)
   return heights;
 }
 
-SimplexMesh meshOf(const LayerCase& tried)
+Mesh meshOf(const LayerCase& tried)
 {
   const auto heights = heightsOf(tried);
   if (tried.dimension == 2)
@@ -63,7 +63,7 @@ SimplexMesh meshOf(const LayerCase& tried)
     return cadtest::withListedBoundary(
       cadtest::quadrilateralRingMesh(2, tried.offset, tried.parts, heights));
   }
-  const SimplexMesh boxes = cadtest::hexahedralShellMesh(2, tried.offset, tried.parts, heights);
+  const Mesh boxes = cadtest::hexahedralShellMesh(2, tried.offset, tried.parts, heights);
   const std::size_t inLayers = heights.size() * 6 * tried.parts * tried.parts;
   return cadtest::withListedBoundary(cadtest::mixedMesh(
     boxes, [&](std::size_t c) { return c < inLayers ? tried.kind : BoxKind::Fan; }, 1));
@@ -103,7 +103,7 @@ protected:
   using Edge = std::array<GlobalId, 2>; ///< From the wall up.
 
   /// The first edges of the columns over the wall: those of cells of layers that leave the CAD.
-  static std::map<GlobalId, Edge> firstEdges(const SimplexMesh& mesh)
+  static std::map<GlobalId, Edge> firstEdges(const Mesh& mesh)
   {
     const auto isOnWall = [&](Index v) { return std::abs(norm(mesh.points[v]) - 2) < 1e-9; };
     std::map<GlobalId, Edge> edges;
@@ -138,7 +138,7 @@ protected:
   }
 
   /// Along the normal of the wall, which points from the middle outwards.
-  static double heightOf(const SimplexMesh& mesh, const Edge& edge)
+  static double heightOf(const Mesh& mesh, const Edge& edge)
   {
     const auto at = [&](GlobalId id)
     { return mesh.points[std::find(mesh.ids.begin(), mesh.ids.end(), id) - mesh.ids.begin()]; };
@@ -146,9 +146,9 @@ protected:
   }
 
   /// Of the whole mesh, on rank 0. Collective.
-  SimplexMesh expectSound(vtkPointSet* piece)
+  Mesh expectSound(vtkPointSet* piece)
   {
-    SimplexMesh mesh = cadtest::toMesh(cadtest::gather(exchange, piece));
+    Mesh mesh = cadtest::toMesh(cadtest::gather(exchange, piece));
     EXPECT_EQ(cadtest::fieldValue(piece, "InvalidCells"), 0);
     if (exchange.rank() == 0)
     {
@@ -161,8 +161,8 @@ protected:
   /// All of the wall is on the CAD, and its first cells are as high as the same ones of `straight`.
   void expectKept(vtkPointSet* piece, vtkPointSet* straightPiece, std::size_t wallVertices)
   {
-    const SimplexMesh mesh = expectSound(piece);
-    const SimplexMesh straight = cadtest::toMesh(cadtest::gather(exchange, straightPiece));
+    const Mesh mesh = expectSound(piece);
+    const Mesh straight = cadtest::toMesh(cadtest::gather(exchange, straightPiece));
     EXPECT_EQ(cadtest::fieldValue(piece, "UnprojectedVertices"), 0);
     if (exchange.rank() > 0)
     {

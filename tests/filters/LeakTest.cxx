@@ -95,7 +95,7 @@ protected:
   void update(Pipeline& pipeline, int number)
   {
     setProperties(pipeline, number);
-    vtkSimplexMeshAlgorithm* filter = pipeline.adapt;
+    vtkMeshAlgorithm* filter = pipeline.adapt;
     if (number % 2 == 0)
     {
       filter = pipeline.validity;

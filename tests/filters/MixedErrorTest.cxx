@@ -25,9 +25,9 @@ using namespace cadrefine;
 constexpr double pi = 3.14159265358979323846;
 
 /// Quadrilaterals become hexahedra, triangles wedges.
-SimplexMesh extruded(const SimplexMesh& flat, double height)
+Mesh extruded(const Mesh& flat, double height)
 {
-  SimplexMesh mesh;
+  Mesh mesh;
   mesh.points = flat.points;
   const auto count = static_cast<Index>(flat.points.size());
   for (const Point3& point : flat.points)
@@ -76,7 +76,7 @@ TEST_F(MixedError, ofAPipeIsThatOfItsPolygons)
     EXPECT_NEAR(
       cadtest::fieldValue(measured, "MaximumGeometricDistance"), 6 * (1 - std::cos(pi / n)), 1e-9)
       << level;
-    const SimplexMesh now = cadtest::toMesh(mesh);
+    const Mesh now = cadtest::toMesh(mesh);
     EXPECT_TRUE(cadtest::isValid(now));
     EXPECT_NEAR(cadtest::measureOf(now), (36 - 4) * (pi - gap), 1e-9);
     mesh = filters.refineUniformly(mesh);
@@ -106,7 +106,7 @@ TEST_F(MixedError, ofABallIsItsMissingVolumeAndFallsByFour)
 /// One cell of any type, at these points.
 vtkSmartPointer<vtkUnstructuredGrid> oneCell(int type, const std::vector<Point3>& corners)
 {
-  SimplexMesh mesh;
+  Mesh mesh;
   mesh.points = corners;
   auto grid = cadtest::toGrid(mesh);
   std::vector<vtkIdType> points;

@@ -26,35 +26,35 @@ using cadtest::BoxKind;
 const std::vector<double> heights{ 0.02, 0.06, 0.15, 0.5 };
 
 /// Of the shells round a sphere those of layers; the outermost is of another kind.
-SimplexMesh layers(BoxKind kind)
+Mesh layers(BoxKind kind)
 {
   constexpr int n = 2;
-  const SimplexMesh boxes = cadtest::hexahedralShellMesh(2, 0.02, n, heights);
+  const Mesh boxes = cadtest::hexahedralShellMesh(2, 0.02, n, heights);
   return cadtest::withListedBoundary(cadtest::mixedMesh(
     boxes, [=](std::size_t c) { return c < heights.size() * 6 * n * n ? kind : BoxKind::Fan; }, 1));
 }
 
-SimplexMesh hexahedralBall()
+Mesh hexahedralBall()
 {
   return cadtest::withListedBoundary(cadtest::hexahedralBallMesh(2, 0.02, 2, { 0.6, 1 }));
 }
 
-SimplexMesh mixedBall()
+Mesh mixedBall()
 {
   return cadtest::withListedBoundary(
     cadtest::randomlyMixedMesh(cadtest::hexahedralBallMesh(2, 0.02, 2, { 0.6, 1 }), 3));
 }
 
-SimplexMesh ring()
+Mesh ring()
 {
   return cadtest::withListedBoundary(cadtest::quadrilateralRingMesh(2, 0.01, 12, heights));
 }
 
 vtkSmartPointer<vtkPointSet> surface()
 {
-  SimplexMesh mesh = mixedBall();
+  Mesh mesh = mixedBall();
   std::fill(mesh.ids.begin(), mesh.ids.end(), -1);
-  SimplexMesh result;
+  Mesh result;
   result.dimension = 2;
   const auto vertexOf = [&](Index v)
   {
@@ -77,7 +77,7 @@ vtkSmartPointer<vtkPointSet> surface()
   return cadtest::toPolyData(result);
 }
 
-SimplexMesh withTurnedWedges(SimplexMesh mesh)
+Mesh withTurnedWedges(Mesh mesh)
 {
   for (auto& w : mesh.wedges)
   {
@@ -86,24 +86,24 @@ SimplexMesh withTurnedWedges(SimplexMesh mesh)
   return mesh;
 }
 
-template<SimplexMesh (*mesh)()>
+template<Mesh (*mesh)()>
 vtkSmartPointer<vtkPointSet> gridOf()
 {
   return cadtest::toGrid(mesh());
 }
 
-SimplexMesh wedgeLayers()
+Mesh wedgeLayers()
 {
   return layers(BoxKind::Wedges);
 }
 
-SimplexMesh hexahedralLayers()
+Mesh hexahedralLayers()
 {
   return layers(BoxKind::Hexahedron);
 }
 
 /// As VTK's documentation draws them.
-SimplexMesh documentedWedges()
+Mesh documentedWedges()
 {
   return withTurnedWedges(wedgeLayers());
 }
@@ -182,7 +182,7 @@ protected:
     {
       return;
     }
-    SimplexMesh mesh = cadtest::toMesh(gathered);
+    Mesh mesh = cadtest::toMesh(gathered);
     if (problem.name == "DocumentedWedges")
     {
       mesh = withTurnedWedges(mesh);

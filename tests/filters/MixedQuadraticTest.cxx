@@ -286,13 +286,13 @@ TEST(MixedQuadraticCells, stayValidWhereNodesCannotReachTheCAD)
 {
   const cadtest::TemporaryFolder folder;
   const cadtest::FilterRun filters(cadtest::writeInto(folder, cadtest::sphere(2), ".step"));
-  std::vector<SimplexMesh> meshes{ cadtest::hexahedralShellMesh(2, 0, 1, { 0.02, 0.1, 0.5 }) };
+  std::vector<Mesh> meshes{ cadtest::hexahedralShellMesh(2, 0, 1, { 0.02, 0.1, 0.5 }) };
   for (const unsigned seed : { 1, 2, 3 })
   {
     meshes.push_back(
       cadtest::randomlyMixedMesh(cadtest::hexahedralBallMesh(2, 0.02, 2, { 0.6, 1 }), seed));
   }
-  for (const SimplexMesh& mesh : meshes)
+  for (const Mesh& mesh : meshes)
   {
     const auto data =
       cadtest::refineToQuadratic(filters, filters.project(cadtest::toGrid(mesh)), 0);

@@ -329,9 +329,9 @@ CanonicalMesh gather(cadrefine::RankExchange& exchange, vtkPointSet* piece)
   return mesh;
 }
 
-cadrefine::SimplexMesh toMesh(const CanonicalMesh& canonical)
+cadrefine::Mesh toMesh(const CanonicalMesh& canonical)
 {
-  cadrefine::SimplexMesh mesh;
+  cadrefine::Mesh mesh;
   std::map<std::int64_t, cadrefine::Index> vertexOf;
   for (const auto& [id, bytes] : canonical.points)
   {

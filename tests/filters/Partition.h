@@ -3,7 +3,7 @@
 
 #include "comm/RankExchange.h"
 
-#include <cadrefine/mesh/SimplexMesh.h>
+#include <cadrefine/mesh/Mesh.h>
 
 #include <vtkSmartPointer.h>
 
@@ -47,6 +47,6 @@ struct CanonicalMesh
 CanonicalMesh gather(cadrefine::RankExchange& exchange, vtkPointSet* piece);
 
 /// Cells of the mesh but for vertices, by their corners; ids are the global ids.
-cadrefine::SimplexMesh toMesh(const CanonicalMesh& canonical);
+cadrefine::Mesh toMesh(const CanonicalMesh& canonical);
 
 } // namespace cadtest

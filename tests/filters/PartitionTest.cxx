@@ -276,7 +276,7 @@ protected:
     {
       return;
     }
-    const SimplexMesh mesh = cadtest::toMesh(gathered);
+    const Mesh mesh = cadtest::toMesh(gathered);
     EXPECT_TRUE(cadtest::isValid(mesh));
     EXPECT_TRUE(cadtest::hasNoHangingVertex(mesh));
     EXPECT_TRUE(cadtest::isWatertight(mesh, problem.onBoundary));

@@ -23,13 +23,13 @@ Pipeline::Pipeline(vtkPointSet* piece, const std::string& cadFile,
   setup(*this);
 }
 
-std::vector<vtkSimplexMeshAlgorithm*> Pipeline::filters() const
+std::vector<vtkMeshAlgorithm*> Pipeline::filters() const
 {
   return { project, measure, refine, validity, adapt };
 }
 
 void Pipeline::connect(
-  vtkSimplexMeshAlgorithm* filter, vtkAlgorithm* before, vtkMultiProcessController* controller)
+  vtkMeshAlgorithm* filter, vtkAlgorithm* before, vtkMultiProcessController* controller)
 {
   filter->SetController(controller);
   filter->SetInputConnection(0, before->GetOutputPort());

@@ -37,10 +37,10 @@ struct Pipeline
   Pipeline(
     vtkPointSet* piece, const std::string& cadFile, vtkMultiProcessController*, const Setup& setup);
 
-  std::vector<vtkSimplexMeshAlgorithm*> filters() const;
+  std::vector<vtkMeshAlgorithm*> filters() const;
 
 private:
-  void connect(vtkSimplexMeshAlgorithm*, vtkAlgorithm* before, vtkMultiProcessController*);
+  void connect(vtkMeshAlgorithm*, vtkAlgorithm* before, vtkMultiProcessController*);
 };
 
 } // namespace cadtest

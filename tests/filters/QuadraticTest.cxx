@@ -319,7 +319,7 @@ protected:
 
   static vtkSmartPointer<vtkUnstructuredGrid> makeMesh()
   {
-    SimplexMesh ball = cadtest::ballMesh(2, 0.03);
+    Mesh ball = cadtest::ballMesh(2, 0.03);
     ball.triangles = cadtest::sphereMesh(2, 0.03).triangles;
     ball.segments = { { ball.triangles[0][0], ball.triangles[0][1] } };
     ball.vertices = { { 3 } };

@@ -55,7 +55,7 @@ struct SelectedFaces : testing::Test
   /// Two triangles of the first square and of one at this height.
   static vtkSmartPointer<vtkPointSet> mesh(double height)
   {
-    SimplexMesh squares;
+    Mesh squares;
     squares.dimension = 2;
     squares.points = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 2, 0, height }, { 3, 0, height },
       { 3, 1, height } };

@@ -46,12 +46,12 @@ protected:
   }
 
   /// What findShared finds is what it would find if all vertices were candidates.
-  void expectAllFound(const SimplexMesh& mesh, const Place& place)
+  void expectAllFound(const Mesh& mesh, const Place& place)
   {
     const vtkSmartPointer<vtkPointSet> whole = cadtest::toGrid(mesh);
     cadtest::addGlobalIds(whole);
     const auto piece = cadtest::pieceOf(whole, deal(whole, place), exchange.rank(), false);
-    const SimplexMesh own = convert(exchange, piece).mesh;
+    const Mesh own = convert(exchange, piece).mesh;
     std::int64_t before = exchange.bytesSent();
     const SharedVertices found = findShared(exchange, own);
     bytesForFound = exchange.sum(exchange.bytesSent() - before);
@@ -83,7 +83,7 @@ double bySheet(const Point3& p)
 
 TEST_F(SharedVerticesOfPieces, ofThreeSheetsAtAnEdge)
 {
-  const SimplexMesh sheets = cadtest::threeSheetsMesh(9);
+  const Mesh sheets = cadtest::threeSheetsMesh(9);
   expectAllFound(sheets, bySheet);
   expectAllFound(sheets, [](const Point3& p) { return -bySheet(p); });
   expectAllFound(sheets, alongDiagonal);

@@ -54,7 +54,7 @@ protected:
 
 TEST_F(SinglePieces, projectAPointCloud)
 {
-  SimplexMesh cloud = cadtest::cubeMesh(4, 0.2, 1);
+  Mesh cloud = cadtest::cubeMesh(4, 0.2, 1);
   cloud.tetrahedra.clear();
   for (Index v = 0; v < static_cast<Index>(cloud.points.size()); ++v)
   {
@@ -65,7 +65,7 @@ TEST_F(SinglePieces, projectAPointCloud)
 
 TEST_F(SinglePieces, measureValidity)
 {
-  SimplexMesh mesh = cadtest::cubeMesh(3, 0.1, 1);
+  Mesh mesh = cadtest::cubeMesh(3, 0.1, 1);
   std::swap(mesh.tetrahedra[7][0], mesh.tetrahedra[7][1]);
   expectSame<vtkMeshValidity>(cadtest::toGrid(mesh), [](vtkMeshValidity*) {});
 }

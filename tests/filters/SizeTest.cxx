@@ -86,7 +86,7 @@ TEST_F(Size, ofAPolygonOnACircle)
 TEST_F(Size, ofListedSegments)
 {
   constexpr int corners = 8;
-  SimplexMesh mesh = cadtest::discInRingMesh(radius, 0, corners);
+  Mesh mesh = cadtest::discInRingMesh(radius, 0, corners);
   for (std::size_t s = 0; s < mesh.segments.size(); s += 2)
   {
     std::swap(mesh.segments[s][0], mesh.segments[s][1]);
@@ -108,7 +108,7 @@ TEST_F(Size, ofABall)
 
 TEST_F(Size, ofTrianglesInSpaceHoweverTheyAreTurned)
 {
-  SimplexMesh mesh = cadtest::sphereMesh(radius, 0);
+  Mesh mesh = cadtest::sphereMesh(radius, 0);
   for (const bool turned : { false, true })
   {
     for (std::size_t t = 0; turned && t < mesh.triangles.size(); t += 3)
@@ -122,7 +122,7 @@ TEST_F(Size, ofTrianglesInSpaceHoweverTheyAreTurned)
 
 TEST_F(Size, ofListedTriangles)
 {
-  SimplexMesh mesh = cadtest::ballInShellMesh(radius, 0);
+  Mesh mesh = cadtest::ballInShellMesh(radius, 0);
   for (std::size_t t = 0; t < mesh.triangles.size(); t += 3)
   {
     std::swap(mesh.triangles[t][0], mesh.triangles[t][1]);
@@ -135,7 +135,7 @@ TEST_F(Size, ofListedTriangles)
 /// A regular tetrahedron turns by more than 90 degrees.
 TEST_F(Size, ofAVeryCoarseSurface)
 {
-  SimplexMesh mesh;
+  Mesh mesh;
   mesh.dimension = 2;
   const double c = radius / std::sqrt(3.0);
   mesh.points = { { c, c, c }, { c, -c, -c }, { -c, c, -c }, { -c, -c, c } };
@@ -151,7 +151,7 @@ TEST_F(Size, stopsAtCreases)
 {
   constexpr int corners = 8;
   constexpr double height = 1;
-  SimplexMesh mesh;
+  Mesh mesh;
   mesh.dimension = 2;
   for (const double z : { 0.0, height })
   {
@@ -198,7 +198,7 @@ TEST_F(Size, ofThreeArcs)
   const cadtest::FilterRun filters(CADREFINE_DATA "/three_arcs.igs");
   const Data data =
     filters.measure(filters.project(cadtest::readGrid(CADREFINE_DATA "/three_arcs_coarse.vtu")), 2);
-  const SimplexMesh mesh = cadtest::toMesh(data);
+  const Mesh mesh = cadtest::toMesh(data);
   const auto chords = valuesOf(data, "ChordError");
   const auto angles = valuesOf(data, "NormalAngle");
   const std::size_t first = chords.size() - mesh.triangles.size();

@@ -21,8 +21,8 @@ namespace cadrefine
 namespace
 {
 
-using Mesh = vtkSmartPointer<vtkPointSet>;
-using Work = std::function<Mesh(const cadtest::FilterRun&, vtkPointSet*)>;
+using PointSet = vtkSmartPointer<vtkPointSet>;
+using Work = std::function<PointSet(const cadtest::FilterRun&, vtkPointSet*)>;
 
 struct NamedWork
 {
@@ -82,7 +82,7 @@ protected:
   {
     const auto dealing =
       whole->GetNumberOfCells() % 2 == 0 ? cadtest::Dealing::Blocks : cadtest::Dealing::EmptyRank;
-    const Mesh piece = cadtest::pieceOf(
+    const PointSet piece = cadtest::pieceOf(
       whole, cadtest::deal(dealing, whole, exchange.size()), exchange.rank(), false);
     const cadtest::FilterRun alone(filters.cad());
     for (const NamedWork& work : allWork())
@@ -102,7 +102,7 @@ protected:
   }
 
   /// The first one to five of the mesh's cells, with all filters.
-  void expectSameOfFirst(const TopoDS_Shape& shape, const SimplexMesh& mesh)
+  void expectSameOfFirst(const TopoDS_Shape& shape, const Mesh& mesh)
   {
     const cadtest::FilterRun filters(cadtest::writeInto(folder, shape, ".brep"), worldController());
     const std::size_t most = exchange.size() > 8 ? 2 : 5; // many ranks take long

@@ -116,7 +116,7 @@ TEST_P(SurfacePart, staysOneSurface)
 /// Cells as poly data, too, and nothing where the region is not.
 TEST_P(SurfacePart, isWorkedOnInTheRegionAlone)
 {
-  SimplexMesh triangles = cadtest::toMesh(mesh);
+  Mesh triangles = cadtest::toMesh(mesh);
   double bounds[6];
   mesh->GetBounds(bounds);
   const double middle = 0.5 * (bounds[0] + bounds[1]);
@@ -130,7 +130,7 @@ TEST_P(SurfacePart, isWorkedOnInTheRegionAlone)
       filter->SetUseRegion(true);
       filter->SetRegion(bounds);
     });
-  const auto beyond = [&](const SimplexMesh& data)
+  const auto beyond = [&](const Mesh& data)
   {
     std::vector<std::array<Point3, 3>> cells;
     for (const auto& [i, j, k] : data.triangles)

@@ -38,7 +38,7 @@ TEST_F(SphereSurface, ofPolyDataConvergesAtSecondOrder)
   for (int level = 0; level < 5; ++level)
   {
     ASSERT_NE(vtkPolyData::SafeDownCast(data), nullptr);
-    const SimplexMesh mesh = cadtest::toMesh(data);
+    const Mesh mesh = cadtest::toMesh(data);
     EXPECT_EQ(mesh.triangles.size(), 20u << (2 * level));
     EXPECT_EQ(cadtest::countOuterSides(mesh), 0u) << "the surface is closed";
     EXPECT_EQ(cadtest::fieldValue(data, "InvalidCells"), 0);
@@ -73,7 +73,7 @@ TEST_F(SphereSurface, isRefinedLocally)
   {
     data = filters.refineWhereErrorExceeds(filters.measure(data, 1), 1e-2);
   }
-  const SimplexMesh mesh = cadtest::toMesh(data);
+  const Mesh mesh = cadtest::toMesh(data);
   EXPECT_GT(mesh.triangles.size(), 40u);
   EXPECT_EQ(cadtest::countOuterSides(mesh), 0u);
   EXPECT_TRUE(cadtest::hasNoHangingVertex(mesh));
@@ -84,7 +84,7 @@ TEST_F(SphereSurface, takesPointClouds)
 {
   for (const bool withCells : { false, true })
   {
-    const SimplexMesh cloud = cadtest::cubeMesh(3, 0.2, 1);
+    const Mesh cloud = cadtest::cubeMesh(3, 0.2, 1);
     vtkNew<vtkPolyData> points;
     points->SetPoints(cadtest::toGrid(cloud)->GetPoints());
     vtkNew<vtkCellArray> vertices;

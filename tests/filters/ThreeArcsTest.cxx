@@ -75,7 +75,7 @@ protected:
   }
 
   /// Sides on the hole, as point coordinates.
-  static std::vector<std::vector<Point3>> holeSides(const SimplexMesh& mesh)
+  static std::vector<std::vector<Point3>> holeSides(const Mesh& mesh)
   {
     std::vector<std::vector<Point3>> sides;
     EXPECT_TRUE(cadtest::isWatertight(mesh,
@@ -102,7 +102,7 @@ TEST_P(ThreeArcs, boundaryLiesOnTheArcsAfterLocalRefinement)
   for (const int steps : { 0, 3, 8 })
   {
     const auto data = refined(steps);
-    const SimplexMesh mesh = cadtest::toMesh(data);
+    const Mesh mesh = cadtest::toMesh(data);
     EXPECT_TRUE(cadtest::isValid(mesh));
     EXPECT_TRUE(cadtest::hasNoHangingVertex(mesh));
     EXPECT_GE(holeSides(mesh).size(), steps == 8 ? 40u : 10u);
@@ -112,7 +112,7 @@ TEST_P(ThreeArcs, boundaryLiesOnTheArcsAfterLocalRefinement)
 
 TEST_P(ThreeArcs, cornersHaveAVertexEach)
 {
-  const SimplexMesh mesh = cadtest::toMesh(filters.project(coarse));
+  const Mesh mesh = cadtest::toMesh(filters.project(coarse));
   for (const Point3& corner : { Point3{ 0, 0, 0 }, Point3{ 4, 0, 0 }, Point3{ 0, 3, 0 } })
   {
     EXPECT_EQ(std::count_if(mesh.points.begin(), mesh.points.end(),

@@ -33,7 +33,7 @@ constexpr double radius = 2;
 
 vtkSmartPointer<vtkPointSet> taggedBall()
 {
-  SimplexMesh mesh = cadtest::ballMesh(radius, 0.05);
+  Mesh mesh = cadtest::ballMesh(radius, 0.05);
   mesh.triangles = cadtest::sphereMesh(radius, 0.05).triangles;
   auto grid = cadtest::toGrid(mesh);
   cadtest::addArrays(grid);
@@ -87,13 +87,13 @@ protected:
     return Pipeline(piece(), cadFile, worldController(), setup);
   }
 
-  static bool update(vtkSimplexMeshAlgorithm* filter, int step)
+  static bool update(vtkMeshAlgorithm* filter, int step)
   {
     return filter->UpdateTimeStep(step) != 0;
   }
 
   /// Whether the last run took the kept result.
-  static bool isReused(vtkSimplexMeshAlgorithm* filter)
+  static bool isReused(vtkMeshAlgorithm* filter)
   {
     const std::string text = filter->GetRunStatistics();
     const bool isReused = text.find("\"geometry reused\": 1") != std::string::npos;
@@ -101,7 +101,7 @@ protected:
     return isReused;
   }
 
-  static vtkPointSet* meshOf(vtkSimplexMeshAlgorithm* filter)
+  static vtkPointSet* meshOf(vtkMeshAlgorithm* filter)
   {
     return vtkPointSet::SafeDownCast(filter->GetOutputDataObject(0));
   }
@@ -145,7 +145,7 @@ protected:
   static std::vector<bool> run(const Pipeline& pipeline, int step)
   {
     std::vector<bool> reused;
-    for (vtkSimplexMeshAlgorithm* filter : pipeline.filters())
+    for (vtkMeshAlgorithm* filter : pipeline.filters())
     {
       EXPECT_TRUE(update(filter, step));
       reused.push_back(isReused(filter));
@@ -162,7 +162,7 @@ TEST_F(TimeSeries, takesTheFieldsAlongOnTheSameMesh)
   const Pipeline pipeline = makePipeline();
   EXPECT_EQ(run(pipeline, 0), none);
   std::vector<vtkMTimeType> times;
-  for (vtkSimplexMeshAlgorithm* filter : pipeline.filters())
+  for (vtkMeshAlgorithm* filter : pipeline.filters())
   {
     times.push_back(vtkUnstructuredGrid::SafeDownCast(meshOf(filter))->GetMeshMTime());
   }
@@ -211,12 +211,12 @@ TEST_F(TimeSeries, takesTheFieldsAlongThroughOperations)
   cadtest::addArrays(whole);
   const Setup setup = [](Pipeline& pipeline)
   {
-    for (vtkSimplexMeshAlgorithm* filter : pipeline.filters())
+    for (vtkMeshAlgorithm* filter : pipeline.filters())
     {
       filter->SetMinimumQuality(0.6);
     }
-    for (vtkSimplexMeshAlgorithm* filter :
-      std::vector<vtkSimplexMeshAlgorithm*>{ pipeline.project, pipeline.refine, pipeline.adapt })
+    for (vtkMeshAlgorithm* filter :
+      std::vector<vtkMeshAlgorithm*>{ pipeline.project, pipeline.refine, pipeline.adapt })
     {
       filter->AddConservedArray("Heat");
       filter->AddConservedArray("Colour");
@@ -344,8 +344,8 @@ TEST_F(TimeSeries, keepsNothingOfAFailure)
   };
   const Pipeline pipeline = makePipeline(failing);
   EXPECT_EQ(run(pipeline, 0), none);
-  for (vtkSimplexMeshAlgorithm* filter : { static_cast<vtkSimplexMeshAlgorithm*>(pipeline.project),
-         static_cast<vtkSimplexMeshAlgorithm*>(pipeline.adapt) })
+  for (vtkMeshAlgorithm* filter : { static_cast<vtkMeshAlgorithm*>(pipeline.project),
+         static_cast<vtkMeshAlgorithm*>(pipeline.adapt) })
   {
     filter->UpdateInformation();
     filter->GetOutputInformation(0)->Set(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP(), 1.0);

@@ -52,7 +52,7 @@ vtkSmartPointer<vtkPointSet> bundled(const std::string& name)
 /// lie near the hull.
 vtkSmartPointer<vtkPointSet> bowMesh()
 {
-  SimplexMesh mesh;
+  Mesh mesh;
   mesh.dimension = 2;
   mesh.points = { { -3.05955, 0, 0.404321 }, { -2.63758, 0, -0.3467 },
     { -2.01066, 0.314451, 0.33132 }, { -2.01066, 0, -0.249155 } };
@@ -183,7 +183,7 @@ TEST_P(Validity, longestEdge)
 /// sphere. Without moves of interior vertices 0.466 is left after four levels.
 TEST(CoarsestBall, keepsItsWorstCellUnderUniformRefinement)
 {
-  SimplexMesh mesh;
+  Mesh mesh;
   mesh.dimension = 3;
   mesh.points = { { 0, 0, 1 }, { 0, 0, -1 }, { 0.87, 0, -0.5 }, { 0.87, 0, 0.5 },
     { 0.59, 0.81, 0.01 }, { 0.12, 0.57, 0.82 }, { -0.85, -0.53, 0.07 }, { -0.32, 0.95, 0.03 },
@@ -194,12 +194,12 @@ TEST(CoarsestBall, keepsItsWorstCellUnderUniformRefinement)
   {
     mesh.ids.push_back(static_cast<GlobalId>(v));
   }
-  for (const auto& [a, b, c] : Simplices<3>{ { 11, 15, 1 }, { 8, 16, 14 }, { 1, 16, 2 },
-         { 4, 5, 7 }, { 4, 11, 2 }, { 7, 5, 9 }, { 7, 10, 11 }, { 13, 0, 3 }, { 7, 11, 4 },
-         { 3, 4, 2 }, { 15, 11, 10 }, { 14, 16, 15 }, { 8, 2, 16 }, { 13, 3, 8 }, { 6, 13, 14 },
-         { 2, 8, 3 }, { 13, 6, 12 }, { 9, 5, 12 }, { 6, 14, 15 }, { 4, 3, 5 }, { 11, 1, 2 },
-         { 12, 5, 0 }, { 13, 12, 0 }, { 13, 8, 14 }, { 1, 15, 16 }, { 9, 12, 6 }, { 7, 9, 10 },
-         { 10, 6, 15 }, { 9, 6, 10 }, { 5, 3, 0 } })
+  for (const auto& [a, b, c] :
+    Cells<3>{ { 11, 15, 1 }, { 8, 16, 14 }, { 1, 16, 2 }, { 4, 5, 7 }, { 4, 11, 2 }, { 7, 5, 9 },
+      { 7, 10, 11 }, { 13, 0, 3 }, { 7, 11, 4 }, { 3, 4, 2 }, { 15, 11, 10 }, { 14, 16, 15 },
+      { 8, 2, 16 }, { 13, 3, 8 }, { 6, 13, 14 }, { 2, 8, 3 }, { 13, 6, 12 }, { 9, 5, 12 },
+      { 6, 14, 15 }, { 4, 3, 5 }, { 11, 1, 2 }, { 12, 5, 0 }, { 13, 12, 0 }, { 13, 8, 14 },
+      { 1, 15, 16 }, { 9, 12, 6 }, { 7, 9, 10 }, { 10, 6, 15 }, { 9, 6, 10 }, { 5, 3, 0 } })
   {
     mesh.tetrahedra.push_back({ a, b, c, 17 });
   }
@@ -221,7 +221,7 @@ class InvalidInput : public testing::Test
 protected:
   cadtest::TemporaryFolder folder;
   cadtest::FilterRun filters{ cadtest::writeInto(folder, cadtest::box(1, 1, 1), ".step") };
-  SimplexMesh mesh = cadtest::cubeMesh(4, 0, 1);
+  Mesh mesh = cadtest::cubeMesh(4, 0, 1);
 
   void SetUp() override
   {
@@ -255,7 +255,7 @@ TEST_F(InvalidInput, isMendedByProjection)
 
 TEST_F(InvalidInput, isMendedByRefinement)
 {
-  SimplexMesh valid = cadtest::cubeMesh(4, 0, 1);
+  Mesh valid = cadtest::cubeMesh(4, 0, 1);
   const auto projected = filters.project(cadtest::toGrid(valid));
   const auto inner = std::find(valid.points.begin(), valid.points.end(), Point3{ 0.5, 0.5, 0.5 });
   vtkUnstructuredGrid::SafeDownCast(projected)->GetPoints()->SetPoint(

@@ -72,8 +72,8 @@ TEST_P(Wing, everyVertexOnTheCadIsThere)
   const auto data = filters.refineUniformly(filters.project(coarse), 2);
   EXPECT_EQ(cadtest::fieldValue(data, "UnprojectedVertices"), 0);
   const auto again = filters.project(data);
-  const SimplexMesh mesh = cadtest::toMesh(data);
-  const SimplexMesh projected = cadtest::toMesh(again);
+  const Mesh mesh = cadtest::toMesh(data);
+  const Mesh projected = cadtest::toMesh(again);
   ASSERT_EQ(mesh.points.size(), projected.points.size());
   double farthest = 0;
   for (std::size_t v = 0; v < mesh.points.size(); ++v)
@@ -98,8 +98,8 @@ TEST_P(Wing, errorStaysWithoutProjection)
 
 TEST_P(Wing, wallsAndFarFieldStay)
 {
-  const SimplexMesh before = cadtest::toMesh(coarse);
-  const SimplexMesh after = cadtest::toMesh(filters.moveOntoCAD(coarse));
+  const Mesh before = cadtest::toMesh(coarse);
+  const Mesh after = cadtest::toMesh(filters.moveOntoCAD(coarse));
   ASSERT_EQ(before.points.size(), after.points.size());
   for (std::size_t v = 0; v < before.points.size(); ++v)
   {
@@ -114,7 +114,7 @@ TEST_P(Wing, wallsAndFarFieldStay)
 /// Also where cells are exchanged for others.
 TEST_P(Wing, operationsLeaveTheFarFieldAlone)
 {
-  const auto farAway = [](const SimplexMesh& mesh)
+  const auto farAway = [](const Mesh& mesh)
   {
     std::set<Point3> points;
     for (const Index v : cadtest::outerVertices(mesh))
@@ -126,8 +126,8 @@ TEST_P(Wing, operationsLeaveTheFarFieldAlone)
     }
     return points;
   };
-  const SimplexMesh before = cadtest::toMesh(coarse);
-  const SimplexMesh after = cadtest::toMesh(filters.run<vtkProjectOntoCAD>(
+  const Mesh before = cadtest::toMesh(coarse);
+  const Mesh after = cadtest::toMesh(filters.run<vtkProjectOntoCAD>(
     coarse, [](vtkProjectOntoCAD* filter) { filter->SetMinimumQuality(0.3); }));
   EXPECT_NE(before.tetrahedra.size(), after.tetrahedra.size());
   EXPECT_GT(farAway(before).size(), 8U);
@@ -142,8 +142,8 @@ TEST_P(Wing, projectionIsLimitedToItsRegion)
       filter->UseRegionOn();
       filter->SetRegion(-1, 1.5, -1, 5, -1, 1);
     });
-  const SimplexMesh before = cadtest::toMesh(coarse);
-  const SimplexMesh after = cadtest::toMesh(data);
+  const Mesh before = cadtest::toMesh(coarse);
+  const Mesh after = cadtest::toMesh(data);
   std::size_t moved = 0;
   for (std::size_t v = 0; v < before.points.size(); ++v)
   {

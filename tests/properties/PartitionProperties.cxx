@@ -104,7 +104,7 @@ protected:
     {
       return;
     }
-    SimplexMesh mesh = cadtest::toMesh(gathered);
+    Mesh mesh = cadtest::toMesh(gathered);
     const bool isTurned = !problem.mesh.wedges.empty() && !cadtest::isValid(problem.mesh);
     if (isTurned)
     {

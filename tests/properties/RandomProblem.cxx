@@ -24,7 +24,7 @@ namespace
 using namespace cadrefine;
 
 /// Moves all vertices by up to `length` in each direction.
-void shake(Random& random, SimplexMesh& mesh, double length, int dimension)
+void shake(Random& random, Mesh& mesh, double length, int dimension)
 {
   for (Point3& point : mesh.points)
   {
@@ -36,9 +36,9 @@ void shake(Random& random, SimplexMesh& mesh, double length, int dimension)
 }
 
 /// The sides round the cells, with their vertices only.
-SimplexMesh boundaryOf(const SimplexMesh& mesh)
+Mesh boundaryOf(const Mesh& mesh)
 {
-  SimplexMesh surface;
+  Mesh surface;
   surface.dimension = 2;
   std::vector<Index> numbers(mesh.points.size(), -1);
   for (const Facet& facet : findOuterFacets(mesh))
@@ -99,7 +99,7 @@ FilterProblem::FilterProblem(Random& random)
 namespace
 {
 
-SimplexMesh anyMix(Random& random, const SimplexMesh& boxes)
+Mesh anyMix(Random& random, const Mesh& boxes)
 {
   return random.chance(0.2) ? boxes : cadtest::randomlyMixedMesh(boxes, random.seed());
 }
@@ -115,16 +115,16 @@ std::vector<double> anyHeights(Random& random)
 }
 
 /// Layers of one kind, or of any, round the unit sphere.
-SimplexMesh anyLayers(Random& random)
+Mesh anyLayers(Random& random)
 {
   using cadtest::BoxKind;
   const int n = random.among(1, 2) + 1;
   const auto heights = anyHeights(random);
-  const SimplexMesh boxes = cadtest::hexahedralShellMesh(1, random.between(0, 0.02), n, heights);
+  const Mesh boxes = cadtest::hexahedralShellMesh(1, random.between(0, 0.02), n, heights);
   const auto kind = static_cast<BoxKind>(random.among(0, 1));
   const std::size_t layers = heights.size() * 6 * n * n;
   const double others = random.chance(0.5) ? 0 : 0.2;
-  const SimplexMesh mesh = cadtest::mixedMesh(
+  const Mesh mesh = cadtest::mixedMesh(
     boxes,
     [&](std::size_t c)
     {
@@ -142,7 +142,7 @@ SimplexMesh anyLayers(Random& random)
 FilterProblem FilterProblem::mixed(Random& random)
 {
   FilterProblem problem;
-  SimplexMesh& mesh = problem.mesh;
+  Mesh& mesh = problem.mesh;
   const int kind = random.among(0, 5);
   if (kind <= 2) // cube, its surface
   {

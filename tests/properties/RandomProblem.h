@@ -4,7 +4,7 @@
 #include "FilterRun.h"
 #include "RandomShapes.h"
 
-#include <cadrefine/mesh/SimplexMesh.h>
+#include <cadrefine/mesh/Mesh.h>
 
 #include <TopoDS_Shape.hxx>
 
@@ -22,7 +22,7 @@ struct FilterProblem
   /// boundary. Wedges may be in the order of VTK's documentation.
   static FilterProblem mixed(Random& random);
 
-  cadrefine::SimplexMesh mesh;
+  cadrefine::Mesh mesh;
   TopoDS_Shape shape;
   bool isSurface = false; ///< Cells of area in space.
   bool isBoundaryListed = false;

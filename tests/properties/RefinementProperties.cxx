@@ -86,11 +86,11 @@ struct RandomMesh
     return false;
   }
 
-  SimplexMesh mesh;
+  Mesh mesh;
   Point3 size{ 1, 1, 1 };
 };
 
-std::vector<GlobalId> newIds(Random& random, const SimplexMesh& mesh, const Midpoints& midpoints)
+std::vector<GlobalId> newIds(Random& random, const Mesh& mesh, const Midpoints& midpoints)
 {
   std::vector<GlobalId> ids(midpoints.edges.size());
   std::iota(ids.begin(), ids.end(), *std::max_element(mesh.ids.begin(), mesh.ids.end()) + 1);
@@ -106,7 +106,7 @@ struct Refined
   SplitMesh split;
 };
 
-std::vector<unsigned char> randomMarks(Random& random, const SimplexMesh& mesh)
+std::vector<unsigned char> randomMarks(Random& random, const Mesh& mesh)
 {
   const double part = std::pow(10.0, random.between(-2, 0));
   std::vector<unsigned char> marks(
@@ -116,7 +116,7 @@ std::vector<unsigned char> randomMarks(Random& random, const SimplexMesh& mesh)
   return marks;
 }
 
-Refined bisect(Random& random, const SimplexMesh& mesh, const std::vector<unsigned char>& cellMarks)
+Refined bisect(Random& random, const Mesh& mesh, const std::vector<unsigned char>& cellMarks)
 {
   Refined result;
   result.table = buildEdgeTable(mesh);
@@ -129,7 +129,7 @@ Refined bisect(Random& random, const SimplexMesh& mesh, const std::vector<unsign
   return result;
 }
 
-Refined splitAll(Random& random, const SimplexMesh& mesh)
+Refined splitAll(Random& random, const Mesh& mesh)
 {
   Refined result;
   result.table = buildEdgeTable(mesh);
@@ -140,19 +140,19 @@ Refined splitAll(Random& random, const SimplexMesh& mesh)
   return result;
 }
 
-double measure(const SimplexMesh& mesh, const std::array<Index, 4>& cell)
+double measure(const Mesh& mesh, const std::array<Index, 4>& cell)
 {
   const auto& p = mesh.points;
   return sixfoldVolume(p[cell[0]], p[cell[1]], p[cell[2]], p[cell[3]]) / 6;
 }
 
-double measure(const SimplexMesh& mesh, const std::array<Index, 3>& cell)
+double measure(const Mesh& mesh, const std::array<Index, 3>& cell)
 {
   const auto& p = mesh.points;
   return norm(twofoldAreaVector(p[cell[0]], p[cell[1]], p[cell[2]])) / 2;
 }
 
-double measure(const SimplexMesh& mesh, const std::array<Index, 2>& cell)
+double measure(const Mesh& mesh, const std::array<Index, 2>& cell)
 {
   return distance(mesh.points[cell[0]], mesh.points[cell[1]]);
 }
@@ -160,8 +160,8 @@ double measure(const SimplexMesh& mesh, const std::array<Index, 2>& cell)
 /// Corners of children are corners of the parent, or the middles of its edges; and the children
 /// fill it.
 template<std::size_t Corners>
-void expectNested(const SimplexMesh& coarse, const Simplices<Corners>& parents,
-  const SplitMesh& split, const Simplices<Corners>& children, double unit)
+void expectNested(const Mesh& coarse, const Cells<Corners>& parents, const SplitMesh& split,
+  const Cells<Corners>& children, double unit)
 {
   const std::vector<Index>& first = split.firstChildren[Corners - 1];
   ASSERT_EQ(first.size(), parents.size() + 1);
@@ -188,7 +188,7 @@ void expectNested(const SimplexMesh& coarse, const Simplices<Corners>& parents,
 }
 
 template<std::size_t Corners>
-void addSides(const Simplices<Corners>& cells, std::set<std::set<Index>>& sides)
+void addSides(const Cells<Corners>& cells, std::set<std::set<Index>>& sides)
 {
   for (const auto& cell : cells)
   {
@@ -202,7 +202,7 @@ void addSides(const Simplices<Corners>& cells, std::set<std::set<Index>>& sides)
 }
 
 /// Tags lie on sides of cells.
-void expectTagsOnSides(const SimplexMesh& mesh)
+void expectTagsOnSides(const Mesh& mesh)
 {
   std::set<std::set<Index>> sides;
   addSides(mesh.tetrahedra, sides);
@@ -227,9 +227,9 @@ void expectCutEdgesGone(const SplitMesh& split)
   }
 }
 
-void expectSound(const RandomMesh& box, const SimplexMesh& coarse, const SplitMesh& split)
+void expectSound(const RandomMesh& box, const Mesh& coarse, const SplitMesh& split)
 {
-  const SimplexMesh& fine = split.mesh;
+  const Mesh& fine = split.mesh;
   EXPECT_TRUE(cadtest::isValid(fine));
   EXPECT_TRUE(
     cadtest::isWatertight(fine, [&](const std::vector<Point3>& side) { return box.onBox(side); }));
@@ -244,7 +244,7 @@ void expectSound(const RandomMesh& box, const SimplexMesh& coarse, const SplitMe
   expectNested(coarse, coarse.segments, split, fine.segments, longest);
 }
 
-std::set<cadtest::IdPair> markedIds(const SimplexMesh& mesh, const Refined& refined)
+std::set<cadtest::IdPair> markedIds(const Mesh& mesh, const Refined& refined)
 {
   std::set<cadtest::IdPair> ids;
   for (std::size_t e = 0; e < refined.marks.size(); ++e)
@@ -265,7 +265,7 @@ TEST(RefinementProperty, longestEdgeBisectionIsConformingNestedAndLeast)
     [](Random& random)
     {
       const RandomMesh box(random);
-      SimplexMesh mesh = box.mesh;
+      Mesh mesh = box.mesh;
       const int levels = random.among(1, 5);
       for (int level = 0; level < levels && mesh.cellCount() < mostCells; ++level)
       {
@@ -291,12 +291,12 @@ TEST(RefinementProperty, uniformSplittingIsConformingAndNested)
     [](Random& random)
     {
       const RandomMesh box(random);
-      SimplexMesh mesh = box.mesh;
+      Mesh mesh = box.mesh;
       for (int level = 0; level < 2 && mesh.cellCount() < mostCells / 8; ++level)
       {
         const Refined refined = splitAll(random, mesh);
         expectSound(box, mesh, refined.split);
-        const SimplexMesh& fine = refined.split.mesh;
+        const Mesh& fine = refined.split.mesh;
         EXPECT_EQ(fine.tetrahedra.size(), 8 * mesh.tetrahedra.size());
         EXPECT_EQ(fine.triangles.size(), 4 * mesh.triangles.size());
         EXPECT_EQ(fine.segments.size(), 2 * mesh.segments.size());
@@ -311,7 +311,7 @@ TEST(RefinementProperty, scalesWithPowersOfTwo)
   forEachSeed(40,
     [](Random& random)
     {
-      SimplexMesh mesh = RandomMesh(random).mesh;
+      Mesh mesh = RandomMesh(random).mesh;
       const double factor = std::ldexp(1.0, random.among(-100, 100));
       const auto scaledPoints = [factor](std::vector<Point3> points)
       {
@@ -326,13 +326,13 @@ TEST(RefinementProperty, scalesWithPowersOfTwo)
       {
         const bool isUniform = random.chance(0.2);
         const auto cellMarks = randomMarks(random, mesh);
-        SimplexMesh scaledMesh = mesh;
+        Mesh scaledMesh = mesh;
         scaledMesh.points = scaledPoints(mesh.points);
         Random same = random;
-        const auto refine = [&](Random& each, const SimplexMesh& of)
+        const auto refine = [&](Random& each, const Mesh& of)
         { return (isUniform ? splitAll(each, of) : bisect(each, of, cellMarks)).split.mesh; };
         mesh = refine(random, mesh);
-        const SimplexMesh other = refine(same, scaledMesh);
+        const Mesh other = refine(same, scaledMesh);
         EXPECT_EQ(other.tetrahedra, mesh.tetrahedra);
         EXPECT_EQ(other.triangles, mesh.triangles);
         EXPECT_EQ(other.segments, mesh.segments);

@@ -24,7 +24,7 @@ struct OrderedEdge
   }
 };
 
-OrderedEdge orderedEdge(const SimplexMesh& mesh, Index a, Index b)
+OrderedEdge orderedEdge(const Mesh& mesh, Index a, Index b)
 {
   if (mesh.ids[b] < mesh.ids[a])
   {
@@ -34,8 +34,7 @@ OrderedEdge orderedEdge(const SimplexMesh& mesh, Index a, Index b)
 }
 
 /// All edges of a cell, and the triangles among its corners, as the rules say it.
-std::vector<std::vector<OrderedEdge>> simplicesOf(
-  const SimplexMesh& mesh, const std::vector<Index>& cell)
+std::vector<std::vector<OrderedEdge>> simplicesOf(const Mesh& mesh, const std::vector<Index>& cell)
 {
   std::vector<std::vector<OrderedEdge>> result;
   for (unsigned subset = 1; subset < 1u << cell.size(); ++subset)
@@ -65,7 +64,7 @@ std::vector<std::vector<OrderedEdge>> simplicesOf(
 
 } // namespace
 
-std::vector<std::vector<Index>> cellsOf(const SimplexMesh& mesh)
+std::vector<std::vector<Index>> cellsOf(const Mesh& mesh)
 {
   std::vector<std::vector<Index>> cells;
   for (const auto& cell : mesh.tetrahedra)
@@ -79,7 +78,7 @@ std::vector<std::vector<Index>> cellsOf(const SimplexMesh& mesh)
   return cells;
 }
 
-std::set<IdPair> leastMarking(const SimplexMesh& mesh, const std::vector<unsigned char>& cellMarks)
+std::set<IdPair> leastMarking(const Mesh& mesh, const std::vector<unsigned char>& cellMarks)
 {
   std::vector<std::vector<OrderedEdge>> simplices;
   std::set<IdPair> marked;

@@ -1,7 +1,7 @@
 // Which edges longest edge bisection has to cut, by brute force.
 #pragma once
 
-#include <cadrefine/mesh/SimplexMesh.h>
+#include <cadrefine/mesh/Mesh.h>
 
 #include <array>
 #include <set>
@@ -14,11 +14,11 @@ namespace cadtest
 using IdPair = std::array<cadrefine::GlobalId, 2>;
 
 /// Corners of the tetrahedra and of the triangles, in this order.
-std::vector<std::vector<cadrefine::Index>> cellsOf(const cadrefine::SimplexMesh& mesh);
+std::vector<std::vector<cadrefine::Index>> cellsOf(const cadrefine::Mesh& mesh);
 
 /// The least set of edges with the longest edge of each marked cell, and with the longest edge of
 /// each cell and triangle that has an edge in the set.
 std::set<IdPair> leastMarking(
-  const cadrefine::SimplexMesh& mesh, const std::vector<unsigned char>& cellMarks);
+  const cadrefine::Mesh& mesh, const std::vector<unsigned char>& cellMarks);
 
 } // namespace cadtest

@@ -20,7 +20,7 @@ namespace
 using Side = std::vector<Index>; // ascending
 
 /// How often each side of the cells of the mesh's own dimension is met.
-std::map<Side, int> sidesOf(const SimplexMesh& mesh)
+std::map<Side, int> sidesOf(const Mesh& mesh)
 {
   std::map<Side, int> counts;
   forEachSide(mesh,
@@ -33,7 +33,7 @@ std::map<Side, int> sidesOf(const SimplexMesh& mesh)
   return counts;
 }
 
-std::set<std::array<Index, 2>> edgesOf(const SimplexMesh& mesh)
+std::set<std::array<Index, 2>> edgesOf(const Mesh& mesh)
 {
   std::set<std::array<Index, 2>> edges;
   for (const int dimension : { 2, 3 })
@@ -98,7 +98,7 @@ bool isPositive(Shape shape, const std::array<Point3, Corners>& p)
 
 } // namespace
 
-double measureOf(const SimplexMesh& mesh)
+double measureOf(const Mesh& mesh)
 {
   double sum = 0;
   visitOwnShapes(mesh,
@@ -112,7 +112,7 @@ double measureOf(const SimplexMesh& mesh)
   return sum;
 }
 
-double volumeInside(const SimplexMesh& mesh)
+double volumeInside(const Mesh& mesh)
 {
   double sum = 0;
   for (const auto& cell : mesh.triangles)
@@ -123,7 +123,7 @@ double volumeInside(const SimplexMesh& mesh)
   return sum;
 }
 
-testing::AssertionResult areCellsValid(const SimplexMesh& mesh)
+testing::AssertionResult areCellsValid(const Mesh& mesh)
 {
   testing::AssertionResult result = testing::AssertionSuccess();
   visitOwnShapes(mesh,
@@ -144,14 +144,14 @@ testing::AssertionResult areCellsValid(const SimplexMesh& mesh)
   return result;
 }
 
-testing::AssertionResult isValid(const SimplexMesh& mesh)
+testing::AssertionResult isValid(const Mesh& mesh)
 {
   return mesh.cellCount(mesh.dimension) == 0 ? testing::AssertionFailure() << "there are no cells"
                                              : areCellsValid(mesh);
 }
 
 testing::AssertionResult isWatertight(
-  const SimplexMesh& mesh, const std::function<bool(const std::vector<Point3>&)>& onBoundary)
+  const Mesh& mesh, const std::function<bool(const std::vector<Point3>&)>& onBoundary)
 {
   const auto sides = sidesOf(mesh);
   for (const auto& [side, count] : sides)
@@ -173,7 +173,7 @@ testing::AssertionResult isWatertight(
                        : testing::AssertionSuccess();
 }
 
-testing::AssertionResult isBoundedByListedCells(const SimplexMesh& mesh)
+testing::AssertionResult isBoundedByListedCells(const Mesh& mesh)
 {
   auto sides = sidesOf(mesh);
   testing::AssertionResult result = testing::AssertionSuccess();
@@ -219,7 +219,7 @@ bool onUnitCube(const std::vector<Point3>& points, int dimension)
   return false;
 }
 
-testing::AssertionResult hasNoHangingVertex(const SimplexMesh& mesh)
+testing::AssertionResult hasNoHangingVertex(const Mesh& mesh)
 {
   const std::set<Point3> points(mesh.points.begin(), mesh.points.end());
   for (const auto& [a, b] : edgesOf(mesh))
@@ -234,14 +234,14 @@ testing::AssertionResult hasNoHangingVertex(const SimplexMesh& mesh)
   return testing::AssertionSuccess();
 }
 
-std::size_t countOuterSides(const SimplexMesh& mesh)
+std::size_t countOuterSides(const Mesh& mesh)
 {
   const auto sides = sidesOf(mesh);
   return static_cast<std::size_t>(
     std::count_if(sides.begin(), sides.end(), [](const auto& side) { return side.second == 1; }));
 }
 
-std::set<Index> outerVertices(const SimplexMesh& mesh)
+std::set<Index> outerVertices(const Mesh& mesh)
 {
   std::set<Index> vertices;
   for (const auto& [side, count] : sidesOf(mesh))

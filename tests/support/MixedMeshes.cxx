@@ -20,7 +20,7 @@ namespace
 
 constexpr double pi = 3.14159265358979323846;
 
-void shuffleIds(SimplexMesh& mesh, std::mt19937_64& random)
+void shuffleIds(Mesh& mesh, std::mt19937_64& random)
 {
   mesh.ids.resize(mesh.points.size());
   std::iota(mesh.ids.begin(), mesh.ids.end(), GlobalId{ 0 });
@@ -32,7 +32,7 @@ template<class Place>
 class Lattice
 {
 public:
-  explicit Lattice(SimplexMesh& mesh) : mesh_(mesh) {}
+  explicit Lattice(Mesh& mesh) : mesh_(mesh) {}
 
   template<class PointAt>
   Index at(const Place& place, const PointAt& pointAt)
@@ -46,7 +46,7 @@ public:
   }
 
 private:
-  SimplexMesh& mesh_;
+  Mesh& mesh_;
   std::map<Place, Index> vertices_;
 };
 
@@ -91,7 +91,7 @@ void forSquares(int n, const Use& use)
 /// As many shells of hexahedra round a grid, at(level, place) being their vertices, the lowest
 /// first.
 template<class At>
-void addShells(SimplexMesh& mesh, int n, std::size_t shells, const At& at)
+void addShells(Mesh& mesh, int n, std::size_t shells, const At& at)
 {
   for (std::size_t level = 0; level < shells; ++level)
   {
@@ -167,12 +167,12 @@ int directionOf(BoxKind kind)
 class Mixing
 {
 public:
-  Mixing(const SimplexMesh& hexahedra, std::uint64_t seed) : coarse_(hexahedra), random_(seed)
+  Mixing(const Mesh& hexahedra, std::uint64_t seed) : coarse_(hexahedra), random_(seed)
   {
     mesh_.points = hexahedra.points;
   }
 
-  SimplexMesh run(const std::function<BoxKind(std::size_t)>& kindOf)
+  Mesh run(const std::function<BoxKind(std::size_t)>& kindOf)
   {
     std::vector<BoxKind> kinds;
     for (std::size_t c = 0; c < coarse_.hexahedra.size(); ++c)
@@ -283,16 +283,16 @@ private:
     }
   }
 
-  const SimplexMesh& coarse_;
+  const Mesh& coarse_;
   std::mt19937_64 random_;
-  SimplexMesh mesh_;
+  Mesh mesh_;
   Sides sides_;
 };
 
 /// Some of the quadrilaterals from `first` on become two triangles.
-void halveSome(SimplexMesh& mesh, std::size_t first, std::mt19937_64& random)
+void halveSome(Mesh& mesh, std::size_t first, std::mt19937_64& random)
 {
-  Simplices<4> left(
+  Cells<4> left(
     mesh.quadrilaterals.begin(), mesh.quadrilaterals.begin() + static_cast<std::ptrdiff_t>(first));
   for (std::size_t q = first; q < mesh.quadrilaterals.size(); ++q)
   {
@@ -313,11 +313,11 @@ void halveSome(SimplexMesh& mesh, std::size_t first, std::mt19937_64& random)
 
 } // namespace
 
-SimplexMesh hexahedraMesh(int n, double jitter, std::uint64_t seed)
+Mesh hexahedraMesh(int n, double jitter, std::uint64_t seed)
 {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> move(-jitter / n, jitter / n);
-  SimplexMesh mesh;
+  Mesh mesh;
   Lattice<GridPlace> lattice(mesh);
   for (int box = 0; box < n * n * n; ++box)
   {
@@ -340,11 +340,11 @@ SimplexMesh hexahedraMesh(int n, double jitter, std::uint64_t seed)
   return mesh;
 }
 
-SimplexMesh quadrilateralsMesh(int n, double jitter, std::uint64_t seed)
+Mesh quadrilateralsMesh(int n, double jitter, std::uint64_t seed)
 {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> move(-jitter / n, jitter / n);
-  SimplexMesh mesh;
+  Mesh mesh;
   mesh.dimension = 2;
   Lattice<std::array<int, 2>> lattice(mesh);
   for (int box = 0; box < n * n; ++box)
@@ -367,18 +367,18 @@ SimplexMesh quadrilateralsMesh(int n, double jitter, std::uint64_t seed)
   return mesh;
 }
 
-SimplexMesh mixedMesh(const SimplexMesh& hexahedra,
-  const std::function<BoxKind(std::size_t)>& kindOf, std::uint64_t seed)
+Mesh mixedMesh(
+  const Mesh& hexahedra, const std::function<BoxKind(std::size_t)>& kindOf, std::uint64_t seed)
 {
   return Mixing(hexahedra, seed).run(kindOf);
 }
 
-SimplexMesh randomlyMixedMesh(const SimplexMesh& hexahedra, std::uint64_t seed)
+Mesh randomlyMixedMesh(const Mesh& hexahedra, std::uint64_t seed)
 {
   std::mt19937_64 random(seed);
   if (hexahedra.dimension == 2)
   {
-    SimplexMesh mesh = hexahedra;
+    Mesh mesh = hexahedra;
     halveSome(mesh, 0, random);
     return mesh;
   }
@@ -386,11 +386,10 @@ SimplexMesh randomlyMixedMesh(const SimplexMesh& hexahedra, std::uint64_t seed)
     hexahedra, [&](std::size_t) { return static_cast<BoxKind>(random() % 5); }, seed);
 }
 
-SimplexMesh hexahedralBallMesh(
-  double radius, double offset, int n, const std::vector<double>& parts)
+Mesh hexahedralBallMesh(double radius, double offset, int n, const std::vector<double>& parts)
 {
   constexpr double inner = 0.4; // of the radius
-  SimplexMesh mesh = hexahedraMesh(n, 0, 1);
+  Mesh mesh = hexahedraMesh(n, 0, 1);
   for (Point3& point : mesh.points)
   {
     for (double& x : point)
@@ -434,10 +433,9 @@ SimplexMesh hexahedralBallMesh(
   return mesh;
 }
 
-SimplexMesh hexahedralShellMesh(
-  double radius, double offset, int n, const std::vector<double>& heights)
+Mesh hexahedralShellMesh(double radius, double offset, int n, const std::vector<double>& heights)
 {
-  SimplexMesh mesh;
+  Mesh mesh;
   Lattice<std::pair<std::size_t, GridPlace>> lattice(mesh);
   const auto at = [&](std::size_t level, const GridPlace& place)
   {
@@ -457,10 +455,10 @@ SimplexMesh hexahedralShellMesh(
   return mesh;
 }
 
-SimplexMesh quadrilateralRingMesh(
+Mesh quadrilateralRingMesh(
   double radius, double offset, int corners, const std::vector<double>& heights)
 {
-  SimplexMesh mesh;
+  Mesh mesh;
   mesh.dimension = 2;
   for (std::size_t level = 0; level <= heights.size() + 1; ++level)
   {
@@ -490,7 +488,7 @@ SimplexMesh quadrilateralRingMesh(
   return mesh;
 }
 
-SimplexMesh withListedBoundary(SimplexMesh mesh)
+Mesh withListedBoundary(Mesh mesh)
 {
   for (const Facet& facet : findOuterFacets(mesh))
   {
@@ -510,7 +508,7 @@ SimplexMesh withListedBoundary(SimplexMesh mesh)
   return mesh;
 }
 
-SimplexMesh withMixedOrder(SimplexMesh mesh, std::uint64_t seed)
+Mesh withMixedOrder(Mesh mesh, std::uint64_t seed)
 {
   std::mt19937_64 random(seed);
   visitShapes(mesh, [&](auto, auto& cells) { std::shuffle(cells.begin(), cells.end(), random); });

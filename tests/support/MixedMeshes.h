@@ -1,7 +1,7 @@
 // Small meshes of hexahedra, wedges, pyramids, tetrahedra, quadrilaterals and triangles.
 #pragma once
 
-#include <cadrefine/mesh/SimplexMesh.h>
+#include <cadrefine/mesh/Mesh.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -14,8 +14,8 @@ namespace cadtest
 
 /// The unit cube as n * n * n hexahedra, and the unit square as n * n quadrilaterals; inner
 /// vertices are moved at random by up to `jitter` / n in each direction. Ids are in a random order.
-cadrefine::SimplexMesh hexahedraMesh(int n, double jitter, std::uint64_t seed);
-cadrefine::SimplexMesh quadrilateralsMesh(int n, double jitter, std::uint64_t seed);
+cadrefine::Mesh hexahedraMesh(int n, double jitter, std::uint64_t seed);
+cadrefine::Mesh quadrilateralsMesh(int n, double jitter, std::uint64_t seed);
 
 /// What becomes of a hexahedron.
 enum class BoxKind
@@ -29,30 +29,29 @@ enum class BoxKind
 
 /// A conforming mesh of these hexahedra, each cut as `kindOf` says where its neighbours before it
 /// allow it, or else as a fan. Diagonals, and the sides between fans, at random.
-cadrefine::SimplexMesh mixedMesh(const cadrefine::SimplexMesh& hexahedra,
+cadrefine::Mesh mixedMesh(const cadrefine::Mesh& hexahedra,
   const std::function<BoxKind(std::size_t)>& kindOf, std::uint64_t seed);
 /// Every hexahedron cut in any way; some quadrilaterals halved.
-cadrefine::SimplexMesh randomlyMixedMesh(
-  const cadrefine::SimplexMesh& hexahedra, std::uint64_t seed);
+cadrefine::Mesh randomlyMixedMesh(const cadrefine::Mesh& hexahedra, std::uint64_t seed);
 
 /// Ball round the origin: n * n * n hexahedra in the middle, and shells on its six sides that end
 /// at these parts of the way to the sphere (the last one is 1). Vertices lie off the sphere by up
 /// to `offset` times the radius.
-cadrefine::SimplexMesh hexahedralBallMesh(
+cadrefine::Mesh hexahedralBallMesh(
   double radius, double offset, int n, const std::vector<double>& parts);
 /// Shells of hexahedra round that sphere, at these heights over its vertices, the last one at three
 /// times the radius. They stand on it with their side 0, 1, 2, 3, the lowest shell first.
-cadrefine::SimplexMesh hexahedralShellMesh(
+cadrefine::Mesh hexahedralShellMesh(
   double radius, double offset, int n, const std::vector<double>& heights);
 /// Rings of quadrilaterals round a polygon near a circle at these heights; outside, to three times
 /// the radius, a ring of quadrilaterals and triangles.
-cadrefine::SimplexMesh quadrilateralRingMesh(
+cadrefine::Mesh quadrilateralRingMesh(
   double radius, double offset, int corners, const std::vector<double>& heights);
 
 /// The same with its outer sides listed as cells.
-cadrefine::SimplexMesh withListedBoundary(cadrefine::SimplexMesh mesh);
+cadrefine::Mesh withListedBoundary(cadrefine::Mesh mesh);
 
 /// The same with all cells of each shape in another order.
-cadrefine::SimplexMesh withMixedOrder(cadrefine::SimplexMesh mesh, std::uint64_t seed);
+cadrefine::Mesh withMixedOrder(cadrefine::Mesh mesh, std::uint64_t seed);
 
 } // namespace cadtest

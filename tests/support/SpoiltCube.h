@@ -15,7 +15,7 @@ namespace cadtest
 inline cadrefine::EditableMesh spoiltCube(unsigned seed)
 {
   using namespace cadrefine;
-  SimplexMesh boxes = cubeMesh(4, 0.1, seed);
+  Mesh boxes = cubeMesh(4, 0.1, seed);
   std::mt19937 random(seed);
   EditableMesh mesh;
   for (const Point3& point : boxes.points)
@@ -52,11 +52,11 @@ inline cadrefine::EditableMesh spoiltCube(unsigned seed)
 }
 
 /// The same as a mesh without materials.
-inline cadrefine::SimplexMesh spoiltCubeMesh(unsigned seed)
+inline cadrefine::Mesh spoiltCubeMesh(unsigned seed)
 {
   using namespace cadrefine;
   const EditableMesh spoilt = spoiltCube(seed);
-  SimplexMesh mesh;
+  Mesh mesh;
   for (std::size_t v = 0; v < spoilt.vertexCount(); ++v)
   {
     mesh.points.push_back(spoilt.vertex(static_cast<Index>(v)).point);

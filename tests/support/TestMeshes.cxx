@@ -59,7 +59,7 @@ std::vector<Point3> gridPoints(int n, int dimension, double jitter, std::mt19937
 
 /// The simplices of a box: along each order of the axes a path from its first corner to its last.
 template<std::size_t Corners>
-void addBox(Index first, const std::array<Index, 3>& strides, Simplices<Corners>& cells)
+void addBox(Index first, const std::array<Index, 3>& strides, Cells<Corners>& cells)
 {
   std::array<int, Corners - 1> axes;
   std::iota(axes.begin(), axes.end(), 0);
@@ -75,7 +75,7 @@ void addBox(Index first, const std::array<Index, 3>& strides, Simplices<Corners>
 }
 
 /// Turns the cells whose measure is negative.
-void orient(SimplexMesh& mesh)
+void orient(Mesh& mesh)
 {
   const auto& p = mesh.points;
   for (auto& cell : mesh.tetrahedra)
@@ -117,11 +117,11 @@ std::vector<Point3> icosahedron(double radius, double offset)
 
 /// The 20 sides, with outward normals: corners at the distance of an edge (1.05 radii) from each
 /// other.
-Simplices<3> icosahedronSides(const std::vector<Point3>& points)
+Cells<3> icosahedronSides(const std::vector<Point3>& points)
 {
   const double limit = 1.3 * norm(points[0]);
   const auto near = [&](Index a, Index b) { return distance(points[a], points[b]) < limit; };
-  Simplices<3> sides;
+  Cells<3> sides;
   for (Index a = 0; a < 12; ++a)
   {
     for (Index b = a + 1; b < 12; ++b)
@@ -142,9 +142,9 @@ Simplices<3> icosahedronSides(const std::vector<Point3>& points)
 
 } // namespace
 
-SimplexMesh oneTetrahedron(const std::array<Point3, 4>& points)
+Mesh oneTetrahedron(const std::array<Point3, 4>& points)
 {
-  SimplexMesh mesh;
+  Mesh mesh;
   mesh.dimension = 3;
   mesh.points.assign(points.begin(), points.end());
   mesh.ids = consecutiveIds(4);
@@ -152,9 +152,9 @@ SimplexMesh oneTetrahedron(const std::array<Point3, 4>& points)
   return mesh;
 }
 
-SimplexMesh oneTriangle(const std::array<Point3, 3>& points)
+Mesh oneTriangle(const std::array<Point3, 3>& points)
 {
-  SimplexMesh mesh;
+  Mesh mesh;
   mesh.dimension = 2;
   mesh.points.assign(points.begin(), points.end());
   mesh.ids = consecutiveIds(3);
@@ -162,10 +162,10 @@ SimplexMesh oneTriangle(const std::array<Point3, 3>& points)
   return mesh;
 }
 
-SimplexMesh cubeMesh(int n, double jitter, std::uint64_t seed)
+Mesh cubeMesh(int n, double jitter, std::uint64_t seed)
 {
   std::mt19937_64 random(seed);
-  SimplexMesh mesh;
+  Mesh mesh;
   mesh.dimension = 3;
   mesh.points = gridPoints(n, 3, jitter, random);
   mesh.ids = shuffledIds(mesh.points.size(), random);
@@ -179,10 +179,10 @@ SimplexMesh cubeMesh(int n, double jitter, std::uint64_t seed)
   return mesh;
 }
 
-SimplexMesh squareMesh(int n, double jitter, std::uint64_t seed)
+Mesh squareMesh(int n, double jitter, std::uint64_t seed)
 {
   std::mt19937_64 random(seed);
-  SimplexMesh mesh;
+  Mesh mesh;
   mesh.dimension = 2;
   mesh.points = gridPoints(n, 2, jitter, random);
   mesh.ids = shuffledIds(mesh.points.size(), random);
@@ -194,7 +194,7 @@ SimplexMesh squareMesh(int n, double jitter, std::uint64_t seed)
   return mesh;
 }
 
-SimplexMesh withShuffledCells(SimplexMesh mesh, std::uint64_t seed)
+Mesh withShuffledCells(Mesh mesh, std::uint64_t seed)
 {
   std::mt19937_64 random(seed);
   std::shuffle(mesh.tetrahedra.begin(), mesh.tetrahedra.end(), random);
@@ -203,9 +203,9 @@ SimplexMesh withShuffledCells(SimplexMesh mesh, std::uint64_t seed)
   return mesh;
 }
 
-SimplexMesh sphereMesh(double radius, double offset)
+Mesh sphereMesh(double radius, double offset)
 {
-  SimplexMesh mesh;
+  Mesh mesh;
   mesh.dimension = 2;
   mesh.points = icosahedron(radius, offset);
   mesh.ids = consecutiveIds(12);
@@ -213,9 +213,9 @@ SimplexMesh sphereMesh(double radius, double offset)
   return mesh;
 }
 
-SimplexMesh ballMesh(double radius, double offset)
+Mesh ballMesh(double radius, double offset)
 {
-  SimplexMesh mesh = sphereMesh(radius, offset);
+  Mesh mesh = sphereMesh(radius, offset);
   mesh.dimension = 3;
   mesh.points.push_back({ 0, 0, 0 });
   mesh.ids.push_back(12);
@@ -228,9 +228,9 @@ SimplexMesh ballMesh(double radius, double offset)
   return mesh;
 }
 
-SimplexMesh crowdedBallMesh(double radius)
+Mesh crowdedBallMesh(double radius)
 {
-  SimplexMesh mesh = ballMesh(radius, 0);
+  Mesh mesh = ballMesh(radius, 0);
   const auto side = sphereMesh(radius, 0).triangles.front();
   Point3& centre = mesh.points[12];
   for (const Index corner : side)
@@ -241,9 +241,9 @@ SimplexMesh crowdedBallMesh(double radius)
   return mesh;
 }
 
-SimplexMesh torusMesh(double majorRadius, double minorRadius, int around, int corners)
+Mesh torusMesh(double majorRadius, double minorRadius, int around, int corners)
 {
-  SimplexMesh mesh;
+  Mesh mesh;
   mesh.dimension = 3;
   for (int s = 0; s < around; ++s)
   {
@@ -275,9 +275,9 @@ SimplexMesh torusMesh(double majorRadius, double minorRadius, int around, int co
   return mesh;
 }
 
-SimplexMesh discMesh(double radius, double offset, int corners)
+Mesh discMesh(double radius, double offset, int corners)
 {
-  SimplexMesh mesh;
+  Mesh mesh;
   mesh.dimension = 2;
   for (int c = 0; c < corners; ++c)
   {
@@ -296,7 +296,7 @@ namespace
 
 /// The mesh with a copy of its boundary, three times as large, outside: new points follow the old
 /// ones in their order. Returns the number of the first.
-Index addOuterPoints(SimplexMesh& mesh, Index boundaryPoints)
+Index addOuterPoints(Mesh& mesh, Index boundaryPoints)
 {
   const auto first = static_cast<Index>(mesh.points.size());
   for (Index v = 0; v < boundaryPoints; ++v)
@@ -309,9 +309,9 @@ Index addOuterPoints(SimplexMesh& mesh, Index boundaryPoints)
 
 } // namespace
 
-SimplexMesh ballInShellMesh(double radius, double offset)
+Mesh ballInShellMesh(double radius, double offset)
 {
-  SimplexMesh mesh = ballMesh(radius, offset);
+  Mesh mesh = ballMesh(radius, offset);
   mesh.triangles = sphereMesh(radius, offset).triangles;
   const Index outside = addOuterPoints(mesh, 12);
   for (std::array<Index, 3> side : mesh.triangles)
@@ -327,9 +327,9 @@ SimplexMesh ballInShellMesh(double radius, double offset)
   return mesh;
 }
 
-SimplexMesh discInRingMesh(double radius, double offset, int corners)
+Mesh discInRingMesh(double radius, double offset, int corners)
 {
-  SimplexMesh mesh = discMesh(radius, offset, corners);
+  Mesh mesh = discMesh(radius, offset, corners);
   const Index outside = addOuterPoints(mesh, corners);
   for (Index a = 0; a < corners; ++a)
   {
@@ -341,9 +341,9 @@ SimplexMesh discInRingMesh(double radius, double offset, int corners)
   return mesh;
 }
 
-SimplexMesh twoSquaresMesh()
+Mesh twoSquaresMesh()
 {
-  SimplexMesh mesh;
+  Mesh mesh;
   mesh.dimension = 2;
   mesh.points = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, { 1, 0, 1 },
     { 1, 1, 1 }, { 0, 1, 1 } };
@@ -355,7 +355,7 @@ namespace
 {
 
 /// Adds the other mesh; where points are the same, there is one vertex.
-void join(SimplexMesh& mesh, const SimplexMesh& other)
+void join(Mesh& mesh, const Mesh& other)
 {
   std::map<Point3, Index> vertexAt;
   for (const Point3& point : mesh.points)
@@ -385,10 +385,10 @@ void join(SimplexMesh& mesh, const SimplexMesh& other)
   mesh.ids = consecutiveIds(mesh.points.size());
 }
 
-SimplexMesh twoCubes(int n, const Point3& second)
+Mesh twoCubes(int n, const Point3& second)
 {
-  SimplexMesh mesh = cubeMesh(n, 0, 1);
-  SimplexMesh other = mesh;
+  Mesh mesh = cubeMesh(n, 0, 1);
+  Mesh other = mesh;
   std::transform(other.points.begin(), other.points.end(), other.points.begin(),
     [&](const Point3& point) { return point + second; });
   join(mesh, other);
@@ -397,24 +397,24 @@ SimplexMesh twoCubes(int n, const Point3& second)
 
 } // namespace
 
-SimplexMesh cubesAtAnEdgeMesh(int n)
+Mesh cubesAtAnEdgeMesh(int n)
 {
   return twoCubes(n, { 1, 1, 0 });
 }
 
-SimplexMesh cubesAtACornerMesh(int n)
+Mesh cubesAtACornerMesh(int n)
 {
   return twoCubes(n, { 1, 1, 1 });
 }
 
-SimplexMesh threeSheetsMesh(int n)
+Mesh threeSheetsMesh(int n)
 {
-  SimplexMesh mesh;
+  Mesh mesh;
   mesh.dimension = 2;
   for (int s = 0; s < 3; ++s)
   {
     const double angle = 2 * pi * s / 3;
-    SimplexMesh sheet = squareMesh(n, 0, 1);
+    Mesh sheet = squareMesh(n, 0, 1);
     for (Point3& point : sheet.points)
     {
       point = { point[0] * std::cos(angle), point[0] * std::sin(angle), point[1] };

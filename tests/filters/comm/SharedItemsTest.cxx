@@ -108,7 +108,7 @@ protected:
     const SharedVertices vertices = findVertices();
     check(vertices, vertexKeys, 1);
     check(findSharedEdges(exchange, vertices, piece.ids, piece.edges), edgeKeys, 2);
-    check(findSharedSimplices<3>(exchange, vertices, piece.ids, piece.facets), facetKeys, 3);
+    check(findSharedCells<3>(exchange, vertices, piece.ids, piece.facets), facetKeys, 3);
   }
 
   // Combines and copies values that rank and item determine.
@@ -176,7 +176,7 @@ TEST_F(SharedItemsTest, carryValues)
   const SharedVertices vertices = findVertices();
   checkValues(vertices, vertexKeys);
   checkValues(findSharedEdges(exchange, vertices, piece.ids, piece.edges), edgeKeys);
-  checkValues(findSharedSimplices<3>(exchange, vertices, piece.ids, piece.facets), facetKeys);
+  checkValues(findSharedCells<3>(exchange, vertices, piece.ids, piece.facets), facetKeys);
 }
 
 TEST_F(SharedItemsTest, countNothingTwice)
@@ -204,7 +204,7 @@ TEST_F(SharedItemsTest, needTheSimplexOnBothRanks)
   {
     EXPECT_EQ(items, std::vector<Index>{ 0 });
   }
-  EXPECT_EQ(findSharedSimplices<3>(exchange, vertices, ids, {}).neighbours.size(), 0u);
+  EXPECT_EQ(findSharedCells<3>(exchange, vertices, ids, {}).neighbours.size(), 0u);
 }
 
 TEST_F(SharedItemsTest, refuseBadInputOnAllRanks)

@@ -33,7 +33,7 @@ ErrorFacet facetOf(const BoundaryProjector& projector, const std::array<Point3, 
   return facet;
 }
 
-FacetError errorOf(const BoundaryProjector& projector, const SimplexMesh& surface, int depth)
+FacetError errorOf(const BoundaryProjector& projector, const Mesh& surface, int depth)
 {
   FacetError sum;
   for (const auto& cell : surface.triangles)
@@ -120,7 +120,7 @@ TEST(SphereError, isTheVolumeDeficitOfAnInscribedIcosahedron)
 {
   const auto model = cadtest::modelOf(cadtest::sphere(2));
   const BoundaryProjector projector(*model, BoundaryKind::Triangles);
-  const SimplexMesh surface = cadtest::sphereMesh(2, 0);
+  const Mesh surface = cadtest::sphereMesh(2, 0);
   const double deficit = 4.0 / 3.0 * pi * 8 - cadtest::volumeInside(surface);
   double before = deficit;
   for (int depth = 1; depth <= 4; ++depth)
@@ -137,7 +137,7 @@ TEST(SphereError, isTheVolumeDeficitOfAnInscribedIcosahedron)
 }
 
 /// The facets of a mesh with the edges that they share.
-ClassifiedSurface surfaceOf(const BoundaryProjector& projector, const SimplexMesh& mesh)
+ClassifiedSurface surfaceOf(const BoundaryProjector& projector, const Mesh& mesh)
 {
   ClassifiedSurface surface;
   for (const Point3& point : mesh.points)
@@ -169,7 +169,7 @@ TEST(SphereError, ofFacetsThatShareEdgesIsThatOfEachAlone)
 {
   const auto model = cadtest::modelOf(cadtest::sphere(2));
   const BoundaryProjector projector(*model, BoundaryKind::Triangles);
-  const SimplexMesh mesh = cadtest::sphereMesh(2, 0);
+  const Mesh mesh = cadtest::sphereMesh(2, 0);
   const ClassifiedSurface surface = surfaceOf(projector, mesh);
   for (const std::size_t parts : { 1u, 3u, 200u })
   {
@@ -199,9 +199,9 @@ TEST(SphereError, ofFacetsThatShareEdgesIsThatOfEachAlone)
 }
 
 /// Side of a prism with 12 corners, two triangles each, inscribed in a cylinder.
-SimplexMesh prismSide(double radius, double height)
+Mesh prismSide(double radius, double height)
 {
-  SimplexMesh mesh;
+  Mesh mesh;
   mesh.dimension = 2;
   for (Index c = 0; c < 12; ++c)
   {
@@ -237,7 +237,7 @@ TEST(CylinderError, isTheVolumeDeficitOfAnInscribedPrism)
   const double height = 2;
   const auto model = cadtest::modelOf(cadtest::cylinder(radius, height));
   const BoundaryProjector projector(*model, BoundaryKind::Triangles);
-  const SimplexMesh side = prismSide(radius, height);
+  const Mesh side = prismSide(radius, height);
   double volume = 0;
   double farthest = 0;
   for (const auto& [a, b, c] : side.triangles)

@@ -14,7 +14,7 @@ using namespace cadrefine;
 
 using IdPairs = std::set<std::array<GlobalId, 2>>;
 
-IdPairs idPairs(const SimplexMesh& mesh, const EdgeTable& table)
+IdPairs idPairs(const Mesh& mesh, const EdgeTable& table)
 {
   IdPairs pairs;
   for (const auto& [a, b] : table.edges)
@@ -39,7 +39,7 @@ TEST(EdgeTable, countsTheEdgesOfACube)
 
 TEST(EdgeTable, holdsEachEdgeOnceWithTheSmallerIdFirst)
 {
-  const SimplexMesh mesh = cadtest::cubeMesh(3, 0.1, 2);
+  const Mesh mesh = cadtest::cubeMesh(3, 0.1, 2);
   const EdgeTable table = buildEdgeTable(mesh);
   EXPECT_EQ(idPairs(mesh, table).size(), table.edges.size());
   for (const auto& [a, b] : table.edges)
@@ -50,7 +50,7 @@ TEST(EdgeTable, holdsEachEdgeOnceWithTheSmallerIdFirst)
 
 TEST(EdgeTable, namesTheEdgesOfEachCellInTheOrderOfTheTemplates)
 {
-  const SimplexMesh mesh = cadtest::cubeMesh(2, 0.1, 3);
+  const Mesh mesh = cadtest::cubeMesh(2, 0.1, 3);
   const EdgeTable table = buildEdgeTable(mesh);
   ASSERT_EQ(table.ofTetrahedra.size(), mesh.tetrahedra.size());
   for (std::size_t c = 0; c < mesh.tetrahedra.size(); ++c)
@@ -67,7 +67,7 @@ TEST(EdgeTable, namesTheEdgesOfEachCellInTheOrderOfTheTemplates)
 
 TEST(EdgeTable, holdsEdgesOfCellsOfAllDimensions)
 {
-  SimplexMesh mesh = cadtest::oneTetrahedron({ { {}, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } });
+  Mesh mesh = cadtest::oneTetrahedron({ { {}, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } });
   mesh.points.push_back({ 2, 0, 0 });
   mesh.ids.push_back(17);
   mesh.triangles = { { 0, 2, 1 } };
@@ -81,7 +81,7 @@ TEST(EdgeTable, holdsEdgesOfCellsOfAllDimensions)
 
 TEST(EdgeTable, measuresLengths)
 {
-  const SimplexMesh mesh = cadtest::oneTriangle({ { { 0, 0, 0 }, { 3, 0, 0 }, { 0, 4, 0 } } });
+  const Mesh mesh = cadtest::oneTriangle({ { { 0, 0, 0 }, { 3, 0, 0 }, { 0, 4, 0 } } });
   const EdgeTable table = buildEdgeTable(mesh);
   EXPECT_EQ(table.squaredLengths.at(table.find(0, 1)), 9);
   EXPECT_EQ(table.squaredLengths.at(table.find(1, 2)), 25);
@@ -90,8 +90,8 @@ TEST(EdgeTable, measuresLengths)
 
 TEST(EdgeTable, hasTheSameEdgesWhateverTheOrderOfTheCells)
 {
-  const SimplexMesh mesh = cadtest::cubeMesh(3, 0.1, 4);
-  const SimplexMesh shuffled = cadtest::withShuffledCells(mesh, 5);
+  const Mesh mesh = cadtest::cubeMesh(3, 0.1, 4);
+  const Mesh shuffled = cadtest::withShuffledCells(mesh, 5);
   EXPECT_NE(mesh.tetrahedra, shuffled.tetrahedra);
   EXPECT_EQ(idPairs(mesh, buildEdgeTable(mesh)), idPairs(shuffled, buildEdgeTable(shuffled)));
 }
@@ -99,7 +99,7 @@ TEST(EdgeTable, hasTheSameEdgesWhateverTheOrderOfTheCells)
 /// A grid without jitter has many edges of equal length: ids must order them.
 TEST(EdgeOrder, isATotalOrder)
 {
-  const SimplexMesh mesh = cadtest::cubeMesh(2, 0, 6);
+  const Mesh mesh = cadtest::cubeMesh(2, 0, 6);
   const EdgeTable table = buildEdgeTable(mesh);
   const EdgeOrder order(table);
   std::vector<Index> edges(table.edges.size());
@@ -120,7 +120,7 @@ TEST(EdgeOrder, isATotalOrder)
 TEST(EdgeOrder, prefersLengthThenTheLargerIds)
 {
   // A square with its diagonal: four edges of length 1.
-  const SimplexMesh mesh = cadtest::squareMesh(1, 0, 7);
+  const Mesh mesh = cadtest::squareMesh(1, 0, 7);
   const EdgeTable table = buildEdgeTable(mesh);
   const EdgeOrder order(table);
   for (Index a = 0; a < 5; ++a)

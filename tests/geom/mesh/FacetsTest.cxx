@@ -14,7 +14,7 @@ namespace
 
 using namespace cadrefine;
 
-std::set<std::array<GlobalId, 3>> idsOf(const SimplexMesh& mesh, const std::vector<Facet>& facets)
+std::set<std::array<GlobalId, 3>> idsOf(const Mesh& mesh, const std::vector<Facet>& facets)
 {
   std::set<std::array<GlobalId, 3>> result;
   for (const Facet& facet : facets)
@@ -32,8 +32,8 @@ std::set<std::array<GlobalId, 3>> idsOf(const SimplexMesh& mesh, const std::vect
 
 TEST(Facets, encloseTheVolumeWithOutwardNormals)
 {
-  const SimplexMesh mesh = cadtest::cubeMesh(3, 0.2, 1);
-  SimplexMesh surface;
+  const Mesh mesh = cadtest::cubeMesh(3, 0.2, 1);
+  Mesh surface;
   surface.dimension = 2;
   surface.points = mesh.points;
   for (const Facet& facet : findOuterFacets(mesh))
@@ -46,7 +46,7 @@ TEST(Facets, encloseTheVolumeWithOutwardNormals)
 
 TEST(Facets, nameTheirCell)
 {
-  const SimplexMesh mesh = cadtest::ballMesh(2, 0.05);
+  const Mesh mesh = cadtest::ballMesh(2, 0.05);
   const std::vector<Facet> facets = findOuterFacets(mesh);
   ASSERT_EQ(facets.size(), 20u);
   for (const Facet& facet : facets)
@@ -62,7 +62,7 @@ TEST(Facets, nameTheirCell)
 
 TEST(Facets, ofAPlanarMeshRunRoundItCounterClockwise)
 {
-  const SimplexMesh mesh = cadtest::squareMesh(4, 0.2, 2);
+  const Mesh mesh = cadtest::squareMesh(4, 0.2, 2);
   double area = 0;
   const std::vector<Facet> facets = findOuterFacets(mesh);
   for (const Facet& facet : facets)
@@ -76,14 +76,14 @@ TEST(Facets, ofAPlanarMeshRunRoundItCounterClockwise)
 
 TEST(Facets, areTheSameWhateverTheOrderOfTheCells)
 {
-  const SimplexMesh mesh = cadtest::cubeMesh(2, 0.2, 3);
-  const SimplexMesh shuffled = cadtest::withShuffledCells(mesh, 4);
+  const Mesh mesh = cadtest::cubeMesh(2, 0.2, 3);
+  const Mesh shuffled = cadtest::withShuffledCells(mesh, 4);
   EXPECT_EQ(idsOf(mesh, findOuterFacets(mesh)), idsOf(shuffled, findOuterFacets(shuffled)));
 }
 
 TEST(Facets, areFoundAmongVerticesThatMayBeOnTheBoundary)
 {
-  for (const SimplexMesh& mesh : { cadtest::cubeMesh(3, 0.2, 3), cadtest::squareMesh(4, 0.2, 2) })
+  for (const Mesh& mesh : { cadtest::cubeMesh(3, 0.2, 3), cadtest::squareMesh(4, 0.2, 2) })
   {
     const auto facets = findOuterFacets(mesh);
     std::vector<unsigned char> onBoundary(mesh.points.size(), 0);
@@ -106,14 +106,14 @@ TEST(Facets, areFoundAmongVerticesThatMayBeOnTheBoundary)
 
 TEST(Facets, doNotTakeTagTrianglesForSides)
 {
-  SimplexMesh mesh = cadtest::ballMesh(1, 0);
+  Mesh mesh = cadtest::ballMesh(1, 0);
   mesh.triangles = { { 0, 1, 2 } };
   EXPECT_EQ(findOuterFacets(mesh).size(), 20u);
 }
 
 TEST(Facets, ofASurfaceAreItsTriangles)
 {
-  const SimplexMesh mesh = cadtest::sphereMesh(1, 0);
+  const Mesh mesh = cadtest::sphereMesh(1, 0);
   const std::vector<Facet> facets = facetsOfSurface(mesh);
   ASSERT_EQ(facets.size(), 20u);
   for (std::size_t f = 0; f < facets.size(); ++f)

@@ -253,7 +253,7 @@ TEST(Overlap, ofRandomCellsIsThatOfAnotherMethod)
 /// The cells of a partition that overlaps are sought with make the cell again.
 TEST(Overlap, withAPartitionSumsToTheCell)
 {
-  const SimplexMesh cube = cadtest::cubeMesh(3, 0.1, 5);
+  const Mesh cube = cadtest::cubeMesh(3, 0.1, 5);
   std::vector<Tetrahedron> cells;
   for (const auto& corners : cube.tetrahedra)
   {
@@ -281,7 +281,7 @@ TEST(Overlap, withAPartitionSumsToTheCell)
 
 TEST(Overlap, ofTrianglesWithAPartitionSumsToTheTriangle)
 {
-  const SimplexMesh square = cadtest::squareMesh(4, 0.1, 5);
+  const Mesh square = cadtest::squareMesh(4, 0.1, 5);
   Random random(19);
   for (int trial = 0; trial < 300; ++trial)
   {

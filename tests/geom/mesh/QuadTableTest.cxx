@@ -20,7 +20,7 @@ using Corners = std::set<Index>;
 class Quads : public testing::TestWithParam<int>
 {
 protected:
-  const SimplexMesh mesh = cadtest::withListedBoundary(cadtest::randomlyMixedMesh(
+  const Mesh mesh = cadtest::withListedBoundary(cadtest::randomlyMixedMesh(
     GetParam() == 3 ? cadtest::hexahedraMesh(3, 0.1, 1) : cadtest::quadrilateralsMesh(5, 0.1, 1),
     2));
   const EdgeTable edges = buildEdgeTable(mesh);

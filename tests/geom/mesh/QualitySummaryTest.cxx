@@ -18,7 +18,7 @@ namespace
 
 using namespace cadrefine;
 
-QualitySummary oneByOne(const SimplexMesh& mesh)
+QualitySummary oneByOne(const Mesh& mesh)
 {
   QualitySummary summary;
   const auto& p = mesh.points;
@@ -30,7 +30,7 @@ QualitySummary oneByOne(const SimplexMesh& mesh)
   return summary;
 }
 
-void expectSame(const SimplexMesh& mesh)
+void expectSame(const Mesh& mesh)
 {
   const QualitySummary expected = oneByOne(mesh);
   const QualitySummary summary = summariseCells(mesh);
@@ -49,7 +49,7 @@ TEST(QualitySummary, isThatOfTheCellsOneByOne)
 
 TEST(QualitySummary, countsInvertedAndFlatCells)
 {
-  SimplexMesh mesh = cadtest::cubeMesh(2, 0.1, 1);
+  Mesh mesh = cadtest::cubeMesh(2, 0.1, 1);
   std::swap(mesh.tetrahedra[5][0], mesh.tetrahedra[5][1]);
   mesh.tetrahedra.push_back({ 0, 1, 2, 2 });
   expectSame(mesh);
@@ -60,7 +60,7 @@ TEST(QualitySummary, countsInvertedAndFlatCells)
 /// Mirrored cubes have the least value that there is, -1, and count all the same.
 TEST(QualitySummary, countsEveryInvertedHexahedron)
 {
-  SimplexMesh mesh = cadtest::hexahedraMesh(2, 0, 1);
+  Mesh mesh = cadtest::hexahedraMesh(2, 0, 1);
   for (auto& h : mesh.hexahedra)
   {
     h = { h[4], h[5], h[6], h[7], h[0], h[1], h[2], h[3] };
@@ -75,7 +75,7 @@ TEST(QualitySummary, decidesNearlyFlatCellsExactly)
   const double tiny = std::numeric_limits<double>::epsilon();
   for (const double height : { -2 * tiny, -tiny / 2, 0.0, tiny / 4, tiny, 8 * tiny, 1e-12, 1e-9 })
   {
-    SimplexMesh mesh = cadtest::oneTetrahedron(
+    Mesh mesh = cadtest::oneTetrahedron(
       { { { 0.1, 0.3, 0.7 }, { 1.1, 0.3, 0.7 }, { 0.1, 1.3, 0.7 }, { 0.4, 0.7, 0.7 + height } } });
     expectSame(mesh);
   }
@@ -83,7 +83,7 @@ TEST(QualitySummary, decidesNearlyFlatCellsExactly)
 
 void expectSameAt(double size)
 {
-  SimplexMesh mesh = cadtest::cubeMesh(2, 0.1, 3);
+  Mesh mesh = cadtest::cubeMesh(2, 0.1, 3);
   for (Point3& point : mesh.points)
   {
     point = size * point;
@@ -109,7 +109,7 @@ TEST(QualitySummary, holdsWherePowersOverflow)
 TEST(QualitySummary, ofCellsWithoutANumberIsInvalid)
 {
   const cadtest::FloatingPointPause pause;
-  SimplexMesh mesh = cadtest::cubeMesh(1, 0, 1);
+  Mesh mesh = cadtest::cubeMesh(1, 0, 1);
   mesh.points[0][1] = std::numeric_limits<double>::quiet_NaN();
   expectSame(mesh);
   EXPECT_GT(summariseCells(mesh).invalidCells, 0);

@@ -49,7 +49,7 @@ bool hasOpposite(const Facet& side, std::size_t cellCorners, int dimension)
 class Stacks : public testing::TestWithParam<int>
 {
 protected:
-  const SimplexMesh mesh = cadtest::randomlyMixedMesh(
+  const Mesh mesh = cadtest::randomlyMixedMesh(
     GetParam() == 3 ? cadtest::hexahedraMesh(3, 0, 1) : cadtest::quadrilateralsMesh(6, 0, 1), 4);
   const CellStacks stacks{ mesh };
 
@@ -125,8 +125,8 @@ TEST(LayerStacks, climbToTheTop)
 {
   for (const cadtest::BoxKind kind : { cadtest::BoxKind::Hexahedron, cadtest::BoxKind::Wedges })
   {
-    const SimplexMesh hexahedra = cadtest::hexahedralShellMesh(2, 0.01, 2, { 0.1, 0.2, 0.3 });
-    const SimplexMesh mesh = cadtest::mixedMesh(
+    const Mesh hexahedra = cadtest::hexahedralShellMesh(2, 0.01, 2, { 0.1, 0.2, 0.3 });
+    const Mesh mesh = cadtest::mixedMesh(
       hexahedra, [&](std::size_t c) { return c < 3 * 24 ? kind : cadtest::BoxKind::Fan; }, 5);
     const CellStacks stacks(mesh);
     int walls = 0;

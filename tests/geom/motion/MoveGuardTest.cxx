@@ -20,7 +20,7 @@ namespace
 using namespace cadrefine;
 
 /// Sweeps until nothing is halved; the number of sweeps.
-int settle(const SimplexMesh& mesh, Moves& moves)
+int settle(const Mesh& mesh, Moves& moves)
 {
   const MoveGuard guard(mesh, moves);
   int sweeps = 0;
@@ -33,7 +33,7 @@ int settle(const SimplexMesh& mesh, Moves& moves)
 }
 
 /// Quality of the only cell where the moves put it; negative where it is inverted.
-double qualityAfter(const SimplexMesh& mesh, const Moves& moves)
+double qualityAfter(const Mesh& mesh, const Moves& moves)
 {
   const auto at = [&](Index v) { return moves.position(mesh, v); };
   if (mesh.dimension == 3)
@@ -50,7 +50,7 @@ double qualityAfter(const SimplexMesh& mesh, const Moves& moves)
 class Apex : public testing::TestWithParam<int>
 {
 protected:
-  SimplexMesh cell(double height = 1) const
+  Mesh cell(double height = 1) const
   {
     const double side = std::sqrt(0.75);
     return GetParam() == 3
@@ -59,14 +59,14 @@ protected:
              : cadtest::oneTriangle({ { { 0, 0, 0 }, { 1, 0, 0 }, { 0.5, height * side, 0 } } });
   }
 
-  static Point3 apexAt(const SimplexMesh& mesh, double height)
+  static Point3 apexAt(const Mesh& mesh, double height)
   {
     Point3 point = mesh.points[GetParam()];
     point[GetParam() - 1] *= height;
     return point;
   }
 
-  static Moves move(const SimplexMesh& mesh, double height)
+  static Moves move(const Mesh& mesh, double height)
   {
     Moves moves(mesh);
     moves.add(GetParam(), apexAt(mesh, height));
@@ -78,7 +78,7 @@ INSTANTIATE_TEST_SUITE_P(Dimensions, Apex, testing::Values(2, 3));
 
 TEST_P(Apex, reachesAGoodPlaceExactly)
 {
-  const SimplexMesh mesh = cell();
+  const Mesh mesh = cell();
   Moves moves = move(mesh, 0.7);
   EXPECT_EQ(settle(mesh, moves), 0);
   EXPECT_EQ(moves.fractions[GetParam()], 1);
@@ -87,7 +87,7 @@ TEST_P(Apex, reachesAGoodPlaceExactly)
 
 TEST_P(Apex, doesNotCollapseTheCell)
 {
-  const SimplexMesh mesh = cell();
+  const Mesh mesh = cell();
   Moves moves = move(mesh, 0);
   EXPECT_EQ(settle(mesh, moves), 1);
   EXPECT_EQ(moves.fractions[GetParam()], 0.5);
@@ -98,7 +98,7 @@ TEST_P(Apex, doesNotInvertTheCell)
 {
   for (const double height : { -0.2, -1.0, -3.0, -100.0 })
   {
-    const SimplexMesh mesh = cell();
+    const Mesh mesh = cell();
     Moves moves = move(mesh, height);
     EXPECT_GT(settle(mesh, moves), 0);
     EXPECT_GT(moves.fractions[GetParam()], 0) << "part of the way is free";
@@ -108,7 +108,7 @@ TEST_P(Apex, doesNotInvertTheCell)
 
 TEST_P(Apex, doesNotMoveAtAllWhereNoPartOfTheWayIsFree)
 {
-  const SimplexMesh mesh = cell();
+  const Mesh mesh = cell();
   Moves moves = move(mesh, -1e9);
   EXPECT_EQ(settle(mesh, moves), MoveGuard::maximumHalvings + 1);
   EXPECT_EQ(moves.fractions[GetParam()], 0);
@@ -118,7 +118,7 @@ TEST_P(Apex, doesNotMoveAtAllWhereNoPartOfTheWayIsFree)
 /// A cell below the floor must not freeze: it may lose half of its quality, but stays valid.
 TEST_P(Apex, ofAPoorCellMovesAsLongAsItKeepsHalfOfItsQuality)
 {
-  const SimplexMesh mesh = cell(1e-3);
+  const Mesh mesh = cell(1e-3);
   const double before = qualityAfter(mesh, Moves(mesh));
   ASSERT_LT(before, MoveGuard::qualityFloor);
   ASSERT_GT(before, 0);
@@ -134,7 +134,7 @@ TEST_P(Apex, ofAPoorCellMovesAsLongAsItKeepsHalfOfItsQuality)
 /// Nor must moves in many steps make it ever worse.
 TEST_P(Apex, ofAnAlmostFlatCellDoesNotMakeItFlatter)
 {
-  SimplexMesh mesh = cell(1e-3);
+  Mesh mesh = cell(1e-3);
   double before = qualityAfter(mesh, Moves(mesh));
   for (int step = 0; step < 40; ++step)
   {
@@ -147,7 +147,7 @@ TEST_P(Apex, ofAnAlmostFlatCellDoesNotMakeItFlatter)
 
 TEST(MoveGuard, letsAnInvertedTetrahedronBecomeValid)
 {
-  const SimplexMesh mesh =
+  const Mesh mesh =
     cadtest::oneTetrahedron({ { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, -1 } } });
   Moves moves(mesh);
   moves.add(3, { 0, 0, 1 });
@@ -157,7 +157,7 @@ TEST(MoveGuard, letsAnInvertedTetrahedronBecomeValid)
 
 TEST(MoveGuard, movesAFlatTetrahedronOnlyIfItGetsNoWorse)
 {
-  const SimplexMesh mesh =
+  const Mesh mesh =
     cadtest::oneTetrahedron({ { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0.3, 0.3, 0 } } });
   Moves up(mesh);
   up.add(3, { 0.3, 0.3, 1 });
@@ -170,7 +170,7 @@ TEST(MoveGuard, movesAFlatTetrahedronOnlyIfItGetsNoWorse)
 
 TEST(MoveGuard, stopsATriangleInSpaceThatTurnsOver)
 {
-  SimplexMesh mesh = cadtest::oneTriangle({ { { 0, 0, 0 }, { 1, 0, 1 }, { 0, 1, 1 } } });
+  Mesh mesh = cadtest::oneTriangle({ { { 0, 0, 0 }, { 1, 0, 1 }, { 0, 1, 1 } } });
   Moves moves(mesh);
   moves.add(2, { 1, -1, 0.5 });
   EXPECT_GT(settle(mesh, moves), 0);
@@ -180,7 +180,7 @@ TEST(MoveGuard, stopsATriangleInSpaceThatTurnsOver)
 /// In the plane, cells that do not turn the way most do are invalid; in space there is no such way.
 TEST(MoveGuard, letsAnInvertedTriangleBecomeValidInThePlane)
 {
-  SimplexMesh mesh = cadtest::oneTriangle({ { { 0, 0, 0 }, { 1, 0, 0 }, { 0.5, -0.5, 0 } } });
+  Mesh mesh = cadtest::oneTriangle({ { { 0, 0, 0 }, { 1, 0, 0 }, { 0.5, -0.5, 0 } } });
   const Vector3 plane{ 0, 0, 1 };
   Moves over(mesh);
   over.add(2, { 0.5, 0.5, 0 });
@@ -196,7 +196,7 @@ TEST(MoveGuard, letsAnInvertedTriangleBecomeValidInThePlane)
 
 TEST(MoveGuard, stopsWholeMovesAtOnce)
 {
-  const SimplexMesh mesh =
+  const Mesh mesh =
     cadtest::oneTetrahedron({ { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } });
   Moves down(mesh);
   down.add(3, { 0, 0, -0.1 });
@@ -218,7 +218,7 @@ TEST(MoveGuard, acceptsNoFlatCellHoweverPoorItWas)
   const Point3 c{ 0.4, 1.3, 0.1 };
   const Point3 inPlane = (1.0 / 3.0) * (a + b + c);
   const Vector3 normal = normalized(twofoldAreaVector(a, b, c));
-  const SimplexMesh mesh = cadtest::oneTetrahedron({ { a, b, c, inPlane + 1e-12 * normal } });
+  const Mesh mesh = cadtest::oneTetrahedron({ { a, b, c, inPlane + 1e-12 * normal } });
   for (int k = -3; k <= 3; ++k)
   {
     Moves moves(mesh);
@@ -230,8 +230,7 @@ TEST(MoveGuard, acceptsNoFlatCellHoweverPoorItWas)
 
 TEST(MoveGuard, namesTheVerticesOfSpoiltCells)
 {
-  SimplexMesh mesh =
-    cadtest::oneTetrahedron({ { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } });
+  Mesh mesh = cadtest::oneTetrahedron({ { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } });
   Moves moves(mesh);
   moves.add(3, { 0, 0, 0.3 });
   const std::vector<Point3> reference = mesh.points;
@@ -245,8 +244,8 @@ TEST(MoveGuard, namesTheVerticesOfSpoiltCells)
 /// Both cells at a vertex limit it: the result does not depend on which comes first.
 TEST(MoveGuard, doesNotDependOnTheOrderOfCells)
 {
-  const SimplexMesh mesh = cadtest::cubeMesh(3, 0.2, 1);
-  const SimplexMesh shuffled = cadtest::withShuffledCells(mesh, 2);
+  const Mesh mesh = cadtest::cubeMesh(3, 0.2, 1);
+  const Mesh shuffled = cadtest::withShuffledCells(mesh, 2);
   Moves first(mesh);
   Moves second(shuffled);
   for (Index v = 0; v < static_cast<Index>(mesh.points.size()); v += 2)
@@ -267,7 +266,7 @@ TEST(MoveGuard, doesNotDependOnTheOrderOfCells)
 
 TEST(MoveGuard, leavesCellsAloneThatDoNotMove)
 {
-  SimplexMesh mesh = cadtest::ballMesh(1, 0);
+  Mesh mesh = cadtest::ballMesh(1, 0);
   std::swap(mesh.tetrahedra[0][0], mesh.tetrahedra[0][1]); // inverted from the start
   Moves moves(mesh);
   EXPECT_EQ(settle(mesh, moves), 0);
@@ -276,7 +275,7 @@ TEST(MoveGuard, leavesCellsAloneThatDoNotMove)
 /// In space, as seen from where it was and from its own side.
 TEST(QuadrilateralInSpace, staysValidAsSeenFromItsOwnSide)
 {
-  SimplexMesh mesh;
+  Mesh mesh;
   mesh.dimension = 2;
   mesh.points = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 } };
   mesh.ids = { 0, 1, 2, 3 };
@@ -292,7 +291,7 @@ TEST(QuadrilateralInSpace, staysValidAsSeenFromItsOwnSide)
       moves.add(vertex, mesh.points[vertex] + Vector3{ any(random), any(random), any(random) });
     }
     halved += settle(mesh, moves) > 0;
-    SimplexMesh moved = mesh;
+    Mesh moved = mesh;
     for (Index vertex = 0; vertex < 4; ++vertex)
     {
       moved.points[vertex] = moves.position(mesh, vertex);

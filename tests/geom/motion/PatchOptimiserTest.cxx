@@ -21,7 +21,7 @@ namespace
 using namespace cadrefine;
 
 template<class Shape, std::size_t Corners>
-double lowest(Shape shape, const Simplices<Corners>& cells, const std::vector<Point3>& points)
+double lowest(Shape shape, const Cells<Corners>& cells, const std::vector<Point3>& points)
 {
   double result = std::numeric_limits<double>::infinity();
   for (const auto& cell : cells)
@@ -33,25 +33,25 @@ double lowest(Shape shape, const Simplices<Corners>& cells, const std::vector<Po
 }
 
 /// Lowest mean ratio; at most 0 where a cell is not valid.
-double lowestQuality(const SimplexMesh& mesh, const std::vector<Point3>& points)
+double lowestQuality(const Mesh& mesh, const std::vector<Point3>& points)
 {
   return mesh.dimension == 3 ? lowest(shapes::Tetrahedron{}, mesh.tetrahedra, points)
                              : lowest(shapes::Triangle{}, mesh.triangles, points);
 }
 
-double lowestQuality(const SimplexMesh& mesh)
+double lowestQuality(const Mesh& mesh)
 {
   return lowestQuality(mesh, mesh.points);
 }
 
-bool isInside(const SimplexMesh& mesh, const Point3& point)
+bool isInside(const Mesh& mesh, const Point3& point)
 {
   return std::all_of(
     point.begin(), point.begin() + mesh.dimension, [](double x) { return x > 0 && x < 1; });
 }
 
 /// All of a mesh of the unit square or cube; its inner vertices may move.
-Patch patchOf(const SimplexMesh& mesh)
+Patch patchOf(const Mesh& mesh)
 {
   Patch patch;
   patch.mesh = mesh;
@@ -80,7 +80,7 @@ void optimise(Patch& patch, int sweeps, const BoundaryProjector* projector = nul
 class MakingWay : public testing::TestWithParam<int>
 {
 protected:
-  SimplexMesh mesh = GetParam() == 3 ? cadtest::cubeMesh(4, 0, 1) : cadtest::squareMesh(4, 0, 1);
+  Mesh mesh = GetParam() == 3 ? cadtest::cubeMesh(4, 0, 1) : cadtest::squareMesh(4, 0, 1);
 
   Point3 inDepth(double depth) const
   {
@@ -106,7 +106,7 @@ protected:
     {
     }
     EXPECT_LT(straight.fractions[vertex], 1);
-    SimplexMesh stopped = mesh;
+    Mesh stopped = mesh;
     stopped.points[vertex] = straight.position(mesh, vertex);
     EXPECT_GT(lowestQuality(stopped), 0);
 
@@ -201,7 +201,7 @@ TEST(Sliding, keepsToTheCurve)
   constexpr int corners = 9;
   const auto model = cadtest::modelOf(cadtest::circle(2), ".igs");
   const BoundaryProjector projector(*model, BoundaryKind::Segments);
-  SimplexMesh mesh = cadtest::discMesh(2, 0, corners);
+  Mesh mesh = cadtest::discMesh(2, 0, corners);
   for (int c = 0; c < corners; ++c)
   {
     const double angle = 2 * 3.14159265358979323846 * (c + 0.15 * (c * c % 5 - 2)) / corners;
@@ -226,7 +226,7 @@ TEST(Sliding, keepsToTheSurface)
 {
   const auto model = cadtest::modelOf(cadtest::sphere(2));
   const BoundaryProjector projector(*model, BoundaryKind::Triangles);
-  SimplexMesh mesh = cadtest::ballMesh(2, 0);
+  Mesh mesh = cadtest::ballMesh(2, 0);
   for (Index v = 0; v < 12; ++v)
   {
     mesh.points[v] = 2 * normalized(mesh.points[v] + Vector3{ 0.3 * (v % 3), 0.2, -0.2 * (v % 2) });

@@ -32,7 +32,7 @@ void threadsFor(std::size_t count, std::size_t grain, const RangeBody& body)
 }
 
 /// Of so many cells that they are looked at in several parts.
-SimplexMesh largeMesh()
+Mesh largeMesh()
 {
   return cadtest::cubeMesh(20, 0.1, 1);
 }
@@ -50,7 +50,7 @@ std::vector<Index> cellsOf(const std::vector<Facet>& facets)
 
 TEST(Threads, fillBucketsInTheOrderOfTheThings)
 {
-  const SimplexMesh mesh = largeMesh();
+  const Mesh mesh = largeMesh();
   const auto visit = [&](std::size_t begin, std::size_t end, const auto& use)
   {
     for (std::size_t c = begin; c < end; ++c)
@@ -71,7 +71,7 @@ TEST(Threads, fillBucketsInTheOrderOfTheThings)
 
 TEST(Threads, findTheSameFacets)
 {
-  const SimplexMesh mesh = largeMesh();
+  const Mesh mesh = largeMesh();
   const auto facets = findOuterFacets(mesh);
   EXPECT_EQ(facets.size(), 12u * 20 * 20);
   EXPECT_EQ(cellsOf(findOuterFacets(mesh, {}, threadsFor)), cellsOf(facets));
@@ -83,7 +83,7 @@ TEST(Threads, findTheSameFacets)
 
 TEST(Threads, findTheSameQuality)
 {
-  SimplexMesh mesh = largeMesh();
+  Mesh mesh = largeMesh();
   std::swap(mesh.tetrahedra[7][0], mesh.tetrahedra[7][1]);
   const QualitySummary expected = summariseCells(mesh);
   const QualitySummary summary = summariseCells(mesh, threadsFor);
@@ -94,7 +94,7 @@ TEST(Threads, findTheSameQuality)
 
 TEST(Threads, findTheSameCellsAtVertices)
 {
-  const SimplexMesh mesh = largeMesh();
+  const Mesh mesh = largeMesh();
   std::vector<unsigned char> flags(mesh.points.size(), 0);
   for (std::size_t v = 0; v < flags.size(); v += 50)
   {

@@ -246,7 +246,7 @@ TEST(FaceRemoval, makesThreeCellsOfTwo)
 /// A cube's mesh, its boundary in facets; the six sides have labels of their own.
 EditableMesh cube(int n)
 {
-  const SimplexMesh boxes = cadtest::cubeMesh(n, 0.1, 5);
+  const Mesh boxes = cadtest::cubeMesh(n, 0.1, 5);
   EditableMesh mesh;
   addVertices(mesh, boxes.points);
   for (std::size_t c = 0; c < boxes.tetrahedra.size(); ++c)

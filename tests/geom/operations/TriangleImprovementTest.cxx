@@ -28,7 +28,7 @@ const Vector3 upward{ 0, 0, 1 };
 /// side of a row of vertices. Its border stays.
 EditableMesh spoiltSquare(unsigned seed)
 {
-  const SimplexMesh boxes = cadtest::squareMesh(8, 0.1, seed);
+  const Mesh boxes = cadtest::squareMesh(8, 0.1, seed);
   EditableMesh mesh(Kind::Plane, upward);
   for (const Point3& point : boxes.points)
   {
@@ -201,7 +201,7 @@ TEST(TriangleImprovement, givesCellsTheParentsThatTheyLieIn)
   {
     mesh.addVertex({ point, point, {}, false, false });
   }
-  const Simplices<3> cells{ { 0, 1, 4 }, { 1, 2, 4 }, { 2, 3, 4 }, { 3, 0, 4 } };
+  const Cells<3> cells{ { 0, 1, 4 }, { 1, 2, 4 }, { 2, 3, 4 }, { 3, 0, 4 } };
   for (std::size_t c = 0; c < cells.size(); ++c)
   {
     mesh.addFacet({ cells[c], 0, static_cast<Index>(c) });
@@ -339,7 +339,7 @@ TEST_F(SphereImprovement, movesAVertexAlongTheSphere)
   const Point3 aside = normalized(Point3{ -1, 0.08, 0.05 });
   const ClosestPoint start = projector.nearestOn({ 2, 0 }, aside);
   mesh.addVertex({ start.point, start.point, start.entity, false, false });
-  Simplices<3> cells;
+  Cells<3> cells;
   for (Index k = 0; k < 6; ++k)
   {
     const double angle = -pi * k / 3; // seen from outside, to the left
@@ -412,7 +412,7 @@ TEST(PlanarRule, letsVerticesGoAlongStraightEdges)
     const ClosestPoint where = projector.onSmallest(point, 1e-9, projector.nearest(point, 1));
     mesh.addVertex({ point, point, where.entity, where.entity.dimension == 0, false });
   }
-  const Simplices<3> cells{ { 0, 1, 5 }, { 1, 2, 5 }, { 2, 3, 4 }, { 2, 4, 5 } };
+  const Cells<3> cells{ { 0, 1, 5 }, { 1, 2, 5 }, { 2, 3, 4 }, { 2, 4, 5 } };
   for (std::size_t c = 0; c < cells.size(); ++c)
   {
     mesh.addFacet({ cells[c], 0, static_cast<Index>(c) });

@@ -20,7 +20,7 @@ using Kind = EditableMesh::Kind;
 
 const Vector3 upward{ 0, 0, 1 };
 
-EditableMesh triangles(Kind kind, const std::vector<Point3>& points, const Simplices<3>& cells)
+EditableMesh triangles(Kind kind, const std::vector<Point3>& points, const Cells<3>& cells)
 {
   EditableMesh mesh(kind, kind == Kind::Plane ? upward : Vector3{});
   for (const Point3& point : points)
@@ -144,7 +144,7 @@ TEST(Swap, makesNoEdgeThatIsThere)
 /// A square of n * n boxes, its sides lines of their own.
 EditableMesh square(int n)
 {
-  const SimplexMesh boxes = cadtest::squareMesh(n, 0.1, 5);
+  const Mesh boxes = cadtest::squareMesh(n, 0.1, 5);
   EditableMesh mesh = triangles(Kind::Plane, boxes.points, boxes.triangles);
   for (const auto& cell : boxes.triangles)
   {
@@ -217,7 +217,7 @@ TEST(TriangleCollapse, leavesClosedSurfacesClosed)
 EditableMesh twoTips(bool areJoined)
 {
   std::vector<Point3> points{ { 0, 0, 0 } };
-  Simplices<3> cells;
+  Cells<3> cells;
   for (const Index fan : { 0, 1 })
   {
     const auto first = static_cast<Index>(points.size());
@@ -261,7 +261,7 @@ TEST(TriangleCollapse, tellsTrianglesThatTurnOver)
   // From 1 the border is not seen as a whole: 5 is in the way of 2.
   const std::vector<Point3> points{ { 0, 0, 0 }, { 2, 0, 0.1 }, { 0.2, 1, 0 }, { -0.3, 0.2, 0 },
     { 0.2, -1, 0 }, { 0.9, 0.3, 0 } };
-  const Simplices<3> cells{ { 0, 1, 5 }, { 0, 5, 2 }, { 0, 2, 3 }, { 0, 3, 4 }, { 0, 4, 1 } };
+  const Cells<3> cells{ { 0, 1, 5 }, { 0, 5, 2 }, { 0, 2, 3 }, { 0, 3, 4 }, { 0, 4, 1 } };
   EditableMesh mesh = triangles(Kind::Surface, points, cells);
   mesh.closeFacets();
   Cavity cavity;

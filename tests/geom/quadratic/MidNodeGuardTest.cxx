@@ -29,8 +29,7 @@ MidNodes placed(const EdgeTable& table, const MidNodeMoves& moves)
 }
 
 /// Number of sweeps until all cells accept.
-int settle(
-  const SimplexMesh& mesh, const EdgeTable& table, const Vector3& plane, MidNodeMoves& moves)
+int settle(const Mesh& mesh, const EdgeTable& table, const Vector3& plane, MidNodeMoves& moves)
 {
   MidNodeGuard guard(mesh, table, moves, plane);
   int sweeps = 0;
@@ -41,7 +40,7 @@ int settle(
   return sweeps;
 }
 
-bool allValid(const SimplexMesh& mesh, const MidNodes& nodes, const Vector3& plane)
+bool allValid(const Mesh& mesh, const MidNodes& nodes, const Vector3& plane)
 {
   const auto valid = findValidCells(mesh, nodes, plane);
   return std::all_of(valid.begin(), valid.end(), [](unsigned char each) { return each == 1; });
@@ -49,7 +48,7 @@ bool allValid(const SimplexMesh& mesh, const MidNodes& nodes, const Vector3& pla
 
 TEST(MidNodeGuard, leavesValidMovesAlone)
 {
-  const SimplexMesh mesh = cadtest::oneTriangle({ { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } } });
+  const Mesh mesh = cadtest::oneTriangle({ { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } } });
   const EdgeTable table = buildEdgeTable(mesh);
   MidNodeMoves moves(mesh, table);
   const Index edge = table.find(0, 1);
@@ -63,7 +62,7 @@ TEST(MidNodeGuard, leavesValidMovesAlone)
 /// 0.26 a part of 0.9615 is too much, and the first of the parts 1 - 2^-k below it is 0.9375.
 TEST(MidNodeGuard, takesSmallStepsFirst)
 {
-  const SimplexMesh mesh = cadtest::oneTriangle({ { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } } });
+  const Mesh mesh = cadtest::oneTriangle({ { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } } });
   const EdgeTable table = buildEdgeTable(mesh);
   MidNodeMoves moves(mesh, table);
   const Index edge = table.find(0, 1);
@@ -76,8 +75,7 @@ TEST(MidNodeGuard, takesSmallStepsFirst)
 /// A cell that is flat accepts nothing, and a target too far away only the middle.
 TEST(MidNodeGuard, endsInTheMiddle)
 {
-  SimplexMesh mesh =
-    cadtest::oneTetrahedron({ { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } });
+  Mesh mesh = cadtest::oneTetrahedron({ { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } });
   const EdgeTable table = buildEdgeTable(mesh);
   for (const double height : { 1.0, 0.0 })
   {
@@ -94,7 +92,7 @@ TEST(MidNodeGuard, endsInTheMiddle)
 /// Random targets in a cube: all cells end valid, and in the same state whatever the cells' order.
 TEST(MidNodeGuard, makesAllCellsValidInAnyOrder)
 {
-  const SimplexMesh mesh = cadtest::cubeMesh(4, 0.1, 1);
+  const Mesh mesh = cadtest::cubeMesh(4, 0.1, 1);
   const EdgeTable table = buildEdgeTable(mesh);
   MidNodeMoves moves(mesh, table);
   std::mt19937 random(4);
@@ -106,7 +104,7 @@ TEST(MidNodeGuard, makesAllCellsValidInAnyOrder)
       edge, moves.middles[edge] + Vector3{ offset(random), offset(random), offset(random) });
   }
   EXPECT_FALSE(allValid(mesh, placed(table, moves), {}));
-  SimplexMesh shuffled = mesh;
+  Mesh shuffled = mesh;
   std::shuffle(shuffled.tetrahedra.begin(), shuffled.tetrahedra.end(), random);
   const EdgeTable otherTable = buildEdgeTable(shuffled);
   MidNodeMoves others = moves;

@@ -17,7 +17,7 @@ namespace
 
 using namespace cadrefine;
 
-SplitMesh split(const SimplexMesh& mesh, const EdgeTable& table, const EdgeMarks& marks)
+SplitMesh split(const Mesh& mesh, const EdgeTable& table, const EdgeMarks& marks)
 {
   const Midpoints midpoints = makeMidpoints(mesh, table, marks);
   std::vector<GlobalId> ids(midpoints.edges.size());
@@ -37,13 +37,13 @@ EdgeMarks marksOf(unsigned long subset, std::size_t count)
 
 /// Two tetrahedra over and under a triangle in the plane z = 0; edges of random order: by length,
 /// or (regular) all equal and ordered by random ids.
-SimplexMesh twoTetrahedra(std::uint64_t seed)
+Mesh twoTetrahedra(std::uint64_t seed)
 {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> move(-0.2, 0.2);
   const double height = std::sqrt(2.0 / 3.0);
   const double side = std::sqrt(0.75);
-  SimplexMesh mesh = cadtest::oneTetrahedron(
+  Mesh mesh = cadtest::oneTetrahedron(
     { { { 0, 0, 0 }, { 1, 0, 0 }, { 0.5, side, 0 }, { 0.5, side / 3, height } } });
   mesh.points.push_back({ 0.5, side / 3, -height });
   mesh.tetrahedra.push_back({ 0, 2, 1, 4 });
@@ -67,7 +67,7 @@ TEST(Bisection, ofEverySubsetOfTheEdgesOfATetrahedronIsValid)
 {
   for (std::uint64_t seed = 0; seed < 12; ++seed)
   {
-    SimplexMesh mesh = twoTetrahedra(seed);
+    Mesh mesh = twoTetrahedra(seed);
     mesh.tetrahedra.pop_back();
     const EdgeTable table = buildEdgeTable(mesh);
     for (unsigned long subset = 0; subset < 64; ++subset)
@@ -88,12 +88,12 @@ TEST(Bisection, ofEverySubsetConformsWithEveryNeighbour)
 {
   for (std::uint64_t seed = 0; seed < 8; ++seed)
   {
-    const SimplexMesh mesh = twoTetrahedra(seed);
+    const Mesh mesh = twoTetrahedra(seed);
     const EdgeTable table = buildEdgeTable(mesh);
     ASSERT_EQ(table.edges.size(), 9u);
     for (unsigned long subset = 0; subset < 512; ++subset)
     {
-      const SimplexMesh fine = split(mesh, table, marksOf(subset, 9)).mesh;
+      const Mesh fine = split(mesh, table, marksOf(subset, 9)).mesh;
       ASSERT_TRUE(cadtest::isWatertight(fine, notShared)) << "marks " << std::bitset<9>(subset);
       ASSERT_TRUE(cadtest::hasNoHangingVertex(fine)) << "marks " << std::bitset<9>(subset);
     }
@@ -104,14 +104,14 @@ TEST(Bisection, ofEverySubsetOfTheEdgesOfATriangleIsValid)
 {
   for (std::uint64_t seed = 0; seed < 12; ++seed)
   {
-    SimplexMesh mesh = twoTetrahedra(seed);
+    Mesh mesh = twoTetrahedra(seed);
     mesh.dimension = 2;
     mesh.tetrahedra.clear();
     mesh.triangles = { { 0, 1, 2 } };
     const EdgeTable table = buildEdgeTable(mesh);
     for (unsigned long subset = 0; subset < 8; ++subset)
     {
-      const SimplexMesh fine = split(mesh, table, marksOf(subset, 3)).mesh;
+      const Mesh fine = split(mesh, table, marksOf(subset, 3)).mesh;
       EXPECT_EQ(fine.triangles.size(), 1 + std::bitset<3>(subset).count());
       EXPECT_TRUE(cadtest::isValid(fine));
       EXPECT_TRUE(cadtest::hasNoHangingVertex(fine));
@@ -125,7 +125,7 @@ TEST(Bisection, cutsTagTrianglesLikeSides)
 {
   for (std::uint64_t seed = 0; seed < 8; ++seed)
   {
-    SimplexMesh mesh = twoTetrahedra(seed);
+    Mesh mesh = twoTetrahedra(seed);
     mesh.triangles = { { 0, 1, 2 }, { 1, 4, 0 } };
     const EdgeTable table = buildEdgeTable(mesh);
     for (unsigned long subset = 0; subset < 512; ++subset)
@@ -149,7 +149,7 @@ TEST(Bisection, cutsTagTrianglesLikeSides)
 
 TEST(Bisection, withoutMarksChangesNothing)
 {
-  const SimplexMesh mesh = cadtest::cubeMesh(2, 0.2, 1);
+  const Mesh mesh = cadtest::cubeMesh(2, 0.2, 1);
   const EdgeTable table = buildEdgeTable(mesh);
   const SplitMesh result = split(mesh, table, EdgeMarks(table.edges.size(), 0));
   EXPECT_EQ(result.mesh.tetrahedra, mesh.tetrahedra);

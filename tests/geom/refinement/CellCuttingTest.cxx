@@ -47,9 +47,9 @@ std::vector<Point3> unitCorners(shapes::Quadrilateral)
 }
 
 template<class Shape>
-SimplexMesh oneCell(Shape shape, const std::function<Point3(const Point3&)>& place)
+Mesh oneCell(Shape shape, const std::function<Point3(const Point3&)>& place)
 {
-  SimplexMesh mesh;
+  Mesh mesh;
   mesh.dimension = Shape::dimension;
   auto& cell = (mesh.*Shape::cells).emplace_back();
   for (const Point3& corner : unitCorners(shape))
@@ -105,7 +105,7 @@ struct Cut
 {
   /// `marks` by the cell's own edges.
   template<class Shape>
-  Cut(Shape shape, const SimplexMesh& mesh, unsigned subset)
+  Cut(Shape shape, const Mesh& mesh, unsigned subset)
     : table(buildEdgeTable(mesh)), quads(buildQuadTable(table)), marks(table.edges.size(), 0)
   {
     const auto& edges = (table.*edgesOfCells(shape))[0];
@@ -118,13 +118,13 @@ struct Cut
     isClosed = before == marks;
   }
 
-  Cut(const SimplexMesh& mesh, const EdgeMarks& edgeMarks)
+  Cut(const Mesh& mesh, const EdgeMarks& edgeMarks)
     : table(buildEdgeTable(mesh)), quads(buildQuadTable(table)), marks(edgeMarks)
   {
     MarkClosure(table, mesh.dimension, false, marks).closeAll();
   }
 
-  SplitMesh split(const SimplexMesh& mesh)
+  SplitMesh split(const Mesh& mesh)
   {
     midpoints = makeMidpoints(mesh, table, quads, marks, false);
     std::vector<GlobalId> ids(midpoints.parentEdges.size());
@@ -143,7 +143,7 @@ using Corners = std::set<Index>;
 
 /// Of each vertex the corners of the mesh that was cut that it lies between.
 std::vector<Corners> cornersOfVertices(
-  const SimplexMesh& mesh, const Midpoints& midpoints, const SplitMesh& split)
+  const Mesh& mesh, const Midpoints& midpoints, const SplitMesh& split)
 {
   std::vector<Corners> result;
   for (std::size_t v = 0; v < mesh.points.size(); ++v)
@@ -176,7 +176,7 @@ std::vector<Corners> cornersOfVertices(
   return result;
 }
 
-std::vector<Corners> sidesOfMesh(const SimplexMesh& mesh)
+std::vector<Corners> sidesOfMesh(const Mesh& mesh)
 {
   std::vector<Corners> sides;
   forEachSide(mesh, [&](const Facet& side) { sides.emplace_back(side.begin(), side.end()); });
@@ -186,7 +186,7 @@ std::vector<Corners> sidesOfMesh(const SimplexMesh& mesh)
 /// The sides of the parts: met twice, or once in a side of the mesh that is met once; those in a
 /// side of two cells are met twice.
 testing::AssertionResult isConforming(
-  const SimplexMesh& mesh, const Midpoints& midpoints, const SplitMesh& split)
+  const Mesh& mesh, const Midpoints& midpoints, const SplitMesh& split)
 {
   const auto cornersOf = cornersOfVertices(mesh, midpoints, split);
   std::map<Corners, int> coarse;
@@ -223,7 +223,7 @@ testing::AssertionResult isConforming(
 }
 
 /// Of the sides that are met once.
-double outerMeasure(const SimplexMesh& mesh)
+double outerMeasure(const Mesh& mesh)
 {
   double sum = 0;
   for (const Facet& side : findOuterFacets(mesh))
@@ -265,7 +265,7 @@ TYPED_TEST(CellCuttingOf, partsFillTheCellWhateverEdgesAreMarked)
   for (const Placing& placing : placings(TypeParam::dimension == 2))
   {
     SCOPED_TRACE(placing.name);
-    const SimplexMesh mesh = oneCell(shape, placing.place);
+    const Mesh mesh = oneCell(shape, placing.place);
     ASSERT_TRUE(cadtest::isValid(mesh));
     const double volume = cadtest::measureOf(mesh);
     const double surface = outerMeasure(mesh);
@@ -307,7 +307,7 @@ TYPED_TEST(CellCuttingOf, partsFillTheCellWhateverEdgesAreMarked)
 /// Its tangent planes rise over the mean of the corners.
 TEST(CellCutting, aPyramidOnAWarpedBaseIsCutIntoValidCells)
 {
-  SimplexMesh mesh;
+  Mesh mesh;
   mesh.points = { { 0, 0, 0.3 }, { 1, 0, -0.3 }, { 1, 1, 0.3 }, { 0, 1, -0.3 }, { 0.5, 0.5, 1 } };
   mesh.ids = { 0, 1, 2, 3, 4 };
   mesh.pyramids = { { 0, 1, 2, 3, 4 } };
@@ -321,9 +321,9 @@ TEST(CellCutting, aPyramidOnAWarpedBaseIsCutIntoValidCells)
 /// Two cells that share a side, corner k of the one's at corner (turn - k) of the other's; points
 /// and ids are at random, since neither validity nor size counts here.
 template<class First, class Second>
-SimplexMesh glued(First, Second, int side, int otherSide, int turn, std::mt19937_64& random)
+Mesh glued(First, Second, int side, int otherSide, int turn, std::mt19937_64& random)
 {
-  SimplexMesh mesh;
+  Mesh mesh;
   auto& first = (mesh.*First::cells).emplace_back();
   std::iota(first.begin(), first.end(), 0);
   std::array<Index, Second::corners> second;
@@ -352,7 +352,7 @@ SimplexMesh glued(First, Second, int side, int otherSide, int turn, std::mt19937
 }
 
 /// For each way to mark the edges of the common side, with some others.
-void expectNeighboursAgree(const SimplexMesh& mesh, const Corners& side, std::mt19937_64& random)
+void expectNeighboursAgree(const Mesh& mesh, const Corners& side, std::mt19937_64& random)
 {
   const EdgeTable table = buildEdgeTable(mesh);
   std::vector<Index> common;
@@ -399,7 +399,7 @@ TEST(CellCutting, neighboursAgreeOnTheSideThatTheyShare)
           SCOPED_TRACE("corners " + std::to_string(first.corners) + " and " +
                        std::to_string(second.corners) + ", sides " + std::to_string(i) + " and " +
                        std::to_string(k) + ", turn " + std::to_string(turn));
-          const SimplexMesh mesh = glued(first, second, i, k, turn, random);
+          const Mesh mesh = glued(first, second, i, k, turn, random);
           const auto& corners = first.faces[i];
           expectNeighboursAgree(mesh, Corners(corners, corners + count), random);
           ++pairs;
@@ -426,7 +426,7 @@ TEST(CellCutting, listedSidesAreCutAsTheirCells)
   std::mt19937_64 random(5);
   for (int round = 0; round < 300; ++round)
   {
-    SimplexMesh mesh =
+    Mesh mesh =
       glued(shapes::Wedge{}, shapes::Hexahedron{}, 2 + round % 3, round % 6, round % 4, random);
     for (const Facet& side : findOuterFacets(mesh))
     {

@@ -26,7 +26,7 @@ using cadtest::IdPair;
 
 struct Closure
 {
-  Closure(const SimplexMesh& mesh, const std::vector<unsigned char>& cellMarks)
+  Closure(const Mesh& mesh, const std::vector<unsigned char>& cellMarks)
     : table(buildEdgeTable(mesh)), marks(table.edges.size(), 0)
   {
     markLongestEdges(mesh, table, cellMarks, true, marks);
@@ -59,14 +59,14 @@ void PrintTo(const Case& tried, std::ostream* out)
 class LongestEdge : public testing::TestWithParam<Case>
 {
 protected:
-  SimplexMesh mesh(std::uint64_t seed) const
+  Mesh mesh(std::uint64_t seed) const
   {
     const auto [dimension, jitter] = GetParam();
     return dimension == 3 ? cadtest::cubeMesh(3, jitter, seed)
                           : cadtest::squareMesh(8, jitter, seed);
   }
 
-  static std::vector<unsigned char> someCells(const SimplexMesh& mesh, std::uint64_t seed)
+  static std::vector<unsigned char> someCells(const Mesh& mesh, std::uint64_t seed)
   {
     std::mt19937_64 random(seed);
     std::vector<unsigned char> marks(mesh.cellCount());
@@ -87,7 +87,7 @@ TEST_P(LongestEdge, closureIsTheLeastFixpoint)
 {
   for (std::uint64_t seed = 0; seed < 6; ++seed)
   {
-    const SimplexMesh mesh = this->mesh(seed);
+    const Mesh mesh = this->mesh(seed);
     const auto cellMarks = someCells(mesh, seed);
     const Closure closure(mesh, cellMarks);
     EXPECT_EQ(closure.ids, cadtest::leastMarking(mesh, cellMarks));
@@ -96,7 +96,7 @@ TEST_P(LongestEdge, closureIsTheLeastFixpoint)
 }
 
 /// The same cells from the last to the first.
-SimplexMesh withReversedCells(SimplexMesh mesh)
+Mesh withReversedCells(Mesh mesh)
 {
   std::reverse(mesh.tetrahedra.begin(), mesh.tetrahedra.end());
   std::reverse(mesh.triangles.begin(), mesh.triangles.end());
@@ -105,7 +105,7 @@ SimplexMesh withReversedCells(SimplexMesh mesh)
 
 TEST_P(LongestEdge, closureDoesNotDependOnTheOrderOfCells)
 {
-  const SimplexMesh mesh = this->mesh(11);
+  const Mesh mesh = this->mesh(11);
   const auto cellMarks = someCells(mesh, 12);
   const auto cells = cellsOf(mesh);
   std::set<std::vector<Index>> marked;
@@ -116,12 +116,12 @@ TEST_P(LongestEdge, closureDoesNotDependOnTheOrderOfCells)
       marked.insert(cells[c]);
     }
   }
-  std::vector<SimplexMesh> others = { withReversedCells(mesh) };
+  std::vector<Mesh> others = { withReversedCells(mesh) };
   for (std::uint64_t seed = 0; seed < 4; ++seed)
   {
     others.push_back(cadtest::withShuffledCells(mesh, seed));
   }
-  for (const SimplexMesh& other : others)
+  for (const Mesh& other : others)
   {
     std::vector<unsigned char> otherMarks;
     for (const auto& cell : cellsOf(other))
@@ -137,7 +137,7 @@ TEST_P(LongestEdge, closureDoesNotDependOnTheOrderOfCells)
 /// the sweeps.
 TEST_P(LongestEdge, marksMayArriveLater)
 {
-  const SimplexMesh mesh = this->mesh(16);
+  const Mesh mesh = this->mesh(16);
   const auto cellMarks = someCells(mesh, 17);
   const EdgeTable table = buildEdgeTable(mesh);
   EdgeMarks marks(table.edges.size(), 0);
@@ -167,9 +167,9 @@ TEST_P(LongestEdge, marksMayArriveLater)
 
 /// A strip of triangles: the edges between them grow, so that a mark at its thin end runs through
 /// all of it.
-SimplexMesh growingStrip(int cells)
+Mesh growingStrip(int cells)
 {
-  SimplexMesh mesh;
+  Mesh mesh;
   mesh.dimension = 2;
   for (int i = 0; i < cells + 2; ++i)
   {
@@ -186,7 +186,7 @@ SimplexMesh growingStrip(int cells)
 
 /// The number of looks at cells, and of marked edges, once a mark at the strip's thin end is
 /// closed.
-std::pair<std::size_t, std::ptrdiff_t> workOnStrip(const SimplexMesh& strip)
+std::pair<std::size_t, std::ptrdiff_t> workOnStrip(const Mesh& strip)
 {
   std::vector<unsigned char> cellMarks(strip.cellCount());
   std::transform(strip.triangles.begin(), strip.triangles.end(), cellMarks.begin(),
@@ -203,8 +203,8 @@ std::pair<std::size_t, std::ptrdiff_t> workOnStrip(const SimplexMesh& strip)
 TEST(LongestEdgeWork, isLinearWhateverTheOrderOfCells)
 {
   const int cells = 2000;
-  const SimplexMesh strip = growingStrip(cells);
-  for (const SimplexMesh& mesh :
+  const Mesh strip = growingStrip(cells);
+  for (const Mesh& mesh :
     { strip, withReversedCells(strip), cadtest::withShuffledCells(strip, 18) })
   {
     const auto [looks, marked] = workOnStrip(mesh);
@@ -215,7 +215,7 @@ TEST(LongestEdgeWork, isLinearWhateverTheOrderOfCells)
 
 TEST_P(LongestEdge, closedMarksStayAsTheyAre)
 {
-  const SimplexMesh mesh = this->mesh(13);
+  const Mesh mesh = this->mesh(13);
   Closure closure(mesh, someCells(mesh, 14));
   EXPECT_FALSE(MarkClosure(closure.table, mesh.dimension, true, closure.marks).closeAll());
 }
@@ -223,7 +223,7 @@ TEST_P(LongestEdge, closedMarksStayAsTheyAre)
 /// Six rounds of refinement near a corner: the mesh stays whole and its cells do not degenerate.
 TEST_P(LongestEdge, bisectionKeepsMeshesConforming)
 {
-  SimplexMesh mesh = this->mesh(15);
+  Mesh mesh = this->mesh(15);
   for (int round = 0; round < 6; ++round)
   {
     std::vector<unsigned char> cellMarks;

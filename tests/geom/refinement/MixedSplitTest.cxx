@@ -24,14 +24,14 @@ using IdPair = std::array<GlobalId, 2>;
 /// Sorted by size and corners.
 using CellsByPlace = std::multiset<std::vector<Point3>>;
 
-std::vector<GlobalId> followingIds(const SimplexMesh& mesh, const Midpoints& midpoints)
+std::vector<GlobalId> followingIds(const Mesh& mesh, const Midpoints& midpoints)
 {
   std::vector<GlobalId> ids(midpoints.parentEdges.size());
   std::iota(ids.begin(), ids.end(), static_cast<GlobalId>(mesh.points.size()));
   return ids;
 }
 
-SplitMesh uniformly(const SimplexMesh& mesh)
+SplitMesh uniformly(const Mesh& mesh)
 {
   const EdgeTable table = buildEdgeTable(mesh);
   const QuadTable quads = buildQuadTable(table);
@@ -43,7 +43,7 @@ SplitMesh uniformly(const SimplexMesh& mesh)
 /// As one rank refines it: the marks closed, stacks in order, badly cut cells cut whole.
 struct Marking
 {
-  Marking(const SimplexMesh& mesh, const std::vector<unsigned char>& cellMarks, bool keepLayers)
+  Marking(const Mesh& mesh, const std::vector<unsigned char>& cellMarks, bool keepLayers)
     : table(buildEdgeTable(mesh)), quads(buildQuadTable(table)), marks(table.edges.size(), 0)
   {
     if (keepLayers)
@@ -57,13 +57,13 @@ struct Marking
     MarkClosure(table, mesh.dimension, keepLayers, marks).closeAll();
   }
 
-  SplitMesh split(const SimplexMesh& mesh) const
+  SplitMesh split(const Mesh& mesh) const
   {
     const Midpoints midpoints = makeMidpoints(mesh, table, quads, marks, false);
     return splitMarked(mesh, table, quads, marks, midpoints, followingIds(mesh, midpoints));
   }
 
-  std::set<IdPair> ids(const SimplexMesh& mesh) const
+  std::set<IdPair> ids(const Mesh& mesh) const
   {
     std::set<IdPair> result;
     for (std::size_t e = 0; e < marks.size(); ++e)
@@ -81,7 +81,7 @@ struct Marking
   EdgeMarks marks;
 };
 
-CellsByPlace byPlace(const SimplexMesh& mesh)
+CellsByPlace byPlace(const Mesh& mesh)
 {
   CellsByPlace all;
   visitShapes(mesh,
@@ -99,12 +99,12 @@ CellsByPlace byPlace(const SimplexMesh& mesh)
   return all;
 }
 
-bool onBox(const SimplexMesh& mesh, const std::vector<Point3>& side)
+bool onBox(const Mesh& mesh, const std::vector<Point3>& side)
 {
   return cadtest::onUnitCube(side, mesh.dimension);
 }
 
-void expectSound(const SimplexMesh& mesh)
+void expectSound(const Mesh& mesh)
 {
   EXPECT_TRUE(cadtest::isValid(mesh));
   EXPECT_TRUE(cadtest::isWatertight(
@@ -114,7 +114,7 @@ void expectSound(const SimplexMesh& mesh)
 }
 
 /// Cells with their corners turned about.
-SimplexMesh withTurnedCells(SimplexMesh mesh, std::uint64_t seed)
+Mesh withTurnedCells(Mesh mesh, std::uint64_t seed)
 {
   std::mt19937_64 random(seed);
   for (auto& h : mesh.hexahedra)
@@ -159,14 +159,14 @@ SimplexMesh withTurnedCells(SimplexMesh mesh, std::uint64_t seed)
 class MixedSplit : public testing::TestWithParam<int>
 {
 protected:
-  static SimplexMesh mesh(std::uint64_t seed, double jitter = 0.1)
+  static Mesh mesh(std::uint64_t seed, double jitter = 0.1)
   {
-    const SimplexMesh boxes = GetParam() == 3 ? cadtest::hexahedraMesh(2 + seed % 2, jitter, seed)
-                                              : cadtest::quadrilateralsMesh(4, jitter, seed);
+    const Mesh boxes = GetParam() == 3 ? cadtest::hexahedraMesh(2 + seed % 2, jitter, seed)
+                                       : cadtest::quadrilateralsMesh(4, jitter, seed);
     return cadtest::withListedBoundary(cadtest::randomlyMixedMesh(boxes, seed));
   }
 
-  static std::vector<unsigned char> someCells(const SimplexMesh& mesh, std::uint64_t seed)
+  static std::vector<unsigned char> someCells(const Mesh& mesh, std::uint64_t seed)
   {
     std::mt19937_64 random(seed);
     std::vector<unsigned char> marks(mesh.cellCount(mesh.dimension));
@@ -183,7 +183,7 @@ TEST_P(MixedSplit, meshesToStartFromAreSound)
   std::size_t shapes[4]{};
   for (std::uint64_t seed = 0; seed < 6; ++seed)
   {
-    const SimplexMesh mesh = this->mesh(seed);
+    const Mesh mesh = this->mesh(seed);
     expectSound(mesh);
     EXPECT_TRUE(cadtest::isBoundedByListedCells(mesh));
     std::size_t* count = shapes;
@@ -200,11 +200,11 @@ TEST_P(MixedSplit, uniformLevelsAreSound)
   for (std::uint64_t seed = 0; seed < 4; ++seed)
   {
     SCOPED_TRACE(seed);
-    SimplexMesh mesh = this->mesh(seed);
+    Mesh mesh = this->mesh(seed);
     for (int level = 0; level < 2; ++level)
     {
       const SplitMesh split = uniformly(mesh);
-      const SimplexMesh& fine = split.mesh;
+      const Mesh& fine = split.mesh;
       EXPECT_EQ(fine.tetrahedra.size(), 8 * mesh.tetrahedra.size() + 4 * mesh.pyramids.size());
       EXPECT_EQ(fine.pyramids.size(), 6 * mesh.pyramids.size());
       EXPECT_EQ(fine.wedges.size(), 8 * mesh.wedges.size());
@@ -222,7 +222,7 @@ TEST_P(MixedSplit, uniformLevelsAreSound)
 /// Children, in the order in which they are named, fill their parents.
 TEST_P(MixedSplit, namesChildrenOfEachCell)
 {
-  const auto measures = [](const SimplexMesh& mesh)
+  const auto measures = [](const Mesh& mesh)
   {
     std::vector<double> all;
     visitOwnShapes(mesh,
@@ -230,7 +230,7 @@ TEST_P(MixedSplit, namesChildrenOfEachCell)
       {
         for (const auto& cell : cells)
         {
-          SimplexMesh one;
+          Mesh one;
           one.dimension = mesh.dimension;
           one.points = mesh.points;
           (one.*decltype(shape)::cells) = { cell };
@@ -239,7 +239,7 @@ TEST_P(MixedSplit, namesChildrenOfEachCell)
       });
     return all;
   };
-  const SimplexMesh mesh = this->mesh(3, 0); // sides are plane
+  const Mesh mesh = this->mesh(3, 0); // sides are plane
   const auto before = measures(mesh);
   const auto expectFilled = [&](const SplitMesh& split)
   {
@@ -267,11 +267,11 @@ TEST_P(MixedSplit, namesChildrenOfEachCell)
 /// Bit for bit; corners of cells in another turn make the same vertices, too.
 TEST_P(MixedSplit, uniformSplitDoesNotDependOnTheOrderOfCellsAndCorners)
 {
-  const SimplexMesh mesh = this->mesh(5);
+  const Mesh mesh = this->mesh(5);
   const auto expected = byPlace(uniformly(mesh).mesh);
   for (std::uint64_t seed = 0; seed < 3; ++seed)
   {
-    const SimplexMesh other = withTurnedCells(cadtest::withMixedOrder(mesh, seed), seed);
+    const Mesh other = withTurnedCells(cadtest::withMixedOrder(mesh, seed), seed);
     EXPECT_EQ(byPlace(uniformly(other).mesh), expected);
   }
 }
@@ -283,7 +283,7 @@ TEST_P(MixedSplit, markedLevelsAreSound)
     for (std::uint64_t seed = 0; seed < 6; ++seed)
     {
       SCOPED_TRACE("seed " + std::to_string(seed) + (keepLayers ? ", layers kept" : ""));
-      SimplexMesh mesh = this->mesh(seed, 0.05);
+      Mesh mesh = this->mesh(seed, 0.05);
       for (int level = 0; level < 3; ++level)
       {
         const std::size_t before = mesh.cellCount();
@@ -305,10 +305,10 @@ TEST_P(MixedSplit, markedSplitDoesNotDependOnTheOrderOfCells)
 {
   for (const bool keepLayers : { false, true })
   {
-    const SimplexMesh mesh = this->mesh(7);
+    const Mesh mesh = this->mesh(7);
     const auto cellMarks = someCells(mesh, 8);
     std::set<std::vector<Index>> marked;
-    const auto visitMarks = [](const SimplexMesh& any, const auto& visit)
+    const auto visitMarks = [](const Mesh& any, const auto& visit)
     {
       std::size_t c = 0;
       visitOwnShapes(any,
@@ -331,7 +331,7 @@ TEST_P(MixedSplit, markedSplitDoesNotDependOnTheOrderOfCells)
     const auto expected = byPlace(Marking(mesh, cellMarks, keepLayers).split(mesh).mesh);
     for (std::uint64_t seed = 0; seed < 3; ++seed)
     {
-      const SimplexMesh other = cadtest::withMixedOrder(mesh, seed);
+      const Mesh other = cadtest::withMixedOrder(mesh, seed);
       std::vector<unsigned char> marks(cellMarks.size());
       visitMarks(other,
         [&](std::size_t c, const std::vector<Index>& cell) { marks[c] = marked.count(cell) > 0; });
@@ -344,7 +344,7 @@ TEST_P(MixedSplit, markedSplitDoesNotDependOnTheOrderOfCells)
 class LeastMixedMarking
 {
 public:
-  LeastMixedMarking(const SimplexMesh& mesh, bool keepLayers) : mesh_(mesh), keepLayers_(keepLayers)
+  LeastMixedMarking(const Mesh& mesh, bool keepLayers) : mesh_(mesh), keepLayers_(keepLayers)
   {
     visitShapes(mesh,
       [&](auto shape, const auto& cells)
@@ -605,7 +605,7 @@ private:
     bool isOfLayers = false;
   };
 
-  const SimplexMesh& mesh_;
+  const Mesh& mesh_;
   bool keepLayers_;
   std::map<IdPair, Rank> ranks_;
   std::vector<Cell> cells_; ///< Of the mesh's own dimension.
@@ -623,7 +623,7 @@ TEST_P(MixedSplit, marksAreTheLeastFixpoint)
     for (std::uint64_t seed = 0; seed < 12; ++seed)
     {
       SCOPED_TRACE("seed " + std::to_string(seed) + (keepLayers ? ", layers kept" : ""));
-      SimplexMesh mesh = this->mesh(seed, seed % 3 == 0 ? 0 : 0.15);
+      Mesh mesh = this->mesh(seed, seed % 3 == 0 ? 0 : 0.15);
       std::mt19937_64 random(seed);
       const double flatness = seed % 2 ? 0.3 : 1;
       for (Point3& point : mesh.points)
@@ -645,9 +645,9 @@ TEST(Layers, areCutAlongTheWallAlone)
   const std::vector<double> heights{ 0.01, 0.03, 0.07, 0.15 };
   for (const auto kind : { cadtest::BoxKind::Hexahedron, cadtest::BoxKind::Wedges })
   {
-    const SimplexMesh boxes = cadtest::hexahedralShellMesh(2, 0.005, 3, heights);
+    const Mesh boxes = cadtest::hexahedralShellMesh(2, 0.005, 3, heights);
     const std::size_t layerBoxes = heights.size() * 54;
-    SimplexMesh mesh = cadtest::mixedMesh(
+    Mesh mesh = cadtest::mixedMesh(
       boxes, [&](std::size_t c) { return c < layerBoxes ? kind : cadtest::BoxKind::Fan; }, 1);
     std::mt19937_64 random(2);
     for (int level = 0; level < 3; ++level)

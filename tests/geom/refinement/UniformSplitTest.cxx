@@ -19,7 +19,7 @@ using namespace cadrefine;
 
 struct Uniform
 {
-  explicit Uniform(const SimplexMesh& mesh) : table(buildEdgeTable(mesh))
+  explicit Uniform(const Mesh& mesh) : table(buildEdgeTable(mesh))
   {
     const EdgeMarks marks(table.edges.size(), 1);
     const Midpoints midpoints = makeMidpoints(mesh, table, marks);
@@ -32,7 +32,7 @@ struct Uniform
   SplitMesh split;
 };
 
-double volumeOf(const SimplexMesh& mesh, std::size_t c)
+double volumeOf(const Mesh& mesh, std::size_t c)
 {
   const auto& cell = mesh.tetrahedra[c];
   const auto& p = mesh.points;
@@ -42,9 +42,9 @@ double volumeOf(const SimplexMesh& mesh, std::size_t c)
 TEST(UniformSplit, cutsATetrahedronIntoEightOfEqualVolume)
 {
   // Midpoints and volumes are exact in binary.
-  const SimplexMesh mesh =
+  const Mesh mesh =
     cadtest::oneTetrahedron({ { { 0, 0, 0 }, { 4, 0, 0 }, { 1, 8, 0 }, { 2, 1, 4 } } });
-  const SimplexMesh fine = Uniform(mesh).split.mesh;
+  const Mesh fine = Uniform(mesh).split.mesh;
   ASSERT_EQ(fine.tetrahedra.size(), 8u);
   EXPECT_EQ(fine.points.size(), 10u);
   for (std::size_t c = 0; c < 8; ++c)
@@ -67,8 +67,8 @@ TEST_P(Diagonal, isTheShortestAndItsChildrenAreValid)
   {
     point[GetParam()] *= 0.5; // each diagonal of the regular one runs along an axis
   }
-  const SimplexMesh mesh = cadtest::oneTetrahedron(points);
-  const SimplexMesh fine = Uniform(mesh).split.mesh;
+  const Mesh mesh = cadtest::oneTetrahedron(points);
+  const Mesh fine = Uniform(mesh).split.mesh;
   EXPECT_TRUE(cadtest::isValid(fine));
   EXPECT_NEAR(cadtest::measureOf(fine), cadtest::measureOf(mesh), 1e-15);
   std::vector<int> axes;
@@ -89,10 +89,10 @@ TEST(UniformSplit, choosesAmongEqualDiagonalsByIds)
 {
   const std::array<Point3, 4> points{ { { 1, 1, 1 }, { 1, -1, -1 }, { -1, -1, 1 },
     { -1, 1, -1 } } };
-  const SimplexMesh mesh = cadtest::oneTetrahedron(points);
-  const auto inner = [](const SimplexMesh& coarse)
+  const Mesh mesh = cadtest::oneTetrahedron(points);
+  const auto inner = [](const Mesh& coarse)
   {
-    const SimplexMesh fine = Uniform(coarse).split.mesh;
+    const Mesh fine = Uniform(coarse).split.mesh;
     const EdgeTable table = buildEdgeTable(fine);
     for (const auto& [a, b] : table.edges)
     {
@@ -108,8 +108,8 @@ TEST(UniformSplit, choosesAmongEqualDiagonalsByIds)
 
 TEST(UniformSplit, cutsATriangleIntoFourOfEqualArea)
 {
-  const SimplexMesh mesh = cadtest::oneTriangle({ { { 0, 0, 0 }, { 4, 0, 0 }, { 1, 8, 0 } } });
-  const SimplexMesh fine = Uniform(mesh).split.mesh;
+  const Mesh mesh = cadtest::oneTriangle({ { { 0, 0, 0 }, { 4, 0, 0 }, { 1, 8, 0 } } });
+  const Mesh fine = Uniform(mesh).split.mesh;
   ASSERT_EQ(fine.triangles.size(), 4u);
   for (const auto& cell : fine.triangles)
   {
@@ -121,7 +121,7 @@ TEST(UniformSplit, cutsATriangleIntoFourOfEqualArea)
 class UniformMesh : public testing::TestWithParam<int>
 {
 protected:
-  SimplexMesh mesh(std::uint64_t seed) const
+  Mesh mesh(std::uint64_t seed) const
   {
     return GetParam() == 3 ? cadtest::cubeMesh(3, 0.2, seed) : cadtest::squareMesh(5, 0.2, seed);
   }
@@ -131,7 +131,7 @@ INSTANTIATE_TEST_SUITE_P(Dimensions, UniformMesh, testing::Values(2, 3));
 
 TEST_P(UniformMesh, staysValidWatertightAndOfTheSameVolumeOverThreeLevels)
 {
-  SimplexMesh mesh = this->mesh(1);
+  Mesh mesh = this->mesh(1);
   const std::size_t children = GetParam() == 3 ? 8 : 4;
   for (int level = 0; level < 3; ++level)
   {
@@ -149,7 +149,7 @@ TEST_P(UniformMesh, staysValidWatertightAndOfTheSameVolumeOverThreeLevels)
 
 TEST_P(UniformMesh, namesParents)
 {
-  const SimplexMesh mesh = this->mesh(2);
+  const Mesh mesh = this->mesh(2);
   const Uniform uniform(mesh);
   const auto& split = uniform.split;
   const auto& firsts = split.firstChildren[GetParam()];
@@ -166,17 +166,17 @@ TEST_P(UniformMesh, namesParents)
 
 TEST(UniformSplit, splitsTagCellsAlongTheirTetrahedra)
 {
-  SimplexMesh mesh = cadtest::ballMesh(1, 0.02);
+  Mesh mesh = cadtest::ballMesh(1, 0.02);
   mesh.triangles = cadtest::sphereMesh(1, 0.02).triangles;
   mesh.segments = { { mesh.triangles[0][0], mesh.triangles[0][1] } };
   mesh.vertices = { { 3 } };
-  const SimplexMesh fine = Uniform(mesh).split.mesh;
+  const Mesh fine = Uniform(mesh).split.mesh;
   EXPECT_EQ(fine.triangles.size(), 80u);
   EXPECT_EQ(fine.segments.size(), 2u);
   EXPECT_EQ(fine.vertices, mesh.vertices);
   // Every tag triangle is a side of the refined tetrahedra that is met once.
   EXPECT_EQ(cadtest::countOuterSides(fine), 80u);
-  SimplexMesh surface = fine;
+  Mesh surface = fine;
   surface.dimension = 2;
   EXPECT_NEAR(cadtest::volumeInside(surface), cadtest::measureOf(mesh), 1e-14);
 }

@@ -1,4 +1,4 @@
-#include "vtkSimplexMeshAlgorithm.h"
+#include "vtkMeshAlgorithm.h"
 
 #include "comm/CollectiveErrors.h"
 #include "comm/RankExchange.h"
@@ -26,9 +26,9 @@
 
 #include <utility>
 
-vtkCxxSetObjectMacro(vtkSimplexMeshAlgorithm, Controller, vtkMultiProcessController);
+vtkCxxSetObjectMacro(vtkMeshAlgorithm, Controller, vtkMultiProcessController);
 
-vtkSimplexMeshAlgorithm::vtkSimplexMeshAlgorithm(bool needsCAD)
+vtkMeshAlgorithm::vtkMeshAlgorithm(bool needsCAD)
   : Statistics(std::make_unique<cadrefine::RunStatistics>()),
     Cache(std::make_unique<cadrefine::GeometryCache>())
 {
@@ -36,12 +36,12 @@ vtkSimplexMeshAlgorithm::vtkSimplexMeshAlgorithm(bool needsCAD)
   this->SetController(vtkMultiProcessController::GetGlobalController());
 }
 
-vtkSimplexMeshAlgorithm::~vtkSimplexMeshAlgorithm()
+vtkMeshAlgorithm::~vtkMeshAlgorithm()
 {
   this->SetController(nullptr);
 }
 
-int vtkSimplexMeshAlgorithm::FillInputPortInformation(int port, vtkInformation* info)
+int vtkMeshAlgorithm::FillInputPortInformation(int port, vtkInformation* info)
 {
   if (port == 1)
   {
@@ -60,7 +60,7 @@ namespace
 /// The CAD of the algorithm, or of the nearest one above it that has one; null without.
 vtkDataObject* findCAD(vtkAlgorithm* algorithm)
 {
-  const auto* filter = vtkSimplexMeshAlgorithm::SafeDownCast(algorithm);
+  const auto* filter = vtkMeshAlgorithm::SafeDownCast(algorithm);
   if (filter && algorithm->GetNumberOfInputPorts() == 2 &&
       algorithm->GetNumberOfInputConnections(1) > 0)
   {
@@ -79,7 +79,7 @@ vtkDataObject* findCAD(vtkAlgorithm* algorithm)
 
 } // namespace
 
-std::shared_ptr<const cadrefine::CADModel> vtkSimplexMeshAlgorithm::FindModel(
+std::shared_ptr<const cadrefine::CADModel> vtkMeshAlgorithm::FindModel(
   cadrefine::RankExchange& exchange)
 {
   std::shared_ptr<const cadrefine::CADModel> model;
@@ -97,14 +97,14 @@ std::shared_ptr<const cadrefine::CADModel> vtkSimplexMeshAlgorithm::FindModel(
   return model;
 }
 
-cadrefine::PipelineContext vtkSimplexMeshAlgorithm::MakeContext(
+cadrefine::PipelineContext vtkMeshAlgorithm::MakeContext(
   cadrefine::RankExchange& exchange, const cadrefine::CADModel& model)
 {
   return { exchange, model, *this->Statistics,
     [this](const std::string& warning) { vtkWarningMacro(<< warning); } };
 }
 
-void vtkSimplexMeshAlgorithm::AddFace(const char* face)
+void vtkMeshAlgorithm::AddFace(const char* face)
 {
   if (face && *face)
   {
@@ -113,7 +113,7 @@ void vtkSimplexMeshAlgorithm::AddFace(const char* face)
   }
 }
 
-void vtkSimplexMeshAlgorithm::ClearFaces()
+void vtkMeshAlgorithm::ClearFaces()
 {
   if (!this->Faces.empty())
   {
@@ -122,7 +122,7 @@ void vtkSimplexMeshAlgorithm::ClearFaces()
   }
 }
 
-void vtkSimplexMeshAlgorithm::AddConservedArray(const char* name)
+void vtkMeshAlgorithm::AddConservedArray(const char* name)
 {
   if (name && *name)
   {
@@ -131,7 +131,7 @@ void vtkSimplexMeshAlgorithm::AddConservedArray(const char* name)
   }
 }
 
-void vtkSimplexMeshAlgorithm::ClearConservedArrays()
+void vtkMeshAlgorithm::ClearConservedArrays()
 {
   if (!this->ConservedArrays.empty())
   {
@@ -140,7 +140,7 @@ void vtkSimplexMeshAlgorithm::ClearConservedArrays()
   }
 }
 
-cadrefine::PipelineResult vtkSimplexMeshAlgorithm::MakeResult(
+cadrefine::PipelineResult vtkMeshAlgorithm::MakeResult(
   const cadrefine::PipelineContext& context, cadrefine::MeshState state) const
 {
   if (!this->BoundaryCells)
@@ -152,14 +152,14 @@ cadrefine::PipelineResult vtkSimplexMeshAlgorithm::MakeResult(
   return { mesh, std::move(state.mapping) };
 }
 
-struct vtkSimplexMeshAlgorithm::Outputs
+struct vtkMeshAlgorithm::Outputs
 {
   const cadrefine::InputSplit& parts;
   cadrefine::OutputJoin join;
   vtkInformationVector* ports;
 };
 
-void vtkSimplexMeshAlgorithm::Fill(cadrefine::RankExchange& exchange, vtkPointSet* mesh,
+void vtkMeshAlgorithm::Fill(cadrefine::RankExchange& exchange, vtkPointSet* mesh,
   const cadrefine::FieldMapping& mapping, const cadrefine::ArraySelection& selection,
   vtkTable* table, const std::string& fitReport)
 {
@@ -177,7 +177,7 @@ void vtkSimplexMeshAlgorithm::Fill(cadrefine::RankExchange& exchange, vtkPointSe
   }
 }
 
-void vtkSimplexMeshAlgorithm::ShowStep(cadrefine::RankExchange& exchange, vtkPointSet* mesh,
+void vtkMeshAlgorithm::ShowStep(cadrefine::RankExchange& exchange, vtkPointSet* mesh,
   const cadrefine::FieldMapping& mapping, const cadrefine::ArraySelection& selection,
   vtkTable* table, const std::string& fitReport)
 {
@@ -185,7 +185,7 @@ void vtkSimplexMeshAlgorithm::ShowStep(cadrefine::RankExchange& exchange, vtkPoi
   exchange.agree(""); // so that all have it, or none goes on
 }
 
-void vtkSimplexMeshAlgorithm::Run(
+void vtkMeshAlgorithm::Run(
   cadrefine::RankExchange& exchange, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   std::shared_ptr<const cadrefine::CADModel> model;
@@ -224,19 +224,19 @@ void vtkSimplexMeshAlgorithm::Run(
   this->Filled = nullptr;
 }
 
-std::optional<double> vtkSimplexMeshAlgorithm::FindMinimumQuality() const
+std::optional<double> vtkMeshAlgorithm::FindMinimumQuality() const
 {
   cadrefine::checkProperty("Operations", this->Operations, ALL_OPERATIONS, CUT_ONLY);
   cadrefine::checkProperty("MinimumQuality", this->MinimumQuality, 0, 1);
   return this->Operations == ALL_OPERATIONS ? std::optional(this->MinimumQuality) : std::nullopt;
 }
 
-cadrefine::FieldNeeds vtkSimplexMeshAlgorithm::FindFieldNeeds() const
+cadrefine::FieldNeeds vtkMeshAlgorithm::FindFieldNeeds() const
 {
   return { this->HasMeans, this->ConservedArrays };
 }
 
-int vtkSimplexMeshAlgorithm::RequestData(
+int vtkMeshAlgorithm::RequestData(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   this->Statistics->clear();
@@ -273,7 +273,7 @@ int vtkSimplexMeshAlgorithm::RequestData(
   }
 }
 
-void vtkSimplexMeshAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
+void vtkMeshAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Faces:";

@@ -1,5 +1,5 @@
 /**
- * @class vtkSimplexMeshAlgorithm
+ * @class vtkMeshAlgorithm
  * @brief common base of the filters that work on meshes
  *
  * Takes vtkUnstructuredGrid and vtkPolyData with linear cells of area (triangles, quadrilaterals)
@@ -23,8 +23,8 @@
  * A failure on one rank is an error on all: rank 0 reports the reason, and the output stays empty.
  * So is a property that is out of its range, which the error names with the range.
  */
-#ifndef vtkSimplexMeshAlgorithm_h
-#define vtkSimplexMeshAlgorithm_h
+#ifndef vtkMeshAlgorithm_h
+#define vtkMeshAlgorithm_h
 
 #include "CADRefineFiltersModule.h"
 #include "vtkPointSetAlgorithm.h"
@@ -50,10 +50,10 @@ struct PipelineResult;
 class vtkMultiProcessController;
 class vtkTable;
 
-class CADREFINEFILTERS_EXPORT vtkSimplexMeshAlgorithm : public vtkPointSetAlgorithm
+class CADREFINEFILTERS_EXPORT vtkMeshAlgorithm : public vtkPointSetAlgorithm
 {
 public:
-  vtkTypeMacro(vtkSimplexMeshAlgorithm, vtkPointSetAlgorithm);
+  vtkTypeMacro(vtkMeshAlgorithm, vtkPointSetAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /// The CAD model: the output of a vtkCADReader. For the filters that need it. Not set: that of
@@ -143,8 +143,8 @@ public:
 
 protected:
   /// `needsCAD`: the filter has a second input, the output of a vtkCADReader.
-  explicit vtkSimplexMeshAlgorithm(bool needsCAD);
-  ~vtkSimplexMeshAlgorithm() override;
+  explicit vtkMeshAlgorithm(bool needsCAD);
+  ~vtkMeshAlgorithm() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) final;
@@ -195,8 +195,8 @@ protected:
   std::unique_ptr<cadrefine::RunStatistics> Statistics; ///< Of this run, by this rank.
 
 private:
-  vtkSimplexMeshAlgorithm(const vtkSimplexMeshAlgorithm&) = delete;
-  void operator=(const vtkSimplexMeshAlgorithm&) = delete;
+  vtkMeshAlgorithm(const vtkMeshAlgorithm&) = delete;
+  void operator=(const vtkMeshAlgorithm&) = delete;
 
   std::shared_ptr<const cadrefine::CADModel> FindModel(cadrefine::RankExchange& exchange);
 

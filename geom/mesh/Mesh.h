@@ -12,7 +12,7 @@ namespace cadrefine
 
 /// The corners of cells of one shape.
 template<std::size_t Corners>
-using Simplices = std::vector<std::array<Index, Corners>>;
+using Cells = std::vector<std::array<Index, Corners>>;
 
 /// A piece of a mesh: the cells of the mesh's own dimension and the cells of lower dimension that
 /// lie on their sides and carry boundary tags. No cell is on two ranks; vertices may be, with the
@@ -20,19 +20,19 @@ using Simplices = std::vector<std::array<Index, Corners>>;
 ///
 /// Corners come in VTK's order. Where cells of a dimension are numbered, those of the first shape
 /// come first: tetrahedra, pyramids, wedges, hexahedra; triangles, quadrilaterals.
-struct SimplexMesh
+struct Mesh
 {
   int dimension = 3; ///< Of the cells of highest dimension; the same on every rank.
   std::vector<Point3> points;
   std::vector<GlobalId> ids; ///< Of the points; distinct within the piece.
-  Simplices<4> tetrahedra;
-  Simplices<5> pyramids; ///< Seen from the apex, corner 4, the base turns counter-clockwise.
-  Simplices<6> wedges;   ///< Seen from corners 3, 4, 5, the others turn counter-clockwise.
-  Simplices<8> hexahedra;
-  Simplices<3> triangles;
-  Simplices<4> quadrilaterals;
-  Simplices<2> segments;
-  Simplices<1> vertices;
+  Cells<4> tetrahedra;
+  Cells<5> pyramids; ///< Seen from the apex, corner 4, the base turns counter-clockwise.
+  Cells<6> wedges;   ///< Seen from corners 3, 4, 5, the others turn counter-clockwise.
+  Cells<8> hexahedra;
+  Cells<3> triangles;
+  Cells<4> quadrilaterals;
+  Cells<2> segments;
+  Cells<1> vertices;
   /// Data sets have the wedges as VTK's documentation draws them, in which they turn clockwise.
   bool wedgesAsDocumented = false;
 
@@ -45,8 +45,8 @@ struct SimplexMesh
 };
 
 /// visit(cells) of the cells of the mesh's own dimension.
-template<class Mesh, class Visit>
-decltype(auto) visitCells(Mesh& mesh, const Visit& visit)
+template<class AnyMesh, class Visit>
+decltype(auto) visitCells(AnyMesh& mesh, const Visit& visit)
 {
   return mesh.dimension == 3 ? visit(mesh.tetrahedra) : visit(mesh.triangles);
 }
@@ -74,14 +74,14 @@ struct Vertex
 {
   static constexpr int dimension = 0;
   static constexpr std::size_t corners = 1;
-  static constexpr auto cells = &SimplexMesh::vertices;
+  static constexpr auto cells = &Mesh::vertices;
 };
 
 struct Segment
 {
   static constexpr int dimension = 1;
   static constexpr std::size_t corners = 2;
-  static constexpr auto cells = &SimplexMesh::segments;
+  static constexpr auto cells = &Mesh::segments;
   static constexpr int edges[1][2] = { { 0, 1 } };
 };
 
@@ -89,7 +89,7 @@ struct Triangle
 {
   static constexpr int dimension = 2;
   static constexpr std::size_t corners = 3;
-  static constexpr auto cells = &SimplexMesh::triangles;
+  static constexpr auto cells = &Mesh::triangles;
   static constexpr auto& edges = triangleEdges;
 };
 
@@ -97,7 +97,7 @@ struct Quadrilateral
 {
   static constexpr int dimension = 2;
   static constexpr std::size_t corners = 4;
-  static constexpr auto cells = &SimplexMesh::quadrilaterals;
+  static constexpr auto cells = &Mesh::quadrilaterals;
   static constexpr int edges[4][2] = { { 0, 1 }, { 1, 2 }, { 2, 3 }, { 3, 0 } };
   /// Edges of its quadrilaterals: here of itself.
   static constexpr int quadEdges[1][4] = { { 0, 1, 2, 3 } };
@@ -107,7 +107,7 @@ struct Tetrahedron
 {
   static constexpr int dimension = 3;
   static constexpr std::size_t corners = 4;
-  static constexpr auto cells = &SimplexMesh::tetrahedra;
+  static constexpr auto cells = &Mesh::tetrahedra;
   static constexpr auto& edges = tetrahedronEdges;
   static constexpr int faces[4][4] = { { 1, 2, 3, -1 }, { 0, 3, 2, -1 }, { 0, 1, 3, -1 },
     { 0, 2, 1, -1 } };
@@ -117,7 +117,7 @@ struct Pyramid
 {
   static constexpr int dimension = 3;
   static constexpr std::size_t corners = 5;
-  static constexpr auto cells = &SimplexMesh::pyramids;
+  static constexpr auto cells = &Mesh::pyramids;
   static constexpr int edges[8][2] = { { 0, 1 }, { 1, 2 }, { 2, 3 }, { 3, 0 }, { 0, 4 }, { 1, 4 },
     { 2, 4 }, { 3, 4 } };
   static constexpr int faces[5][4] = { { 0, 3, 2, 1 }, { 0, 1, 4, -1 }, { 1, 2, 4, -1 },
@@ -129,7 +129,7 @@ struct Wedge
 {
   static constexpr int dimension = 3;
   static constexpr std::size_t corners = 6;
-  static constexpr auto cells = &SimplexMesh::wedges;
+  static constexpr auto cells = &Mesh::wedges;
   static constexpr int edges[9][2] = { { 0, 1 }, { 1, 2 }, { 2, 0 }, { 3, 4 }, { 4, 5 }, { 5, 3 },
     { 0, 3 }, { 1, 4 }, { 2, 5 } };
   static constexpr int faces[5][4] = { { 0, 2, 1, -1 }, { 3, 4, 5, -1 }, { 0, 1, 4, 3 },
@@ -142,7 +142,7 @@ struct Hexahedron
 {
   static constexpr int dimension = 3;
   static constexpr std::size_t corners = 8;
-  static constexpr auto cells = &SimplexMesh::hexahedra;
+  static constexpr auto cells = &Mesh::hexahedra;
   static constexpr int edges[12][2] = { { 0, 1 }, { 1, 2 }, { 2, 3 }, { 3, 0 }, { 4, 5 }, { 5, 6 },
     { 6, 7 }, { 7, 4 }, { 0, 4 }, { 1, 5 }, { 2, 6 }, { 3, 7 } };
   static constexpr int faces[6][4] = { { 0, 3, 2, 1 }, { 4, 5, 6, 7 }, { 0, 1, 5, 4 },
@@ -161,8 +161,8 @@ constexpr bool isSimplex(Shape)
 }
 
 /// visit(shape, cells) of the cells of one dimension, in the order in which they are numbered.
-template<class Mesh, class Visit>
-void visitShapes(Mesh& mesh, int dimension, const Visit& visit)
+template<class AnyMesh, class Visit>
+void visitShapes(AnyMesh& mesh, int dimension, const Visit& visit)
 {
   const auto visitAll = [&](auto... shape) { (visit(shape, mesh.*(decltype(shape)::cells)), ...); };
   switch (dimension)
@@ -180,8 +180,8 @@ void visitShapes(Mesh& mesh, int dimension, const Visit& visit)
 }
 
 /// The same of the cells of the mesh's own dimension, which is 2 or 3.
-template<class Mesh, class Visit>
-void visitOwnShapes(Mesh& mesh, const Visit& visit)
+template<class AnyMesh, class Visit>
+void visitOwnShapes(AnyMesh& mesh, const Visit& visit)
 {
   const auto visitAll = [&](auto... shape) { (visit(shape, mesh.*(decltype(shape)::cells)), ...); };
   mesh.dimension == 3
@@ -191,7 +191,7 @@ void visitOwnShapes(Mesh& mesh, const Visit& visit)
 
 /// visit(shape, corners) of the cell of this number among those of the mesh's own dimension.
 template<class Visit>
-void visitOwnCell(const SimplexMesh& mesh, Index number, const Visit& visit)
+void visitOwnCell(const Mesh& mesh, Index number, const Visit& visit)
 {
   std::size_t first = 0;
   visitOwnShapes(mesh,
@@ -207,8 +207,8 @@ void visitOwnCell(const SimplexMesh& mesh, Index number, const Visit& visit)
 }
 
 /// visitShapes of all dimensions, 0 first.
-template<class Mesh, class Visit>
-void visitShapes(Mesh& mesh, const Visit& visit)
+template<class AnyMesh, class Visit>
+void visitShapes(AnyMesh& mesh, const Visit& visit)
 {
   for (int dimension = 0; dimension < 4; ++dimension)
   {
@@ -216,14 +216,14 @@ void visitShapes(Mesh& mesh, const Visit& visit)
   }
 }
 
-inline std::size_t SimplexMesh::cellCount(int ofDimension) const
+inline std::size_t Mesh::cellCount(int ofDimension) const
 {
   std::size_t count = 0;
   visitShapes(*this, ofDimension, [&](auto, const auto& cells) { count += cells.size(); });
   return count;
 }
 
-inline std::size_t SimplexMesh::cellCount() const
+inline std::size_t Mesh::cellCount() const
 {
   return cellCount(0) + cellCount(1) + cellCount(2) + cellCount(3);
 }
