@@ -73,15 +73,25 @@ bool isInvalid(const Mesh& mesh, const Vector3& plane, Index cell)
   {
     visitOwnCell(mesh, cell,
       [&](auto shape, const auto& corners)
-      { invalid = !stateAt(shape, cornersOf(corners, mesh.points), plane).valid; });
+      { invalid = !stateAt(shape, cornersOf(corners, mesh.points), plane, 0).valid; });
   }
   return invalid;
 }
 
-std::vector<Index> invalidCells(const Mesh& mesh, const Vector3& plane)
+std::vector<Index> invalidCells(
+  const Mesh& mesh, const Vector3& plane, const ParallelFor& parallelFor)
 {
-  return indicesWhere(mesh.cellCount(mesh.dimension),
-    [&](std::size_t c) { return isInvalid(mesh, plane, static_cast<Index>(c)); });
+  return collect<Index>(parallelFor, mesh.cellCount(mesh.dimension), fineGrain,
+    [&](std::size_t begin, std::size_t end, std::vector<Index>& found)
+    {
+      for (std::size_t c = begin; c < end; ++c)
+      {
+        if (isInvalid(mesh, plane, static_cast<Index>(c)))
+        {
+          found.push_back(static_cast<Index>(c));
+        }
+      }
+    });
 }
 
 /// See planeNormal. Collective.
@@ -117,7 +127,7 @@ std::vector<unsigned char> findHeld(RankExchange& exchange, const DistributedMes
 }
 
 /// Halves the moves of these vertices until every cell of every rank accepts them, then makes them.
-void settle(Motion& motion, const MoveGuard& guard, const std::vector<Index>& moving)
+void settle(Motion& motion, MoveGuard& guard, const std::vector<Index>& moving)
 {
   Moves& moves = motion.moves;
   while (motion.exchange.any(guard.halveUnaccepted(moves)))
@@ -248,11 +258,11 @@ void moveTo(Motion& motion, const Region& region, std::vector<Index> moving = {}
   }
   takeAlong(motion, moving, settled);
   const Mesh& mesh = motion.mesh();
-  settle(motion,
+  MoveGuard guard =
     motion.columns.any()
       ? MoveGuard(mesh, moves, motion.start, motion.plane, motion.parallelFor)
-      : MoveGuard(mesh, moves, motion.start, motion.plane, region.cells, motion.parallelFor),
-    moving);
+      : MoveGuard(mesh, moves, motion.start, motion.plane, region.cells, motion.parallelFor);
+  settle(motion, guard, moving);
   stayThere(motion, settled);
 }
 
@@ -340,7 +350,8 @@ void moveOntoCAD(RankExchange& exchange, DistributedMesh& mesh, Moves moves,
   progress.say(0, "moving vertices onto the CAD");
   const Vector3 plane = planeOf(exchange, mesh.mesh());
   const std::vector<Index> aimed = movingVertices(moves);
-  Left left{ aimed, settings.mendCells ? invalidCells(mesh.mesh(), plane) : std::vector<Index>{} };
+  Left left{ aimed, settings.mendCells ? invalidCells(mesh.mesh(), plane, forOnThreads(exchange))
+                                       : std::vector<Index>{} };
   Motion motion{ exchange, mesh, classification, settings, forOnThreads(exchange), plane,
     mesh.mesh().points, Moves(mesh.mesh()),
     std::vector<unsigned char>(mesh.mesh().points.size(), 0), findHeld(exchange, mesh),
@@ -351,7 +362,7 @@ void moveOntoCAD(RankExchange& exchange, DistributedMesh& mesh, Moves moves,
   std::vector<Index> moving = aimed;
   std::vector<Index> settled;
   takeAlong(motion, moving, settled);
-  const MoveGuard guard(mesh.mesh(), motion.moves, motion.start, plane, motion.parallelFor);
+  MoveGuard guard(mesh.mesh(), motion.moves, motion.start, plane, motion.parallelFor);
   settle(motion, guard, moving);
   stayThere(motion, settled);
   std::int64_t count = dropDone(motion, left);

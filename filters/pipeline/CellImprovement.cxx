@@ -48,6 +48,10 @@ public:
 
   void run()
   {
+    if (!exchange_.any(visitCells(mesh(), [](const auto& cells) { return !cells.empty(); })))
+    {
+      return; // other cells do not change
+    }
     if (mesh().dimension == 2)
     {
       plane_ = planeNormal(exchange_, mesh());

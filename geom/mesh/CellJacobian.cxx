@@ -86,35 +86,70 @@ HexahedronEdges edgesOf(const Hexahedron& corners)
   return edges;
 }
 
-/// A lower bound, but for rounding, of the determinant of the unit vectors along three edges of a
-/// hexahedron, one of each direction, and of the sign of the Jacobian: with m_d the means of the
-/// edges, and r_d how far the others are from them, a determinant of three edges differs from that
-/// of the means by at most the product of the |m_d| + r_d less that of the |m_d|. Below 0 where it
-/// cannot tell. Edges: scaled to 1 in each direction.
+/// A lower bound of the determinant of the unit vectors along three edges of a hexahedron, one of
+/// each direction, and of the sign of the Jacobian: with m_d the means of the edges, and r_d how
+/// far the others are from them, a determinant of three edges differs from that of the means by at
+/// most the product of the |m_d| + r_d less that of the |m_d|. Not above 0 where it cannot tell, or
+/// where products of squares may lose digits.
 double boundByMeans(const HexahedronEdges& edges)
 {
+  constexpr double rounding = 1e-12; // far above that of what follows
   std::array<Vector3, 3> means;
   double lengths = 1;
   double longest = 1;
   for (int d = 0; d < 3; ++d)
   {
     const auto& e = edges[d];
-    means[d] = 0.25 * (e[0] + e[1] + e[2] + e[3]);
-    const double radius = std::sqrt(std::max({ squaredNorm(e[0] - means[d]),
-      squaredNorm(e[1] - means[d]), squaredNorm(e[2] - means[d]), squaredNorm(e[3] - means[d]) }));
-    const double length = norm(means[d]);
+    means[d] = 0.25 * ((e[0] + e[1]) + (e[2] + e[3]));
+    const double square = squaredNorm(means[d]);
+    if (!(square > 1e-60 && square < 1e60))
+    {
+      return 0;
+    }
+    const double radius =
+      std::sqrt(std::max(std::max(squaredNorm(e[0] - means[d]), squaredNorm(e[1] - means[d])),
+        std::max(squaredNorm(e[2] - means[d]), squaredNorm(e[3] - means[d]))));
+    const double length = std::sqrt(square);
     lengths *= length;
     longest *= length + radius;
   }
-  return (determinant(means[0], means[1], means[2]) + lengths) / longest - 1;
+  return (determinant(means[0], means[1], means[2]) + lengths) / longest - 1 - rounding;
 }
-
-/// Far above the rounding errors of boundByMeans.
-constexpr double marginOfMeans = 1e-12;
 
 double cornerCoefficient(const HexahedronEdges& edges, int i, int j, int k)
 {
   return determinant(edges[0][j + 2 * k], edges[1][k + 2 * i], edges[2][i + 2 * j]);
+}
+
+/// The least determinant of the unit vectors along the edges at a corner, and along the mean edges.
+/// Edges: scaled to 1 in each direction.
+double leastOfUnitEdges(const HexahedronEdges& edges)
+{
+  std::array<Vector3, 3> means;
+  std::array<std::array<double, 4>, 3> squares;
+  for (int d = 0; d < 3; ++d)
+  {
+    const auto& e = edges[d];
+    means[d] = (e[0] + e[1]) + (e[2] + e[3]);
+    std::transform(e.begin(), e.end(), squares[d].begin(), squaredNorm);
+  }
+  const auto ofUnit = [](double value, double first, double second, double third)
+  {
+    const double product = first * second * third;
+    return product > 0 ? value * std::abs(value) / product : 0;
+  };
+  double least =
+    std::min(1.0, ofUnit(determinant(means[0], means[1], means[2]), squaredNorm(means[0]),
+                    squaredNorm(means[1]), squaredNorm(means[2])));
+  for (int n = 0; n < 8; ++n)
+  {
+    const int i = n & 1;
+    const int j = n >> 1 & 1;
+    const int k = n >> 2;
+    least = std::min(least, ofUnit(cornerCoefficient(edges, i, j, k), squares[0][j + 2 * k],
+                              squares[1][k + 2 * i], squares[2][i + 2 * j]));
+  }
+  return std::copysign(std::sqrt(std::abs(least)), least);
 }
 
 /// At the middle of edge a + 2 b of direction d.
@@ -263,12 +298,6 @@ std::array<Point3, 3> cornerOf(const std::array<Point3, Count>& corners, int k)
   return { corners[k], corners[(k + 1) % 4], corners[(k + 3) % 4] };
 }
 
-template<std::size_t Count>
-void normalizeAll(std::array<Vector3, Count>& edges)
-{
-  std::transform(edges.begin(), edges.end(), edges.begin(), normalized);
-}
-
 /// With the sign that tells whether the cell is valid.
 double withSignOf(bool isValid, double least)
 {
@@ -287,7 +316,7 @@ bool hasPositiveJacobian(const Hexahedron& corners)
   {
     return false;
   }
-  if (boundByMeans(edges) > marginOfMeans)
+  if (boundByMeans(edges) > 0)
   {
     return true;
   }
@@ -362,30 +391,19 @@ bool isValidQuadrilateral(const Quadrilateral& corners, const Vector3& side)
   return true;
 }
 
-double scaledJacobian(const Hexahedron& corners)
+double scaledJacobian(const Hexahedron& corners, double enough)
 {
   HexahedronEdges edges = edgesOf(corners);
-  std::array<Vector3, 3> middle{};
-  for (int d = 0; d < 3; ++d)
+  const double bound = boundByMeans(edges);
+  if (bound >= enough && bound > 0)
   {
-    middle[d] = normalized(edges[d][0] + edges[d][1] + edges[d][2] + edges[d][3]);
-    normalizeAll(edges[d]);
+    return bound;
   }
-  double least = determinant(middle[0], middle[1], middle[2]);
-  for (int n = 0; n < 8; ++n)
+  if (!(scaleToUnit(edges[0]) && scaleToUnit(edges[1]) && scaleToUnit(edges[2])))
   {
-    least = std::min(least, cornerCoefficient(edges, n & 1, n >> 1 & 1, n >> 2));
+    return 0;
   }
-  return withSignOf(hasPositiveJacobian(corners), least);
-}
-
-double scaledJacobianBound(const Hexahedron& corners)
-{
-  constexpr double unknown = -std::numeric_limits<double>::infinity();
-  HexahedronEdges edges = edgesOf(corners);
-  const bool isScaled = scaleToUnit(edges[0]) && scaleToUnit(edges[1]) && scaleToUnit(edges[2]);
-  const double bound = isScaled ? boundByMeans(edges) - marginOfMeans : unknown;
-  return bound > 0 ? bound : unknown;
+  return withSignOf(bound > 0 || hasPositiveJacobian(corners), leastOfUnitEdges(edges));
 }
 
 double scaledJacobian(const Wedge& corners)

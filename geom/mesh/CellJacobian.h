@@ -4,6 +4,7 @@
 #include <cadrefine/base/Vector3.h>
 
 #include <array>
+#include <limits>
 
 namespace cadrefine
 {
@@ -60,14 +61,13 @@ bool isValidQuadrilateral(const Quadrilateral& corners, const Vector3& side);
 /// is valid: 0 where the values are positive but the cell is not valid between them. Of hexahedra
 /// and wedges it is Verdict's. Of a pyramid it also has the sines of the triangles' angles at the
 /// apex, as a high one has good corners at the base. Squares of edges must be finite.
-double scaledJacobian(const Hexahedron& corners);
+///
+/// Of a hexahedron that is valid a lower bound may be given instead, if that is at least `enough`.
+double scaledJacobian(
+  const Hexahedron& corners, double enough = std::numeric_limits<double>::infinity());
 double scaledJacobian(const Wedge& corners);
 double scaledJacobian(const Pyramid& corners);
 double scaledJacobian(const Quadrilateral& corners, const Vector3& side);
-
-/// A lower bound of scaledJacobian, below all of its values where the cell may not be valid. A
-/// third of its work, and close to it where opposite edges are nearly parallel.
-double scaledJacobianBound(const Hexahedron& corners);
 
 /// The integral of the Jacobian determinant.
 double volume(const Hexahedron& corners);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <vector>
 
 namespace cadrefine
@@ -19,15 +20,23 @@ struct CellState
   double quality = 0;
 };
 
+constexpr double infiniteQuality = std::numeric_limits<double>::infinity();
+
 /// Of a cell with these corners: validity of simplices by exact orientation, of others by that of
 /// their Jacobian everywhere. A cell of area is valid where it turns as seen from the end of
-/// `side`.
-CellState stateAt(shapes::Tetrahedron, const std::array<Point3, 4>& p, const Vector3& side = {});
-CellState stateAt(shapes::Pyramid, const std::array<Point3, 5>& p, const Vector3& side = {});
-CellState stateAt(shapes::Wedge, const std::array<Point3, 6>& p, const Vector3& side = {});
-CellState stateAt(shapes::Hexahedron, const std::array<Point3, 8>& p, const Vector3& side = {});
-CellState stateAt(shapes::Triangle, const std::array<Point3, 3>& p, const Vector3& side);
-CellState stateAt(shapes::Quadrilateral, const std::array<Point3, 4>& p, const Vector3& side);
+/// `side`. The quality of a valid cell may be a lower bound of it, where that is at least `enough`.
+CellState stateAt(shapes::Tetrahedron, const std::array<Point3, 4>& p, const Vector3& side = {},
+  double enough = infiniteQuality);
+CellState stateAt(shapes::Pyramid, const std::array<Point3, 5>& p, const Vector3& side = {},
+  double enough = infiniteQuality);
+CellState stateAt(shapes::Wedge, const std::array<Point3, 6>& p, const Vector3& side = {},
+  double enough = infiniteQuality);
+CellState stateAt(shapes::Hexahedron, const std::array<Point3, 8>& p, const Vector3& side = {},
+  double enough = infiniteQuality);
+CellState stateAt(shapes::Triangle, const std::array<Point3, 3>& p, const Vector3& side,
+  double enough = infiniteQuality);
+CellState stateAt(shapes::Quadrilateral, const std::array<Point3, 4>& p, const Vector3& side,
+  double enough = infiniteQuality);
 
 /// The points of a cell's corners.
 template<std::size_t Corners>

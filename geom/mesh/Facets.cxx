@@ -152,6 +152,10 @@ public:
   template<class Use>
   void forSmallestOf(std::size_t cell, const Use& use) const
   {
+    if (!mayHaveSides(cell))
+    {
+      return;
+    }
     std::array<Index, mostSides> seen;
     seen.fill(-1);
     forSides(cell,
@@ -199,6 +203,19 @@ private:
     visitOwnCell(mesh_, number,
       [&](auto shape, const auto& corners)
       { forEachSide(shape, corners, number, [&](const Facet& side) { use(place++, side); }); });
+  }
+
+  /// Whether enough corners are looked at for a side.
+  bool mayHaveSides(std::size_t cell) const
+  {
+    std::ptrdiff_t count = 0;
+    visitOwnCell(mesh_, static_cast<Index>(cell),
+      [&](auto, const auto& corners)
+      {
+        count = std::count_if(corners.begin(), corners.end(),
+          [&](Index corner) { return among_.empty() || among_[corner]; });
+      });
+    return count >= mesh_.dimension;
   }
 
   bool isLookedAt(const Facet& side) const

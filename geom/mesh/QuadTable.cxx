@@ -1,7 +1,8 @@
 #include <cadrefine/mesh/QuadTable.h>
 
+#include <cadrefine/base/LargeMemory.h>
 #include <cadrefine/base/PieceLimit.h>
-#include <cadrefine/base/RadixOrder.h>
+#include <cadrefine/base/VertexBuckets.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -27,22 +28,26 @@ std::uint64_t keyOf(const std::array<Index, 4>& ordered)
   return static_cast<std::uint64_t>(ordered[0]) << 32 | static_cast<std::uint64_t>(ordered[2]);
 }
 
-/// Calls use(edges, number) for the quadrilaterals of all cells in turn, `number` being where
-/// theirs is to stand.
+/// A quadrilateral of a cell.
+struct CellQuad
+{
+  std::array<Index, 4> edges; ///< As the table has them.
+  Index* number;              ///< Where that of the quadrilateral is to stand.
+};
+
+/// Calls use(quad) for the quadrilaterals of all cells in turn.
 template<class Shape, class Use>
 void forQuadsOf(Shape shape, const EdgeTable& table, QuadTable& quads, const Use& use)
 {
   const auto& edgesOf = table.*edgesOfCells(shape);
   auto& numbers = quads.*quadsOfCells(shape);
-  numbers.resize(edgesOf.size());
-  for (std::size_t c = 0; c < edgesOf.size(); ++c)
+  for (std::size_t c = 0; c < numbers.size(); ++c)
   {
     for (std::size_t q = 0; q < numbers[c].size(); ++q)
     {
-      std::array<Index, 4> edges;
-      std::transform(std::begin(Shape::quadEdges[q]), std::end(Shape::quadEdges[q]), edges.begin(),
-        [&](int edge) { return edgesOf[c][edge]; });
-      use(edges, numbers[c][q]);
+      const auto& [i, j, k, l] = Shape::quadEdges[q];
+      const auto& edges = edgesOf[c];
+      use({ inOrder({ edges[i], edges[j], edges[k], edges[l] }), &numbers[c][q] });
     }
   }
 }
@@ -54,6 +59,17 @@ void forQuads(const EdgeTable& table, QuadTable& quads, const Use& use)
   forQuadsOf(shapes::Wedge{}, table, quads, use);
   forQuadsOf(shapes::Hexahedron{}, table, quads, use);
   forQuadsOf(shapes::Quadrilateral{}, table, quads, use);
+}
+
+/// Makes room for the numbers of the quadrilaterals of each cell, and returns how many there are.
+std::size_t resizeNumbers(const EdgeTable& table, QuadTable& quads)
+{
+  resizeLong(quads.ofPyramids, table.ofPyramids.size());
+  resizeLong(quads.ofWedges, table.ofWedges.size());
+  resizeLong(quads.ofHexahedra, table.ofHexahedra.size());
+  resizeLong(quads.ofQuadrilaterals, table.ofQuadrilaterals.size());
+  return quads.ofPyramids.size() + 3 * quads.ofWedges.size() + 6 * quads.ofHexahedra.size() +
+         quads.ofQuadrilaterals.size();
 }
 
 } // namespace
@@ -69,27 +85,25 @@ Index QuadTable::find(const std::array<Index, 4>& itsEdges) const
 QuadTable buildQuadTable(const EdgeTable& table)
 {
   QuadTable quads;
-  std::vector<PlacedKey> keys;
-  std::vector<std::array<Index, 4>> edgesOf;
-  std::vector<Index*> numbers;
-  forQuads(table, quads,
-    [&](const std::array<Index, 4>& edges, Index& number)
+  const std::size_t count = resizeNumbers(table, quads);
+  requireAtMost(count, "quadrilaterals of cells", std::numeric_limits<std::uint32_t>::max());
+  VertexBuckets<CellQuad> buckets(table.edges.size(), [&](const auto& use)
+    { forQuads(table, quads, [&](const CellQuad& quad) { use(quad.edges[0], quad); }); });
+  reserveLong(quads.edges, (count + table.ofQuadrilaterals.size()) / 2);
+  buckets.forEach(
+    [&](Index, CellQuad* first, CellQuad* last)
     {
-      edgesOf.push_back(inOrder(edges));
-      keys.push_back({ keyOf(edgesOf.back()), static_cast<std::uint32_t>(numbers.size()) });
-      numbers.push_back(&number);
+      std::sort(
+        first, last, [](const CellQuad& a, const CellQuad& b) { return a.edges[2] < b.edges[2]; });
+      for (const CellQuad* quad = first; quad != last; ++quad)
+      {
+        if (quad == first || quad->edges[2] != quad[-1].edges[2])
+        {
+          quads.edges.push_back(quad->edges);
+        }
+        *quad->number = static_cast<Index>(quads.edges.size() - 1);
+      }
     });
-  requireAtMost(
-    numbers.size(), "quadrilaterals of cells", std::numeric_limits<std::uint32_t>::max());
-  radixSort(keys);
-  for (std::size_t k = 0; k < keys.size(); ++k)
-  {
-    if (k == 0 || keys[k].key != keys[k - 1].key)
-    {
-      quads.edges.push_back(edgesOf[keys[k].place]);
-    }
-    *numbers[keys[k].place] = static_cast<Index>(quads.edges.size() - 1);
-  }
   return quads;
 }
 

@@ -25,6 +25,9 @@ constexpr double largestCube = std::numeric_limits<double>::max();
 /// square of eight times as much for half the value, over L^3.
 constexpr double certainlyPositive = (16 * epsilon) * (16 * epsilon);
 
+/// Bounds of the quality above this do for it: bricks need only be looked at once.
+constexpr double practicallyOne = 1 - 1e-11;
+
 /// Of the cells so far.
 class Summary
 {
@@ -46,18 +49,11 @@ public:
     }
   }
 
-  void add(shapes::Hexahedron shape, const Hexahedron& p)
-  {
-    if (scaledJacobianBound(p) < summary_.smallestRatio)
-    {
-      add(stateAt(shape, p));
-    }
-  }
-
   template<class Shape>
   void add(Shape shape, const std::array<Point3, Shape::corners>& p)
   {
-    add(stateAt(shape, p, sideOf(shape, p, {})));
+    const double enough = std::min(summary_.smallestRatio, practicallyOne);
+    add(stateAt(shape, p, sideOf(shape, p, {}), enough));
   }
 
   const QualitySummary& result() const { return summary_; }

@@ -25,9 +25,10 @@ std::vector<unsigned char> movingVertices(const Moves& moves)
 /// As stateAt; a quadrilateral, whose corners may turn out of a plane, is also seen from its own
 /// side, as its validity is told.
 template<class Shape>
-CellState stateFrom(Shape shape, const std::array<Point3, Shape::corners>& p, const Vector3& side)
+CellState stateFrom(Shape shape, const std::array<Point3, Shape::corners>& p, const Vector3& side,
+  double enough = infiniteQuality)
 {
-  CellState state = stateAt(shape, p, side);
+  CellState state = stateAt(shape, p, side, enough);
   if constexpr (Shape::dimension == 2 && Shape::corners == 4)
   {
     const CellState own = stateAt(shape, p, sideOf(shape, p, {}));
@@ -188,7 +189,7 @@ bool MoveGuard::accepts(Shape shape, const GuardedCell& guarded, const Moves& mo
   std::array<Point3, Shape::corners> points;
   std::transform(cell.begin(), cell.end(), points.begin(),
     [&](Index vertex) { return moves.position(mesh_, vertex); });
-  const CellState after = stateFrom(shape, points, guarded.side);
+  const CellState after = stateFrom(shape, points, guarded.side, guarded.leastQuality);
   return after.valid >= guarded.before.valid && after.quality >= guarded.leastQuality;
 }
 
@@ -219,10 +220,21 @@ std::vector<Index> MoveGuard::cornersWhere(const Predicate& holds) const
   return all;
 }
 
-bool MoveGuard::halveUnaccepted(Moves& moves) const
+bool MoveGuard::halveUnaccepted(Moves& moves)
 {
+  const auto hasChanged = [&](const auto& cell)
+  {
+    return lastFractions_.empty() ||
+           std::any_of(cell.begin(), cell.end(),
+             [&](Index vertex) { return moves.fractions[vertex] != lastFractions_[vertex]; });
+  };
   std::vector<Index> vertices = cornersWhere(
-    [&](auto shape, const GuardedCell& guarded) { return !accepts(shape, guarded, moves); });
+    [&](auto shape, const GuardedCell& guarded)
+    {
+      return hasChanged((mesh_.*decltype(shape)::cells)[guarded.cell]) &&
+             !accepts(shape, guarded, moves);
+    });
+  lastFractions_ = moves.fractions;
   std::sort(vertices.begin(), vertices.end());
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   bool halved = false;
@@ -244,8 +256,9 @@ std::vector<Index> MoveGuard::verticesOfSpoiltCells(double part) const
     [&](auto shape, const GuardedCell& guarded)
     {
       const auto& cell = (mesh_.*decltype(shape)::cells)[guarded.cell];
-      const CellState now = stateFrom(shape, cornersOf(cell, mesh_.points), guarded.side);
-      return guarded.before.valid && now.quality < part * guarded.before.quality;
+      const double least = part * guarded.before.quality;
+      const CellState now = stateFrom(shape, cornersOf(cell, mesh_.points), guarded.side, least);
+      return guarded.before.valid && now.quality < least;
     });
 }
 

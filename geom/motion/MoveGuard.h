@@ -70,8 +70,9 @@ public:
 
   /// One sweep: halves the fractions of the moving vertices of every cell that does not accept (to
   /// 0 after `maximumHalvings`, and at once where they move wholly). Returns true where it halved
-  /// any. Work linear in the number of cells with a vertex that moves.
-  bool halveUnaccepted(Moves& moves) const;
+  /// any. Between sweeps only fractions may change. Work: a look at each cell with a vertex that
+  /// moves; its state only where a fraction has changed since the sweep before.
+  bool halveUnaccepted(Moves& moves);
 
   /// Vertices of the guarded cells whose quality, with the mesh's points as they now are, is
   /// below this part of what it was in the reference state. In any order; may name a vertex more
@@ -99,6 +100,7 @@ private:
   const Mesh& mesh_;
   ParallelFor parallelFor_;
   std::array<std::vector<GuardedCell>, 4> guarded_; ///< By the order of the shapes.
+  std::vector<double> lastFractions_;               ///< In the last sweep; none: there was none.
 };
 
 } // namespace cadrefine

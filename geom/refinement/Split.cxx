@@ -266,7 +266,7 @@ bool areValid(const Mesh& cells, const std::vector<Point3>& points)
     {
       valid = valid && std::all_of(all.begin(), all.end(),
                          [&](const auto& cell)
-                         { return stateAt(shape, cornersOf(cell, points), {}).valid; });
+                         { return stateAt(shape, cornersOf(cell, points), {}, 0).valid; });
     });
   return valid;
 }
@@ -277,7 +277,7 @@ bool isValid(const Mesh& mesh, Index cell)
   bool valid = false;
   visitOwnCell(mesh, cell,
     [&](auto shape, const auto& corners)
-    { valid = stateAt(shape, cornersOf(corners, mesh.points), {}).valid; });
+    { valid = stateAt(shape, cornersOf(corners, mesh.points), {}, 0).valid; });
   return valid;
 }
 

@@ -22,7 +22,7 @@ using namespace cadrefine;
 /// Sweeps until nothing is halved; the number of sweeps.
 int settle(const Mesh& mesh, Moves& moves)
 {
-  const MoveGuard guard(mesh, moves);
+  MoveGuard guard(mesh, moves);
   int sweeps = 0;
   while (guard.halveUnaccepted(moves))
   {
