@@ -126,6 +126,11 @@ std::vector<unsigned char> findHeld(RankExchange& exchange, const DistributedMes
   return held;
 }
 
+ColumnNodes verticesOf(const DistributedMesh& mesh, const Classification& classification)
+{
+  return { mesh.mesh().points, mesh.mesh().ids, mesh.shared, classification.entities, {} };
+}
+
 /// Halves the moves of these vertices until every cell of every rank accepts them, then makes them.
 void settle(Motion& motion, MoveGuard& guard, const std::vector<Index>& moving)
 {
@@ -142,7 +147,7 @@ void settle(Motion& motion, MoveGuard& guard, const std::vector<Index>& moving)
   }
   for (const Index vertex : moving)
   {
-    motion.mesh().points[vertex] = moves.position(motion.mesh(), vertex);
+    motion.mesh().points[vertex] = moves.position(motion.mesh().points, vertex);
   }
   for (const Index vertex : moving)
   {
@@ -353,9 +358,10 @@ void moveOntoCAD(RankExchange& exchange, DistributedMesh& mesh, Moves moves,
   Left left{ aimed, settings.mendCells ? invalidCells(mesh.mesh(), plane, forOnThreads(exchange))
                                        : std::vector<Index>{} };
   Motion motion{ exchange, mesh, classification, settings, forOnThreads(exchange), plane,
-    mesh.mesh().points, Moves(mesh.mesh()),
+    mesh.mesh().points, Moves(mesh.mesh().points),
     std::vector<unsigned char>(mesh.mesh().points.size(), 0), findHeld(exchange, mesh),
-    LayerColumns(exchange, mesh, moves, settings.projector, classification, settings.fixed, plane),
+    LayerColumns(exchange, mesh, verticesOf(mesh, classification), moves, settings.projector,
+      settings.fixed, plane),
     aimed };
   motion.moves = std::move(moves);
 
@@ -396,14 +402,14 @@ std::vector<Point3> wantedPoints(RankExchange& exchange, const DistributedMesh& 
   {
     return piece.points;
   }
-  Moves moves(piece);
+  Moves moves(piece.points);
   for (const Index vertex : off)
   {
     moves.add(
       vertex, projector.nearestOn(classification.entities[vertex], piece.points[vertex]).point);
   }
-  LayerColumns columns(
-    exchange, mesh, moves, projector, classification, fixed, planeOf(exchange, piece));
+  LayerColumns columns(exchange, mesh, verticesOf(mesh, classification), moves, projector, fixed,
+    planeOf(exchange, piece));
   if (columns.any())
   {
     columns.follow(exchange, moves);

@@ -43,18 +43,18 @@ double larger(double a, double b)
 }
 
 /// A side of cells on its way to the rank that has the cell beyond it, and the column that stands
-/// on one of its corners.
+/// on one of its nodes.
 struct Front
 {
   GlobalId column;
   std::array<GlobalId, 4> side;
-  std::int64_t corner;
+  std::int64_t place; ///< Of the node there, see ColumnNodes::at.
   std::int64_t level;
   double height;
   double reach; ///< The column ends at this height.
 };
 
-/// Which column has a vertex: that of the lowest level, of these the smallest one.
+/// Which column has a node: that of the lowest level, of these the smallest one.
 struct Claim
 {
   std::int64_t level = std::numeric_limits<std::int64_t>::max();
@@ -66,7 +66,7 @@ struct Claim
   }
 };
 
-/// The facet at a moving vertex whose normal is nearest to the direction of its move.
+/// The facet at a moving node whose normal is nearest to the direction of its move.
 struct BestFacet
 {
   double cosine = -1;
@@ -78,7 +78,7 @@ BestFacet better(const BestFacet& a, const BestFacet& b)
   return a.cosine != b.cosine ? (a.cosine > b.cosine ? a : b) : (a.ids < b.ids ? a : b);
 }
 
-/// Where a vertex is to go, if anywhere.
+/// Where a node is to go, if anywhere.
 struct Place
 {
   Point3 point{};
@@ -106,7 +106,8 @@ std::array<GlobalId, 4> idsOf(const Mesh& mesh, const Facet& side)
 class Climb
 {
 public:
-  Climb(const DistributedMesh& mesh, const CellStacks& stacks) : mesh_(mesh), stacks_(stacks)
+  Climb(const DistributedMesh& mesh, const ColumnNodes& nodes)
+    : mesh_(mesh), nodes_(nodes), stacks_(mesh.mesh())
   {
     for (const Index vertex : mesh.shared.all)
     {
@@ -116,12 +117,12 @@ public:
     outgoing_.resize(mesh.shared.neighbours.size());
   }
 
-  /// A column that stands on this corner of a facet, on both sides of it.
-  void start(const Facet& facet, int corner, double reach)
+  /// A column that stands on this node of a facet, on both sides of it.
+  void start(const Facet& facet, int place, double reach)
   {
-    const GlobalId wall = mesh_.mesh().ids[facet.vertices[corner]];
-    climb(facet, { 2 * wall, {}, corner, 0, 0, reach });
-    goBeyond(facet, { 2 * wall + 1, {}, corner, 0, 0, reach });
+    const GlobalId wall = nodes_.ids[nodes_.at(facet, place)];
+    climb(facet, { 2 * wall, {}, place, 0, 0, reach });
+    goBeyond(facet, { 2 * wall + 1, {}, place, 0, 0, reach });
   }
 
   /// Collective.
@@ -158,11 +159,11 @@ private:
       {
         return;
       }
-      const auto& points = mesh_.mesh().points;
-      const Index vertex = above.vertices[front.corner];
-      front.height += distance(points[side.vertices[front.corner]], points[vertex]);
+      const auto place = static_cast<int>(front.place);
+      const Index node = nodes_.at(above, place);
+      front.height += distance(nodes_.points[nodes_.at(side, place)], nodes_.points[node]);
       ++front.level;
-      visited_.push_back({ vertex, front.column, front.level, front.height });
+      visited_.push_back({ node, front.column, front.level, front.height });
       if (front.height >= front.reach)
       {
         return;
@@ -215,40 +216,42 @@ private:
   }
 
   const DistributedMesh& mesh_;
-  const CellStacks& stacks_;
+  const ColumnNodes& nodes_;
+  const CellStacks stacks_;
   std::vector<std::pair<GlobalId, Index>> vertexOf_; ///< Of the ids of shared vertices.
   std::vector<std::vector<Front>> outgoing_;
   std::vector<ColumnVisit> visited_;
 };
 
-/// For each moving vertex the facet that its column stands on. Collective.
-std::vector<BestFacet> findBestFacets(RankExchange& exchange, const DistributedMesh& mesh,
-  const Moves& moves, const std::vector<Facet>& facets, const Vector3& plane)
+/// For each moving node the facet that its column stands on. Collective.
+std::vector<BestFacet> findBestFacets(RankExchange& exchange, const Mesh& mesh,
+  const ColumnNodes& nodes, const Moves& moves, const std::vector<Facet>& facets,
+  const Vector3& plane)
 {
-  const Mesh& piece = mesh.mesh();
-  std::vector<BestFacet> best(piece.points.size());
+  std::vector<BestFacet> best(nodes.points.size());
   for (const Facet& facet : facets)
   {
-    const Vector3 normal = unitNormal(piece, facet, plane);
-    for (const Index v : facet)
+    const Vector3 normal = unitNormal(mesh, facet, plane);
+    for (int k = 0; k < nodes.count(facet); ++k)
     {
-      if (moves.fractions[v] > 0)
+      const Index n = nodes.at(facet, k);
+      if (moves.fractions[n] > 0)
       {
-        const Vector3 direction = normalized(moves.targets[v] - piece.points[v]);
-        best[v] = better(best[v], { std::abs(dot(direction, normal)), idsOf(piece, facet) });
+        const Vector3 direction = normalized(moves.targets[n] - nodes.points[n]);
+        best[n] = better(best[n], { std::abs(dot(direction, normal)), idsOf(mesh, facet) });
       }
     }
   }
-  combineShared(exchange, mesh.shared, best, better);
+  combineShared(exchange, nodes.shared, best, better);
   return best;
 }
 
 } // namespace
 
-LayerColumns::LayerColumns(RankExchange& exchange, const DistributedMesh& mesh, const Moves& moves,
-  const BoundaryProjector& projector, const Classification& classification,
-  const std::vector<unsigned char>& fixed, const Vector3& plane)
-  : mesh_(mesh), projector_(projector), classification_(classification), plane_(plane)
+LayerColumns::LayerColumns(RankExchange& exchange, const DistributedMesh& mesh, ColumnNodes nodes,
+  const Moves& moves, const BoundaryProjector& projector, const std::vector<unsigned char>& fixed,
+  const Vector3& plane)
+  : mesh_(mesh), nodes_(std::move(nodes)), projector_(projector), plane_(plane)
 {
   const Mesh& piece = mesh.mesh();
   const bool isSurface = piece.dimension == 2 && plane == Vector3{};
@@ -258,17 +261,16 @@ LayerColumns::LayerColumns(RankExchange& exchange, const DistributedMesh& mesh, 
     return;
   }
   facets_ = findBoundaryFacets(exchange, mesh, fixed);
-  const CellStacks stacks(piece);
-  const auto best = findBestFacets(exchange, mesh, moves, facets_, plane);
-  Climb climb(mesh, stacks);
+  const auto best = findBestFacets(exchange, piece, nodes_, moves, facets_, plane);
+  Climb climb(mesh, nodes_);
   for (const Facet& facet : facets_)
   {
-    for (int k = 0; k < facet.corners(); ++k)
+    for (int k = 0; k < nodes_.count(facet); ++k)
     {
-      const Index v = facet.vertices[k];
-      if (moves.fractions[v] > 0 && best[v].ids == idsOf(piece, facet))
+      const Index n = nodes_.at(facet, k);
+      if (moves.fractions[n] > 0 && best[n].ids == idsOf(piece, facet))
       {
-        climb.start(facet, k, reachOfMove * distance(moves.targets[v], piece.points[v]));
+        climb.start(facet, k, reachOfMove * distance(moves.targets[n], nodes_.points[n]));
       }
     }
   }
@@ -288,7 +290,7 @@ LayerColumns::LayerColumns(RankExchange& exchange, const DistributedMesh& mesh, 
   }
 }
 
-/// The columns that came to vertices of this rank, and these vertices.
+/// The columns that came to nodes of this rank, and these nodes.
 void LayerColumns::listMembers(
   RankExchange& exchange, const std::vector<ColumnVisit>& visits, const Moves& moves)
 {
@@ -299,19 +301,18 @@ void LayerColumns::listMembers(
   std::vector<Index> numbers(columns_.size());
   std::iota(numbers.begin(), numbers.end(), 0);
   shared_ = findSharedVertices(exchange, columns_, numbers);
-  for (const auto& [vertex, column, level, height] : visits)
+  for (const auto& [node, column, level, height] : visits)
   {
     const auto found = std::lower_bound(columns_.begin(), columns_.end(), column);
-    members_.push_back({ vertex, static_cast<Index>(found - columns_.begin()), level, height, 0 });
+    members_.push_back({ node, static_cast<Index>(found - columns_.begin()), level, height, 0 });
   }
 
-  const Mesh& mesh = mesh_.mesh();
   std::vector<std::pair<GlobalId, Index>> moving;
-  for (std::size_t v = 0; v < mesh.ids.size(); ++v)
+  for (std::size_t n = 0; n < nodes_.ids.size(); ++n)
   {
-    if (moves.fractions[v] > 0)
+    if (moves.fractions[n] > 0)
     {
-      moving.emplace_back(mesh.ids[v], static_cast<Index>(v));
+      moving.emplace_back(nodes_.ids[n], static_cast<Index>(n));
     }
   }
   std::sort(moving.begin(), moving.end());
@@ -323,27 +324,27 @@ void LayerColumns::listMembers(
   }
 }
 
-/// 1 for members whose vertex an earlier column has: one that comes to it in fewer cells, or, in as
-/// many, whose wall's vertex has the smaller id. Collective.
+/// 1 for members whose node an earlier column has: one that comes to it in fewer cells, or, in as
+/// many, whose wall's node has the smaller id. Collective.
 std::vector<unsigned char> LayerColumns::findLost(RankExchange& exchange, const Moves& moves) const
 {
-  std::vector<Claim> claims(mesh_.mesh().points.size());
-  for (std::size_t v = 0; v < claims.size(); ++v)
+  std::vector<Claim> claims(nodes_.points.size());
+  for (std::size_t n = 0; n < claims.size(); ++n)
   {
-    claims[v] = moves.fractions[v] > 0 ? Claim{ 0, -1 } : Claim{};
+    claims[n] = moves.fractions[n] > 0 ? Claim{ 0, -1 } : Claim{};
   }
   const auto claimOf = [&](const Member& member) {
     return Claim{ member.level, columns_[member.column] };
   };
   for (const Member& member : members_)
   {
-    claims[member.vertex] = std::min(claims[member.vertex], claimOf(member));
+    claims[member.node] = std::min(claims[member.node], claimOf(member));
   }
   combineShared(
-    exchange, mesh_.shared, claims, [](const Claim& a, const Claim& b) { return std::min(a, b); });
+    exchange, nodes_.shared, claims, [](const Claim& a, const Claim& b) { return std::min(a, b); });
   std::vector<unsigned char> lost;
   std::transform(members_.begin(), members_.end(), std::back_inserter(lost),
-    [&](const Member& member) { return claims[member.vertex] < claimOf(member); });
+    [&](const Member& member) { return claims[member.node] < claimOf(member); });
   return lost;
 }
 
@@ -357,7 +358,7 @@ std::vector<LayerColumns::Span> LayerColumns::findSpans(
   std::vector<double> tops(columns_.size(), 0);
   for (std::size_t k = 0; k < members_.size(); ++k)
   {
-    const auto& [vertex, c, level, height, part] = members_[k];
+    const auto& [node, c, level, height, part] = members_[k];
     firsts[c] = std::min(firsts[c], height);
     tops[c] = std::max(tops[c], height);
     lost[c] = isLost[k] ? std::min(lost[c], height) : lost[c];
@@ -377,7 +378,7 @@ std::vector<LayerColumns::Span> LayerColumns::findSpans(
     if (member.height == tops[c])
     {
       const bool goesAlong = lost[c] == infinity && tops[c] < reachOfMove * move &&
-                             !blocked[member.vertex] && keepsDirection(member.vertex, ofWalls[c]);
+                             !blocked[member.node] && keepsDirection(member.node, ofWalls[c]);
       faded[c] = goesAlong ? std::max(faded[c], std::min(1.0, height / (heightsOfMove * move))) : 1;
     }
   }
@@ -395,10 +396,10 @@ std::vector<Vector3> LayerColumns::movesOfWalls(RankExchange& exchange, const Mo
   std::vector<Vector3> ofWalls(walls_.size(), Vector3{});
   for (std::size_t c = 0; c < walls_.size(); ++c)
   {
-    const Index v = walls_[c];
-    if (v >= 0 && moves.fractions[v] > 0)
+    const Index n = walls_[c];
+    if (n >= 0 && moves.fractions[n] > 0)
     {
-      ofWalls[c] = moves.targets[v] - mesh_.mesh().points[v];
+      ofWalls[c] = moves.targets[n] - nodes_.points[n];
     }
   }
   combineShared(exchange, shared_, ofWalls,
@@ -406,46 +407,47 @@ std::vector<Vector3> LayerColumns::movesOfWalls(RankExchange& exchange, const Mo
   return ofWalls;
 }
 
-/// 1 for vertices of a boundary off the CAD that would leave the plane of a facet.
+/// 1 for nodes that are held, and those of a boundary off the CAD that would leave the plane of a
+/// facet.
 std::vector<unsigned char> LayerColumns::findBlocked(
   RankExchange& exchange, const std::vector<Vector3>& ofWalls) const
 {
-  const Mesh& mesh = mesh_.mesh();
-  std::vector<Vector3> ofVertices(mesh.points.size(), Vector3{});
+  std::vector<Vector3> ofNodes(nodes_.points.size(), Vector3{});
   for (const Member& member : members_)
   {
-    ofVertices[member.vertex] = ofWalls[member.column];
+    ofNodes[member.node] = ofWalls[member.column];
   }
-  combineShared(exchange, mesh_.shared, ofVertices,
+  combineShared(exchange, nodes_.shared, ofNodes,
     [](const Vector3& a, const Vector3& b) { return a == Vector3{} ? b : a; });
-  std::vector<unsigned char> blocked(mesh.points.size(), 0);
+  std::vector<unsigned char> blocked = nodes_.held;
+  blocked.resize(ofNodes.size(), 0);
   for (const Facet& facet : facets_)
   {
-    const Vector3 normal = unitNormal(mesh, facet, plane_);
-    for (const Index v : facet)
+    const Vector3 normal = unitNormal(mesh_.mesh(), facet, plane_);
+    for (int k = 0; k < nodes_.count(facet); ++k)
     {
-      const Vector3& move = ofVertices[v];
-      blocked[v] = blocked[v] || (!classification_.entities[v] &&
-                                   std::abs(dot(move, normal)) > inPlane * norm(move));
+      const Index n = nodes_.at(facet, k);
+      const Vector3& move = ofNodes[n];
+      blocked[n] =
+        blocked[n] || (!nodes_.entities[n] && std::abs(dot(move, normal)) > inPlane * norm(move));
     }
   }
-  combineShared(exchange, mesh_.shared, blocked,
+  combineShared(exchange, nodes_.shared, blocked,
     [](unsigned char a, unsigned char b) { return std::max(a, b); });
   return blocked;
 }
 
-/// Where a move brings a vertex that keeps to its entity.
-Point3 LayerColumns::placeOf(Index vertex, const Vector3& move) const
+/// Where a move brings a node that keeps to its entity.
+Point3 LayerColumns::placeOf(Index node, const Vector3& move) const
 {
-  const Point3 target = mesh_.mesh().points[vertex] + move;
-  const EntityId entity = classification_.entities[vertex];
+  const Point3 target = nodes_.points[node] + move;
+  const EntityId entity = nodes_.entities[node];
   return entity ? projector_.nearestOn(entity, target).point : target;
 }
 
-bool LayerColumns::keepsDirection(Index vertex, const Vector3& move) const
+bool LayerColumns::keepsDirection(Index node, const Vector3& move) const
 {
-  return distance(placeOf(vertex, move), mesh_.mesh().points[vertex] + move) <=
-         alongEntity * norm(move);
+  return distance(placeOf(node, move), nodes_.points[node] + move) <= alongEntity * norm(move);
 }
 
 std::vector<Index> LayerColumns::follow(RankExchange& exchange, Moves& moves)
@@ -453,40 +455,40 @@ std::vector<Index> LayerColumns::follow(RankExchange& exchange, Moves& moves)
   const auto ofWalls = movesOfWalls(exchange, moves);
   const auto blocked = findBlocked(exchange, ofWalls);
   following_.clear();
-  std::vector<Place> places(mesh_.mesh().points.size());
+  std::vector<Place> places(nodes_.points.size());
   for (const Member& member : members_)
   {
     const Vector3& move = ofWalls[member.column];
-    if (move != Vector3{} && !blocked[member.vertex])
+    if (move != Vector3{} && !blocked[member.node])
     {
-      places[member.vertex] = { placeOf(member.vertex, member.part * move), 1 };
+      places[member.node] = { placeOf(member.node, member.part * move), 1 };
       following_.push_back(member);
     }
   }
-  combineShared(
-    exchange, mesh_.shared, places, [](const Place& a, const Place& b) { return a.isSet ? a : b; });
-  std::vector<Index> vertices;
-  for (std::size_t v = 0; v < places.size(); ++v)
+  combineShared(exchange, nodes_.shared, places,
+    [](const Place& a, const Place& b) { return a.isSet ? a : b; });
+  std::vector<Index> followers;
+  for (std::size_t n = 0; n < places.size(); ++n)
   {
-    if (places[v].isSet)
+    if (places[n].isSet)
     {
-      if (moves.fractions[v] == 0)
+      if (moves.fractions[n] == 0)
       {
-        vertices.push_back(static_cast<Index>(v));
+        followers.push_back(static_cast<Index>(n));
       }
-      moves.add(static_cast<Index>(v), places[v].point);
+      moves.add(static_cast<Index>(n), places[n].point);
     }
   }
-  return vertices;
+  return followers;
 }
 
-/// use(column, vertex) of what goes the same part of its way.
+/// use(column, node) of what goes the same part of its way.
 template<class Use>
 void LayerColumns::forAllTied(const Use& use) const
 {
   for (const Member& member : following_)
   {
-    use(member.column, member.vertex);
+    use(member.column, member.node);
   }
   for (std::size_t c = 0; c < walls_.size(); ++c)
   {
@@ -500,11 +502,11 @@ void LayerColumns::forAllTied(const Use& use) const
 void LayerColumns::tie(RankExchange& exchange, Moves& moves) const
 {
   std::vector<double> smallest(walls_.size(), infinity);
-  forAllTied([&](Index column, Index vertex)
-    { smallest[column] = std::min(smallest[column], moves.fractions[vertex]); });
+  forAllTied([&](Index column, Index node)
+    { smallest[column] = std::min(smallest[column], moves.fractions[node]); });
   combineShared(exchange, shared_, smallest, smaller);
-  forAllTied([&](Index column, Index vertex)
-    { moves.fractions[vertex] = std::min(moves.fractions[vertex], smallest[column]); });
+  forAllTied([&](Index column, Index node)
+    { moves.fractions[node] = std::min(moves.fractions[node], smallest[column]); });
 }
 
 } // namespace cadrefine

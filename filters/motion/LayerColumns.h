@@ -4,7 +4,8 @@
 #include "mesh/DistributedMesh.h"
 
 #include <cadrefine/classification/BoundaryProjector.h>
-#include <cadrefine/classification/Classification.h>
+#include <cadrefine/mesh/EdgeTable.h>
+#include <cadrefine/mesh/Facets.h>
 #include <cadrefine/motion/MoveGuard.h>
 
 #include <cstdint>
@@ -13,26 +14,50 @@
 namespace cadrefine
 {
 
-/// A vertex that a column comes to, so many cells and so far above the wall.
+/// What columns are made of: the vertices of a mesh, or the mid nodes of its edges.
+struct ColumnNodes
+{
+  const std::vector<Point3>& points;
+  const std::vector<GlobalId>& ids;
+  const SharedItems& shared;
+  const std::vector<EntityId>& entities; ///< The CAD entities on which nodes are.
+  std::vector<unsigned char> held;       ///< 1: the node stays; none: none does.
+  const EdgeTable* edges = nullptr;      ///< Of mid nodes.
+
+  /// How many a side of a cell has.
+  int count(const Facet& side) const
+  {
+    return edges && side.corners() == 2 ? 1 : static_cast<int>(side.corners());
+  }
+  /// At corner k of a side, or between this corner and the next.
+  Index at(const Facet& side, int k) const
+  {
+    const Index corner = side.vertices[k];
+    return edges ? edges->find(corner, side.vertices[(k + 1) % side.corners()]) : corner;
+  }
+};
+
+/// A node that a column comes to, so many cells and so far above the wall.
 struct ColumnVisit
 {
-  Index vertex;
+  Index node;
   GlobalId column;
   std::int64_t level;
   double height;
 };
 
-/// Columns of vertices over the moving vertices of walls: up the edges of the wedges, hexahedra or
-/// quadrilaterals that stand on a boundary facet at such a vertex, on whatever ranks, to where the
-/// stack ends, or another column comes closer to its wall (counted in cells; ties by the ids of the
-/// walls' vertices), or the column is a hundred times as high as the move. Of several facets at the
-/// vertex that counts whose normal is nearest to the direction of the move.
+/// Columns of nodes over the moving nodes of walls, through the wedges, hexahedra or quadrilaterals
+/// that stand on a boundary facet at such a node, on whatever ranks, to where the stack ends, or
+/// another column comes closer to its wall (counted in cells; ties by the ids of the walls' nodes),
+/// or the column is a hundred times as high as the move. Columns of vertices go up edges, those of
+/// mid nodes from edge to edge. Of several facets at the node that counts whose normal is nearest
+/// to the direction of the move.
 ///
-/// A wall's vertex takes its column along: the first vertex of it all the way, so that the height
+/// A wall's node takes its column along: the first node of it all the way, so that the height
 /// of the first cell stays, the others less and less (by 3 x^2 - 2 x^3 of the height over the
 /// first), the last one not at all. On a stack that is lower than six moves what follows has to
 /// make way: so much less fades out that no cell of the stack loses more than a quarter of its
-/// height. Vertices of a column that are on a boundary keep to it: those on the CAD to their
+/// height. Nodes of a column that are on a boundary keep to it: those on the CAD to their
 /// entity, others move if they stay in the planes of their facets; where the last one cannot go
 /// along, all of the move fades out.
 ///
@@ -42,35 +67,35 @@ class LayerColumns
 {
 public:
   /// None, unless some rank has other cells than simplices; nor where `plane`, the normal of a
-  /// planar mesh, is zero in 2D. `fixed`: 1 for vertices on the boundary, over all ranks.
-  /// Collective.
-  LayerColumns(RankExchange& exchange, const DistributedMesh& mesh, const Moves& moves,
-    const BoundaryProjector& projector, const Classification& classification,
-    const std::vector<unsigned char>& fixed, const Vector3& plane);
+  /// planar mesh, is zero in 2D. `moves`: of the nodes. `fixed`: 1 for vertices on the boundary,
+  /// over all ranks. Keeps references to the mesh and to what the nodes refer to. Collective.
+  LayerColumns(RankExchange& exchange, const DistributedMesh& mesh, ColumnNodes nodes,
+    const Moves& moves, const BoundaryProjector& projector, const std::vector<unsigned char>& fixed,
+    const Vector3& plane);
 
   /// Whether there may be columns, on any rank.
   bool any() const { return any_; }
 
-  /// Adds the moves of the columns' vertices to those of their walls. Returns those of these
-  /// vertices that did not move before. Collective.
+  /// Adds the moves of the columns' nodes to those of their walls. Returns those of these nodes
+  /// that did not move before. Collective.
   std::vector<Index> follow(RankExchange& exchange, Moves& moves);
 
-  /// Makes all vertices of a column that follow, and that of its wall, go the same part of their
+  /// Makes all nodes of a column that follow, and that of its wall, go the same part of their
   /// way: the smallest. Collective.
   void tie(RankExchange& exchange, Moves& moves) const;
 
 private:
-  /// A vertex that a column comes to, see ColumnVisit.
+  /// A node that a column comes to, see ColumnVisit.
   struct Member
   {
-    Index vertex;
+    Index node;
     Index column;
     std::int64_t level;
     double height;
-    double part; ///< Of the move of the wall's vertex.
+    double part; ///< Of the move of the wall's node.
   };
 
-  /// Heights of a column's first vertex, and of where it ends; what part of the move has faded out
+  /// Heights of a column's first node, and of where it ends; what part of the move has faded out
   /// there.
   struct Span
   {
@@ -88,19 +113,19 @@ private:
   std::vector<Vector3> movesOfWalls(RankExchange& exchange, const Moves& moves) const;
   std::vector<unsigned char> findBlocked(
     RankExchange& exchange, const std::vector<Vector3>& ofWalls) const;
-  Point3 placeOf(Index vertex, const Vector3& move) const;
-  bool keepsDirection(Index vertex, const Vector3& move) const;
+  Point3 placeOf(Index node, const Vector3& move) const;
+  bool keepsDirection(Index node, const Vector3& move) const;
   template<class Use>
   void forAllTied(const Use& use) const;
 
   const DistributedMesh& mesh_;
+  const ColumnNodes nodes_;
   const BoundaryProjector& projector_;
-  const Classification& classification_;
   Vector3 plane_;
   bool any_ = false;
   std::vector<Facet> facets_;     ///< Of the mesh's boundary.
-  std::vector<GlobalId> columns_; ///< Ascending: twice the id of the wall's vertex, 1 more beyond.
-  std::vector<Index> walls_; ///< The vertex of each column's wall; -1: only other ranks start it.
+  std::vector<GlobalId> columns_; ///< Ascending: twice the id of the wall's node, 1 more beyond.
+  std::vector<Index> walls_; ///< The node of each column's wall; -1: only other ranks start it.
   SharedItems shared_;       ///< Columns.
   std::vector<Member> members_;
   std::vector<Member> following_; ///< Those of them that move.

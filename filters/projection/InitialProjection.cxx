@@ -152,7 +152,7 @@ ProjectionResult projectBoundary(RankExchange& exchange, DistributedMesh& mesh,
     onCAD = findVerticesOnCAD(task, facets.records);
   }
   result.classification.resize(hits.size());
-  Moves moves(mesh.mesh());
+  Moves moves(mesh.mesh().points);
   for (std::size_t v = 0; v < hits.size(); ++v)
   {
     if (onCAD[v] && hits[v].entity)

@@ -3,6 +3,7 @@
 #include "classification/EdgeMidpoints.h"
 #include "comm/Threads.h"
 #include "mesh/MeshPlane.h"
+#include "motion/LayerColumns.h"
 
 #include <cadrefine/quadratic/MidNodeGuard.h>
 
@@ -14,47 +15,133 @@ namespace cadrefine
 namespace
 {
 
-/// Makes the mesh one of second order, given its edges.
-void makeMidNodes(RankExchange& exchange, DistributedMesh& mesh, MarkedEdges edges)
+/// A node that is to move by less of the length of its edge is where it is to go.
+constexpr double negligible = 1e-9;
+
+/// Makes the mesh one of second order, given its edges, whose table is taken.
+void makeMidNodes(RankExchange& exchange, DistributedMesh& mesh, MarkedEdges& edges)
 {
   auto ids =
     numberMidpoints(exchange, mesh.shared, mesh.mesh().ids, mesh.vertexIdBound, edges.table.edges);
   MidNodes& nodes = mesh.converted.midNodes.emplace();
   nodes.ids = std::move(ids);
   nodes.table = std::move(edges.table);
-  nodes.points.reserve(nodes.table.edges.size());
-  for (const auto& ends : nodes.table.edges)
-  {
-    nodes.points.push_back(middleOf(mesh.mesh(), ends));
-  }
+  nodes.points = middlesOf(mesh.mesh(), nodes.table.edges);
   mesh.sharedPoints = findSharedPoints(mesh, edges.sharedEdges);
 }
 
-/// Takes the moves back until all cells of all ranks are valid.
-void settle(RankExchange& exchange, const DistributedMesh& mesh, const MarkedEdges& edges,
-  MidNodeMoves& moves)
+/// Mid nodes on their way onto the CAD, and those over them that go along.
+class Placing
 {
-  const Mesh& piece = mesh.mesh();
-  const Vector3 plane = piece.dimension == 2 ? planeNormal(exchange, piece) : Vector3{};
-  const auto combine = [&]
+public:
+  Placing(RankExchange& exchange, const DistributedMesh& mesh, const SharedEdges& sharedEdges,
+    const ClassifiedBoundary& classified)
+    : exchange_(exchange), mesh_(mesh), sharedEdges_(sharedEdges), classified_(classified),
+      nodes_(*mesh.converted.midNodes),
+      plane_(mesh.mesh().dimension == 2 ? planeNormal(exchange, mesh.mesh()) : Vector3{}),
+      moves_(nodes_.points)
   {
-    combineShared(exchange, edges.sharedEdges, moves.fractions,
-      [](double a, double b) { return std::min(a, b); });
-  };
-  keepPyramidsStraight(edges.table, moves);
-  combine();
-  MidNodeGuard guard(piece, edges.table, moves, plane, forOnThreads(exchange));
-  while (exchange.any(guard.stepBack(moves)))
-  {
-    combine();
   }
-}
+
+  /// The places of all mid nodes: those of the hits there, as far as all cells stay valid. Of those
+  /// that slide on the CAD to go along the hits become where they are to be. Collective.
+  std::vector<Point3> place(std::vector<MidpointOnCAD>& hits)
+  {
+    std::vector<EntityId> entities(nodes_.points.size());
+    for (const MidpointOnCAD& hit : hits)
+    {
+      entities[hit.place] = hit.where.entity;
+      if (!isThere(hit))
+      {
+        moves_.add(static_cast<Index>(hit.place), hit.where.point);
+      }
+    }
+    const std::vector<unsigned char> held = findHeld();
+    LayerColumns columns(exchange_, mesh_,
+      { nodes_.points, nodes_.ids, sharedEdges_, entities, held, &nodes_.table }, moves_,
+      classified_.projector, classified_.boundary.onBoundary, plane_);
+    if (columns.any())
+    {
+      columns.follow(exchange_, moves_);
+    }
+    takeHits(hits);
+    std::transform(moves_.fractions.begin(), moves_.fractions.end(), held.begin(),
+      moves_.fractions.begin(), [](double fraction, bool stays) { return stays ? 0 : fraction; });
+    settle(columns);
+    std::vector<Point3> places(nodes_.points.size());
+    for (std::size_t e = 0; e < places.size(); ++e)
+    {
+      places[e] = moves_.position(nodes_.points, static_cast<Index>(e));
+    }
+    return places;
+  }
+
+private:
+  bool isThere(const MidpointOnCAD& hit) const
+  {
+    const auto& [a, b] = nodes_.table.edges[hit.place];
+    const std::vector<Point3>& points = mesh_.mesh().points;
+    return distance(hit.where.point, nodes_.points[hit.place]) <=
+           negligible * distance(points[a], points[b]);
+  }
+
+  std::vector<unsigned char> findHeld()
+  {
+    auto held = midNodesOfPyramids(nodes_.table);
+    combineShared(exchange_, sharedEdges_, held,
+      [](unsigned char a, unsigned char b) { return std::max(a, b); });
+    return held;
+  }
+
+  /// What no column has moved goes to its hit, others that are on the CAD to where they are near.
+  void takeHits(std::vector<MidpointOnCAD>& hits)
+  {
+    for (auto& [edge, where] : hits)
+    {
+      if (moves_.fractions[edge] > 0 && moves_.targets[edge] != where.point)
+      {
+        where = classified_.projector.nearestOn(where.entity, moves_.targets[edge]);
+      }
+      moves_.add(static_cast<Index>(edge), where.point);
+    }
+  }
+
+  /// Takes the moves back until all cells of all ranks are valid.
+  void settle(const LayerColumns& columns)
+  {
+    const auto combine = [&]
+    {
+      combineShared(exchange_, sharedEdges_, moves_.fractions,
+        [](double a, double b) { return std::min(a, b); });
+    };
+    MidNodeGuard guard(
+      mesh_.mesh(), nodes_.table, nodes_.points, moves_, plane_, forOnThreads(exchange_));
+    while (exchange_.any(guard.stepBack(moves_)))
+    {
+      combine();
+      if (columns.any())
+      {
+        columns.tie(exchange_, moves_);
+        combine();
+      }
+    }
+  }
+
+  RankExchange& exchange_;
+  const DistributedMesh& mesh_;
+  const SharedEdges& sharedEdges_;
+  const ClassifiedBoundary& classified_;
+  const MidNodes& nodes_; ///< In the middle of their edges.
+  const Vector3 plane_;
+  Moves moves_;
+};
 
 } // namespace
 
 void addMidNodes(RankExchange& exchange, DistributedMesh& mesh)
 {
-  makeMidNodes(exchange, mesh, findEdges(exchange, mesh, 1));
+  MarkedEdges edges = findEdges(exchange, mesh, 1);
+  makeMidNodes(exchange, mesh, edges);
 }
 
 std::int64_t placeMidNodes(RankExchange& exchange, DistributedMesh& mesh,
@@ -63,26 +150,19 @@ std::int64_t placeMidNodes(RankExchange& exchange, DistributedMesh& mesh,
 {
   const RunStatistics::Stopwatch watch(statistics, "seconds mid nodes");
   MarkedEdges edges = findEdges(exchange, mesh, 1);
-  const auto hits = projectMidpoints(exchange, mesh.mesh(), edges,
-    edgeCodes(exchange, edges, classified), classified, classification, statistics);
-  MidNodeMoves moves(mesh.mesh(), edges.table);
-  for (const MidpointOnCAD& hit : hits)
+  auto hits = projectMidpoints(exchange, mesh.mesh(), edges, edgeCodes(exchange, edges, classified),
+    classified, classification, statistics);
+  makeMidNodes(exchange, mesh, edges);
+  std::vector<Point3>& nodes = mesh.converted.midNodes->points;
+  if (move)
   {
-    if (move)
-    {
-      moves.add(static_cast<Index>(hit.place), hit.where.point);
-    }
+    nodes = Placing(exchange, mesh, edges.sharedEdges, classified).place(hits);
   }
-  settle(exchange, mesh, edges, moves);
-  makeMidNodes(exchange, mesh, std::move(edges));
   const std::size_t vertices = mesh.mesh().points.size();
   classifyMidpoints(hits, mesh.pointCount(), classification);
   for (const MidpointOnCAD& hit : hits)
   {
-    const auto edge = static_cast<Index>(hit.place);
-    const Point3 position = moves.position(edge);
-    mesh.converted.midNodes->points[edge] = position;
-    classification.distances[vertices + edge] = distance(position, hit.where.point);
+    classification.distances[vertices + hit.place] = distance(nodes[hit.place], hit.where.point);
   }
   return countHits(exchange, mesh.sharedPoints, vertices, hits);
 }

@@ -17,15 +17,16 @@ namespace cadrefine
 void addMidNodes(RankExchange& exchange, DistributedMesh& mesh);
 
 /// The same, and moves the mid nodes of edges on the CAD to where the class of their edge in
-/// `classified`, the boundary of the mesh, says, as
-/// far as all cells stay valid (see MidNodeGuard), but for those of pyramids; the classification
-/// gets an entry for each mid node, with what is left of its way for a distance. With `move` false
-/// they stay in the middle, classified. Returns how many were projected, over all ranks. Adds to
-/// the figures "seconds mid nodes".
+/// `classified`, the boundary of the mesh, says, as far as all cells stay valid (see MidNodeGuard),
+/// but for those of pyramids; those of the edges over them in layers go along (see LayerColumns).
+/// The classification gets an entry for each mid node, with what is left of its way for a distance.
+/// With `move` false they stay in the middle, classified. Returns how many were projected, over all
+/// ranks. Adds to the figures "seconds mid nodes".
 ///
-/// Collective. Work: one projection for each edge on the CAD, shared out evenly, and the sweeps of
-/// MidNodeGuard, at most 20 over cells whose nodes have changed. Messages: those of these steps,
-/// and for each sweep an exchange of 8 bytes a shared edge and one reduction.
+/// Collective. Work: that of LayerColumns, one projection for each edge on the CAD, shared out
+/// evenly, and the sweeps of MidNodeGuard, at most 20 over cells whose nodes have changed.
+/// Messages: those of these steps, and for each sweep an exchange of 8 bytes a shared edge and one
+/// reduction.
 std::int64_t placeMidNodes(RankExchange& exchange, DistributedMesh& mesh,
   const ClassifiedBoundary& classified, Classification& classification, bool move,
   RunStatistics& statistics);

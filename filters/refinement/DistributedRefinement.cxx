@@ -223,7 +223,7 @@ std::array<std::vector<GlobalId>, 4> numberChildren(
 Moves movesOntoCAD(
   const Mesh& mesh, const BoundaryProjector& projector, Classification& classification)
 {
-  Moves moves(mesh);
+  Moves moves(mesh.points);
   for (std::size_t v = 0; v < classification.entities.size(); ++v)
   {
     if (classification.distances[v] > 0)

@@ -39,28 +39,6 @@ CellState stateFrom(Shape shape, const std::array<Point3, Shape::corners>& p, co
 
 } // namespace
 
-Moves::Moves(const Mesh& mesh)
-  : targets(mesh.points), fractions(mesh.points.size(), 0.0), whole(mesh.points.size(), 0)
-{
-}
-
-void Moves::add(Index vertex, const Point3& target)
-{
-  targets[vertex] = target;
-  fractions[vertex] = 1;
-}
-
-Point3 Moves::position(const Mesh& mesh, Index vertex) const
-{
-  const double fraction = fractions[vertex];
-  if (fraction == 1)
-  {
-    return targets[vertex];
-  }
-  const Point3& start = mesh.points[vertex];
-  return fraction == 0 ? start : start + fraction * (targets[vertex] - start);
-}
-
 std::vector<Index> cellsAt(
   const Mesh& mesh, const std::vector<unsigned char>& flags, const ParallelFor& parallelFor)
 {
@@ -188,7 +166,7 @@ bool MoveGuard::accepts(Shape shape, const GuardedCell& guarded, const Moves& mo
   const auto& cell = (mesh_.*Shape::cells)[guarded.cell];
   std::array<Point3, Shape::corners> points;
   std::transform(cell.begin(), cell.end(), points.begin(),
-    [&](Index vertex) { return moves.position(mesh_, vertex); });
+    [&](Index vertex) { return moves.position(mesh_.points, vertex); });
   const CellState after = stateFrom(shape, points, guarded.side, guarded.leastQuality);
   return after.valid >= guarded.before.valid && after.quality >= guarded.leastQuality;
 }

@@ -1,6 +1,7 @@
 // Moving vertices to their targets without ever inverting a cell.
 #pragma once
 
+#include <cadrefine/base/Moves.h>
 #include <cadrefine/base/ParallelFor.h>
 #include <cadrefine/mesh/CellState.h>
 #include <cadrefine/mesh/Mesh.h>
@@ -10,20 +11,6 @@
 
 namespace cadrefine
 {
-
-/// Straight moves of some vertices of a mesh, each done up to a part of its way.
-struct Moves
-{
-  std::vector<Point3> targets;      ///< A vertex each; the vertex itself where it does not move.
-  std::vector<double> fractions;    ///< In [0, 1]; 0 where it does not move.
-  std::vector<unsigned char> whole; ///< 1: the vertex moves all of its way or not at all.
-
-  /// No moves of the vertices of `mesh`.
-  explicit Moves(const Mesh& mesh);
-  void add(Index vertex, const Point3& target);
-  /// Where the vertex stands: its target exactly at fraction 1.
-  Point3 position(const Mesh& mesh, Index vertex) const;
-};
 
 /// Cells of the mesh's own dimension with a flagged vertex, ascending. Work: one look at each cell.
 std::vector<Index> cellsAt(

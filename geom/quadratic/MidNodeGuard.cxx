@@ -56,48 +56,23 @@ bool stepBackWhere(const std::vector<Index>& cells, const std::vector<unsigned c
 
 } // namespace
 
-MidNodeMoves::MidNodeMoves(const Mesh& mesh, const EdgeTable& table)
-  : fractions(table.edges.size(), 0.0)
+std::vector<unsigned char> midNodesOfPyramids(const EdgeTable& table)
 {
-  middles.reserve(table.edges.size());
-  for (const auto& ends : table.edges)
-  {
-    middles.push_back(middleOf(mesh, ends));
-  }
-  targets = middles;
-}
-
-void MidNodeMoves::add(Index edge, const Point3& target)
-{
-  targets[edge] = target;
-  fractions[edge] = 1;
-}
-
-Point3 MidNodeMoves::position(Index edge) const
-{
-  const double fraction = fractions[edge];
-  if (fraction == 1)
-  {
-    return targets[edge];
-  }
-  const Point3& middle = middles[edge];
-  return fraction == 0 ? middle : middle + fraction * (targets[edge] - middle);
-}
-
-void keepPyramidsStraight(const EdgeTable& table, MidNodeMoves& moves)
-{
+  std::vector<unsigned char> flags(table.edges.size(), 0);
   for (const auto& edges : table.ofPyramids)
   {
     for (const Index edge : edges)
     {
-      moves.fractions[edge] = 0;
+      flags[edge] = 1;
     }
   }
+  return flags;
 }
 
-MidNodeGuard::MidNodeGuard(const Mesh& mesh, const EdgeTable& table, const MidNodeMoves& moves,
-  const Vector3& plane, const ParallelFor& parallelFor)
-  : mesh_(mesh), table_(table), plane_(plane), parallelFor_(parallelFor),
+MidNodeGuard::MidNodeGuard(const Mesh& mesh, const EdgeTable& table,
+  const std::vector<Point3>& middles, const Moves& moves, const Vector3& plane,
+  const ParallelFor& parallelFor)
+  : mesh_(mesh), table_(table), middles_(middles), plane_(plane), parallelFor_(parallelFor),
     seen_(moves.fractions.size(), -1.0)
 {
   visitOwnShapes(mesh, [&](auto shape, const auto&)
@@ -106,10 +81,10 @@ MidNodeGuard::MidNodeGuard(const Mesh& mesh, const EdgeTable& table, const MidNo
 
 template<class Shape>
 std::vector<unsigned char> MidNodeGuard::findInvalid(
-  Shape shape, const std::vector<Index>& cells, const MidNodeMoves& moves) const
+  Shape shape, const std::vector<Index>& cells, const Moves& moves) const
 {
   std::vector<unsigned char> invalid(cells.size(), 0);
-  const auto nodeAt = [&](Index edge) { return moves.position(edge); };
+  const auto nodeAt = [&](Index edge) { return moves.position(middles_, edge); };
   const auto hasChanged = [&](Index edge) { return moves.fractions[edge] != seen_[edge]; };
   forEachIndex(parallelFor_, cells.size(), fineGrain,
     [&](std::size_t i)
@@ -122,7 +97,7 @@ std::vector<unsigned char> MidNodeGuard::findInvalid(
   return invalid;
 }
 
-bool MidNodeGuard::stepBack(MidNodeMoves& moves)
+bool MidNodeGuard::stepBack(Moves& moves)
 {
   std::vector<std::vector<unsigned char>> invalid;
   visitOwnShapes(mesh_, [&](auto shape, const auto&)

@@ -1,6 +1,7 @@
 // Moving mid nodes onto the CAD without making a cell of second order invalid.
 #pragma once
 
+#include <cadrefine/base/Moves.h>
 #include <cadrefine/base/ParallelFor.h>
 #include <cadrefine/mesh/EdgeTable.h>
 #include <cadrefine/mesh/Mesh.h>
@@ -10,23 +11,9 @@
 namespace cadrefine
 {
 
-/// Moves of mid nodes from the middles of their edges, each done up to a part of its way.
-struct MidNodeMoves
-{
-  std::vector<Point3> middles;   ///< A node for each edge.
-  std::vector<Point3> targets;   ///< The middle where the node does not move.
-  std::vector<double> fractions; ///< In [0, 1]; 0 where it does not move.
-
-  /// No moves of the mid nodes of `mesh`.
-  MidNodeMoves(const Mesh& mesh, const EdgeTable& table);
-  void add(Index edge, const Point3& target);
-  /// Where the node stands: its target exactly at fraction 1, the middle exactly at 0.
-  Point3 position(Index edge) const;
-};
-
-/// Takes the mid nodes of pyramids back to the middle (see isValid). Over ranks take the minimum of
-/// the fractions of shared edges afterwards.
-void keepPyramidsStraight(const EdgeTable& table, MidNodeMoves& moves);
+/// 1 for the mid nodes of pyramids, which are to stay in the middle (see isValid). Over ranks take
+/// the maximum of shared edges.
+std::vector<unsigned char> midNodesOfPyramids(const EdgeTable& table);
 
 /// Finds how far mid nodes can go so that all cells of the mesh's own dimension stay valid by the
 /// Bezier bounds of isValid.
@@ -50,23 +37,25 @@ public:
   static constexpr double firstStep = 1.0 / 128;
   static constexpr int maximumHalvings = 12;
 
-  /// `plane` is the unit normal of a planar mesh, from whose end its cells should turn; where it is
-  /// zero, cells of area keep the side of their straight normal. Keeps references to mesh and
-  /// table. Work: one look at each cell; memory for those with a node that moves.
-  MidNodeGuard(const Mesh& mesh, const EdgeTable& table, const MidNodeMoves& moves,
-    const Vector3& plane, const ParallelFor& parallelFor = serialFor);
+  /// `middles`: of the edges, where their nodes start. `plane` is the unit normal of a planar mesh,
+  /// from whose end its cells should turn; where it is zero, cells of area keep the side of their
+  /// straight normal. Keeps references to mesh, table and middles. Work: one look at each cell;
+  /// memory for those with a node that moves.
+  MidNodeGuard(const Mesh& mesh, const EdgeTable& table, const std::vector<Point3>& middles,
+    const Moves& moves, const Vector3& plane, const ParallelFor& parallelFor = serialFor);
 
   /// One sweep: takes the mid nodes of every invalid cell back a step. Returns true where it took
   /// any. Work: isValid for the guarded cells with a node that has moved since the last sweep.
-  bool stepBack(MidNodeMoves& moves);
+  bool stepBack(Moves& moves);
 
 private:
   template<class Shape>
   std::vector<unsigned char> findInvalid(
-    Shape shape, const std::vector<Index>& cells, const MidNodeMoves& moves) const;
+    Shape shape, const std::vector<Index>& cells, const Moves& moves) const;
 
   const Mesh& mesh_;
   const EdgeTable& table_;
+  const std::vector<Point3>& middles_;
   Vector3 plane_;
   ParallelFor parallelFor_;
   std::vector<std::vector<Index>> cells_; ///< Of each shape those with a node that moves.

@@ -3,6 +3,17 @@
 namespace cadrefine
 {
 
+std::vector<Point3> middlesOf(const Mesh& mesh, const std::vector<std::array<Index, 2>>& edges)
+{
+  std::vector<Point3> middles;
+  middles.reserve(edges.size());
+  for (const auto& ends : edges)
+  {
+    middles.push_back(middleOf(mesh, ends));
+  }
+  return middles;
+}
+
 std::vector<unsigned char> findValidCells(
   const Mesh& mesh, const MidNodes& nodes, const Vector3& plane)
 {

@@ -28,6 +28,8 @@ inline Point3 middleOf(const Mesh& mesh, const std::array<Index, 2>& ends)
   return 0.5 * (mesh.points[ends[0]] + mesh.points[ends[1]]);
 }
 
+std::vector<Point3> middlesOf(const Mesh& mesh, const std::vector<std::array<Index, 2>>& edges);
+
 /// The nodes of a cell whose mid nodes, given its edges, are nodeAt(edge).
 template<std::size_t Corners, std::size_t Edges, class NodeAt>
 std::array<Point3, Corners + Edges> gatherNodes(const Mesh& mesh,

@@ -9,11 +9,14 @@
 #include "Partition.h"
 #include "TestShapes.h"
 
+#include <vtkCell.h>
+#include <vtkCellType.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <ostream>
 
@@ -180,6 +183,79 @@ protected:
 
 INSTANTIATE_TEST_SUITE_P(
   Cases, Layers, testing::ValuesIn(cases), [](const auto& each) { return each.param.name; });
+
+/// Visits the quadrilaterals of cells of second order of one type that stand on the wall:
+/// visit(corners and mid nodes of the cell, edges of the quadrilateral, that on the wall first).
+template<class Shape, class Visit>
+int forQuadsOnWall(Shape, int type, vtkPointSet* mesh, const Visit& visit)
+{
+  int count = 0;
+  for (vtkIdType c = 0; c < mesh->GetNumberOfCells(); ++c)
+  {
+    if (mesh->GetCellType(c) != type)
+    {
+      continue;
+    }
+    std::vector<Point3> nodes(mesh->GetCell(c)->GetNumberOfPoints());
+    for (std::size_t k = 0; k < nodes.size(); ++k)
+    {
+      mesh->GetPoint(mesh->GetCell(c)->GetPointId(static_cast<int>(k)), nodes[k].data());
+    }
+    const auto isOnWall = [&](int edge)
+    {
+      const auto& [a, b] = Shape::edges[edge];
+      return std::abs(norm(nodes[a]) - 2) < 1e-9 && std::abs(norm(nodes[b]) - 2) < 1e-9;
+    };
+    for (const auto& quad : Shape::quadEdges)
+    {
+      for (int k = 0; k < 4; ++k)
+      {
+        if (isOnWall(quad[k]) && !isOnWall(quad[(k + 1) % 4]) && !isOnWall(quad[(k + 2) % 4]))
+        {
+          visit(nodes, quad[k], quad[(k + 2) % 4]);
+          ++count;
+        }
+      }
+    }
+  }
+  return count;
+}
+
+/// Mid nodes over the wall go along with those on it.
+TEST_P(Layers, areAsHighAtMidNodes)
+{
+  const auto mesh = filters.refineUniformly(filters.project(piece()));
+  const auto curved = filters.run<vtkRefineWithCAD>(mesh,
+    [](vtkRefineWithCAD* filter)
+    {
+      filter->SetLevels(0);
+      filter->QuadraticCellsOn();
+    });
+  EXPECT_EQ(cadtest::fieldValue(curved, "InvalidCells"), 0);
+  // The pyramids on hexahedra keep straight edges: all of a move has to fade out below them.
+  const bool isHeld = GetParam().name == "ShallowHexahedra";
+  EXPECT_EQ(cadtest::fieldValue(curved, "UnprojectedVertices") > 0, isHeld);
+  const auto expectHigh = [&](auto shape, const std::vector<Point3>& nodes, int low, int high)
+  {
+    using Shape = decltype(shape);
+    const auto straight = [&](int edge)
+    { return 0.5 * (nodes[Shape::edges[edge][0]] + nodes[Shape::edges[edge][1]]); };
+    const Point3& onWall = nodes[Shape::corners + low];
+    EXPECT_NEAR(norm(onWall), 2, isHeld ? 0.005 : 1e-9);
+    const double height = distance(straight(low), straight(high));
+    EXPECT_NEAR(distance(onWall, nodes[Shape::corners + high]), height, 0.01 * height);
+  };
+  std::int64_t count = 0;
+  const auto lookAt = [&](auto shape, int type)
+  {
+    count += forQuadsOnWall(shape, type, curved,
+      [&](const auto& nodes, int low, int high) { expectHigh(shape, nodes, low, high); });
+  };
+  lookAt(shapes::Wedge{}, VTK_QUADRATIC_WEDGE);
+  lookAt(shapes::Hexahedron{}, VTK_QUADRATIC_HEXAHEDRON);
+  lookAt(shapes::Quadrilateral{}, VTK_QUADRATIC_QUAD);
+  EXPECT_GT(exchange.sum(count), 20);
+}
 
 TEST_P(Layers, keepTheirFirstHeights)
 {

@@ -35,7 +35,7 @@ int settle(const Mesh& mesh, Moves& moves)
 /// Quality of the only cell where the moves put it; negative where it is inverted.
 double qualityAfter(const Mesh& mesh, const Moves& moves)
 {
-  const auto at = [&](Index v) { return moves.position(mesh, v); };
+  const auto at = [&](Index v) { return moves.position(mesh.points, v); };
   if (mesh.dimension == 3)
   {
     return meanRatio(at(0), at(1), at(2), at(3));
@@ -68,7 +68,7 @@ protected:
 
   static Moves move(const Mesh& mesh, double height)
   {
-    Moves moves(mesh);
+    Moves moves(mesh.points);
     moves.add(GetParam(), apexAt(mesh, height));
     return moves;
   }
@@ -82,7 +82,7 @@ TEST_P(Apex, reachesAGoodPlaceExactly)
   Moves moves = move(mesh, 0.7);
   EXPECT_EQ(settle(mesh, moves), 0);
   EXPECT_EQ(moves.fractions[GetParam()], 1);
-  EXPECT_EQ(moves.position(mesh, GetParam()), apexAt(mesh, 0.7));
+  EXPECT_EQ(moves.position(mesh.points, GetParam()), apexAt(mesh, 0.7));
 }
 
 TEST_P(Apex, doesNotCollapseTheCell)
@@ -112,14 +112,14 @@ TEST_P(Apex, doesNotMoveAtAllWhereNoPartOfTheWayIsFree)
   Moves moves = move(mesh, -1e9);
   EXPECT_EQ(settle(mesh, moves), MoveGuard::maximumHalvings + 1);
   EXPECT_EQ(moves.fractions[GetParam()], 0);
-  EXPECT_EQ(moves.position(mesh, GetParam()), mesh.points[GetParam()]);
+  EXPECT_EQ(moves.position(mesh.points, GetParam()), mesh.points[GetParam()]);
 }
 
 /// A cell below the floor must not freeze: it may lose half of its quality, but stays valid.
 TEST_P(Apex, ofAPoorCellMovesAsLongAsItKeepsHalfOfItsQuality)
 {
   const Mesh mesh = cell(1e-3);
-  const double before = qualityAfter(mesh, Moves(mesh));
+  const double before = qualityAfter(mesh, Moves(mesh.points));
   ASSERT_LT(before, MoveGuard::qualityFloor);
   ASSERT_GT(before, 0);
   Moves better = move(mesh, 2);
@@ -135,21 +135,21 @@ TEST_P(Apex, ofAPoorCellMovesAsLongAsItKeepsHalfOfItsQuality)
 TEST_P(Apex, ofAnAlmostFlatCellDoesNotMakeItFlatter)
 {
   Mesh mesh = cell(1e-3);
-  double before = qualityAfter(mesh, Moves(mesh));
+  double before = qualityAfter(mesh, Moves(mesh.points));
   for (int step = 0; step < 40; ++step)
   {
     Moves flat = move(mesh, 0);
     settle(mesh, flat);
-    mesh.points[GetParam()] = flat.position(mesh, GetParam());
+    mesh.points[GetParam()] = flat.position(mesh.points, GetParam());
   }
-  EXPECT_GE(qualityAfter(mesh, Moves(mesh)), std::min(before, MoveGuard::lowestQuality));
+  EXPECT_GE(qualityAfter(mesh, Moves(mesh.points)), std::min(before, MoveGuard::lowestQuality));
 }
 
 TEST(MoveGuard, letsAnInvertedTetrahedronBecomeValid)
 {
   const Mesh mesh =
     cadtest::oneTetrahedron({ { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, -1 } } });
-  Moves moves(mesh);
+  Moves moves(mesh.points);
   moves.add(3, { 0, 0, 1 });
   EXPECT_EQ(settle(mesh, moves), 0);
   EXPECT_GT(qualityAfter(mesh, moves), 0);
@@ -159,10 +159,10 @@ TEST(MoveGuard, movesAFlatTetrahedronOnlyIfItGetsNoWorse)
 {
   const Mesh mesh =
     cadtest::oneTetrahedron({ { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0.3, 0.3, 0 } } });
-  Moves up(mesh);
+  Moves up(mesh.points);
   up.add(3, { 0.3, 0.3, 1 });
   EXPECT_EQ(settle(mesh, up), 0);
-  Moves down(mesh);
+  Moves down(mesh.points);
   down.add(3, { 0.3, 0.3, -1 });
   EXPECT_GT(settle(mesh, down), 0);
   EXPECT_EQ(down.fractions[3], 0);
@@ -171,7 +171,7 @@ TEST(MoveGuard, movesAFlatTetrahedronOnlyIfItGetsNoWorse)
 TEST(MoveGuard, stopsATriangleInSpaceThatTurnsOver)
 {
   Mesh mesh = cadtest::oneTriangle({ { { 0, 0, 0 }, { 1, 0, 1 }, { 0, 1, 1 } } });
-  Moves moves(mesh);
+  Moves moves(mesh.points);
   moves.add(2, { 1, -1, 0.5 });
   EXPECT_GT(settle(mesh, moves), 0);
   EXPECT_GT(qualityAfter(mesh, moves), 0);
@@ -182,13 +182,13 @@ TEST(MoveGuard, letsAnInvertedTriangleBecomeValidInThePlane)
 {
   Mesh mesh = cadtest::oneTriangle({ { { 0, 0, 0 }, { 1, 0, 0 }, { 0.5, -0.5, 0 } } });
   const Vector3 plane{ 0, 0, 1 };
-  Moves over(mesh);
+  Moves over(mesh.points);
   over.add(2, { 0.5, 0.5, 0 });
   EXPECT_FALSE(MoveGuard(mesh, over, mesh.points, plane).halveUnaccepted(over));
   EXPECT_TRUE(MoveGuard(mesh, over).halveUnaccepted(over));
   const std::vector<Point3> reference = mesh.points;
   mesh.points[2] = { 0.5, 0.5, 0 };
-  Moves back(mesh);
+  Moves back(mesh.points);
   back.add(2, { 0.5, -0.5, 0 });
   EXPECT_TRUE(MoveGuard(mesh, back, reference, plane).halveUnaccepted(back))
     << "once mended, it stays so";
@@ -198,16 +198,16 @@ TEST(MoveGuard, stopsWholeMovesAtOnce)
 {
   const Mesh mesh =
     cadtest::oneTetrahedron({ { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } });
-  Moves down(mesh);
+  Moves down(mesh.points);
   down.add(3, { 0, 0, -0.1 });
   down.whole[3] = 1;
   EXPECT_EQ(settle(mesh, down), 1);
-  EXPECT_EQ(down.position(mesh, 3), mesh.points[3]);
-  Moves up(mesh);
+  EXPECT_EQ(down.position(mesh.points, 3), mesh.points[3]);
+  Moves up(mesh.points);
   up.add(3, { 0, 0, 2 });
   up.whole[3] = 1;
   EXPECT_EQ(settle(mesh, up), 0);
-  EXPECT_EQ(up.position(mesh, 3), (Point3{ 0, 0, 2 }));
+  EXPECT_EQ(up.position(mesh.points, 3), (Point3{ 0, 0, 2 }));
 }
 
 /// The way ends in the plane of the others up to rounding: only exact arithmetic can tell.
@@ -221,17 +221,17 @@ TEST(MoveGuard, acceptsNoFlatCellHoweverPoorItWas)
   const Mesh mesh = cadtest::oneTetrahedron({ { a, b, c, inPlane + 1e-12 * normal } });
   for (int k = -3; k <= 3; ++k)
   {
-    Moves moves(mesh);
+    Moves moves(mesh.points);
     moves.add(3, inPlane + k * 1e-17 * normal);
     settle(mesh, moves);
-    EXPECT_EQ(orientation(a, b, c, moves.position(mesh, 3)), 1);
+    EXPECT_EQ(orientation(a, b, c, moves.position(mesh.points, 3)), 1);
   }
 }
 
 TEST(MoveGuard, namesTheVerticesOfSpoiltCells)
 {
   Mesh mesh = cadtest::oneTetrahedron({ { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } });
-  Moves moves(mesh);
+  Moves moves(mesh.points);
   moves.add(3, { 0, 0, 0.3 });
   const std::vector<Point3> reference = mesh.points;
   const MoveGuard guard(mesh, moves, reference, {});
@@ -246,8 +246,8 @@ TEST(MoveGuard, doesNotDependOnTheOrderOfCells)
 {
   const Mesh mesh = cadtest::cubeMesh(3, 0.2, 1);
   const Mesh shuffled = cadtest::withShuffledCells(mesh, 2);
-  Moves first(mesh);
-  Moves second(shuffled);
+  Moves first(mesh.points);
+  Moves second(shuffled.points);
   for (Index v = 0; v < static_cast<Index>(mesh.points.size()); v += 2)
   {
     const Point3 target = mesh.points[v] + Vector3{ 0.3, 0.01 * v, -0.2 };
@@ -259,7 +259,7 @@ TEST(MoveGuard, doesNotDependOnTheOrderOfCells)
   EXPECT_EQ(first.fractions, second.fractions);
   for (const auto& cell : mesh.tetrahedra)
   {
-    const auto at = [&](int k) { return first.position(mesh, cell[k]); };
+    const auto at = [&](int k) { return first.position(mesh.points, cell[k]); };
     EXPECT_GT(meanRatio(at(0), at(1), at(2), at(3)), 0);
   }
 }
@@ -268,7 +268,7 @@ TEST(MoveGuard, leavesCellsAloneThatDoNotMove)
 {
   Mesh mesh = cadtest::ballMesh(1, 0);
   std::swap(mesh.tetrahedra[0][0], mesh.tetrahedra[0][1]); // inverted from the start
-  Moves moves(mesh);
+  Moves moves(mesh.points);
   EXPECT_EQ(settle(mesh, moves), 0);
 }
 
@@ -285,7 +285,7 @@ TEST(QuadrilateralInSpace, staysValidAsSeenFromItsOwnSide)
   int halved = 0;
   for (int round = 0; round < 2000; ++round)
   {
-    Moves moves(mesh);
+    Moves moves(mesh.points);
     for (Index vertex = 0; vertex < 4; ++vertex)
     {
       moves.add(vertex, mesh.points[vertex] + Vector3{ any(random), any(random), any(random) });
@@ -294,7 +294,7 @@ TEST(QuadrilateralInSpace, staysValidAsSeenFromItsOwnSide)
     Mesh moved = mesh;
     for (Index vertex = 0; vertex < 4; ++vertex)
     {
-      moved.points[vertex] = moves.position(mesh, vertex);
+      moved.points[vertex] = moves.position(mesh.points, vertex);
     }
     EXPECT_TRUE(cadtest::isValid(moved));
     std::array<Point3, 4> p;

@@ -100,14 +100,14 @@ protected:
     const Index vertex = vertexAt(inDepth(0));
     ASSERT_LT(vertex, static_cast<Index>(mesh.points.size()));
     ASSERT_GT(lowestQuality(mesh), 0);
-    Moves straight(mesh);
+    Moves straight(mesh.points);
     straight.add(vertex, inDepth(depth));
     while (MoveGuard(mesh, straight).halveUnaccepted(straight))
     {
     }
     EXPECT_LT(straight.fractions[vertex], 1);
     Mesh stopped = mesh;
-    stopped.points[vertex] = straight.position(mesh, vertex);
+    stopped.points[vertex] = straight.position(mesh.points, vertex);
     EXPECT_GT(lowestQuality(stopped), 0);
 
     Patch patch = patchOf(stopped);
@@ -117,13 +117,13 @@ protected:
     optimise(patch, 10);
     EXPECT_GE(lowestQuality(patch.mesh), MoveGuard::qualityFloor);
 
-    Moves together(stopped);
+    Moves together(stopped.points);
     for (Index v = 0; v < static_cast<Index>(mesh.points.size()); ++v)
     {
       together.add(v, patch.mesh.points[v]);
     }
     EXPECT_FALSE(MoveGuard(stopped, together, mesh.points, patch.plane).halveUnaccepted(together));
-    EXPECT_EQ(together.position(stopped, vertex), inDepth(depth));
+    EXPECT_EQ(together.position(stopped.points, vertex), inDepth(depth));
   }
 };
 

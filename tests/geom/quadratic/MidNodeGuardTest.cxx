@@ -18,20 +18,21 @@ using namespace cadrefine;
 
 const Vector3 up{ 0, 0, 1 };
 
-MidNodes placed(const EdgeTable& table, const MidNodeMoves& moves)
+MidNodes placed(const Mesh& mesh, const EdgeTable& table, const Moves& moves)
 {
-  MidNodes nodes{ table, {}, {} };
+  MidNodes nodes{ table, middlesOf(mesh, table.edges), {} };
   for (std::size_t e = 0; e < table.edges.size(); ++e)
   {
-    nodes.points.push_back(moves.position(static_cast<Index>(e)));
+    nodes.points[e] = moves.position(nodes.points, static_cast<Index>(e));
   }
   return nodes;
 }
 
 /// Number of sweeps until all cells accept.
-int settle(const Mesh& mesh, const EdgeTable& table, const Vector3& plane, MidNodeMoves& moves)
+int settle(const Mesh& mesh, const EdgeTable& table, const Vector3& plane, Moves& moves)
 {
-  MidNodeGuard guard(mesh, table, moves, plane);
+  const std::vector<Point3> middles = middlesOf(mesh, table.edges);
+  MidNodeGuard guard(mesh, table, middles, moves, plane);
   int sweeps = 0;
   while (guard.stepBack(moves))
   {
@@ -50,12 +51,12 @@ TEST(MidNodeGuard, leavesValidMovesAlone)
 {
   const Mesh mesh = cadtest::oneTriangle({ { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } } });
   const EdgeTable table = buildEdgeTable(mesh);
-  MidNodeMoves moves(mesh, table);
+  Moves moves(middlesOf(mesh, table.edges));
   const Index edge = table.find(0, 1);
   moves.add(edge, { 0.5, -0.2, 0 });
   EXPECT_EQ(settle(mesh, table, up, moves), 0);
   EXPECT_EQ(moves.fractions[edge], 1);
-  EXPECT_EQ(moves.position(edge), (Point3{ 0.5, -0.2, 0 }));
+  EXPECT_EQ(placed(mesh, table, moves).points[edge], (Point3{ 0.5, -0.2, 0 }));
 }
 
 /// The Jacobian at the corner vanishes when the node has gone a quarter of the edge: of a way of
@@ -64,12 +65,12 @@ TEST(MidNodeGuard, takesSmallStepsFirst)
 {
   const Mesh mesh = cadtest::oneTriangle({ { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } } });
   const EdgeTable table = buildEdgeTable(mesh);
-  MidNodeMoves moves(mesh, table);
+  Moves moves(middlesOf(mesh, table.edges));
   const Index edge = table.find(0, 1);
   moves.add(edge, { 0.76, 0, 0 });
   EXPECT_EQ(settle(mesh, table, up, moves), 4);
   EXPECT_EQ(moves.fractions[edge], 1 - 1.0 / 16);
-  EXPECT_TRUE(allValid(mesh, placed(table, moves), up));
+  EXPECT_TRUE(allValid(mesh, placed(mesh, table, moves), up));
 }
 
 /// A cell that is flat accepts nothing, and a target too far away only the middle.
@@ -80,12 +81,12 @@ TEST(MidNodeGuard, endsInTheMiddle)
   for (const double height : { 1.0, 0.0 })
   {
     mesh.points[3][2] = height;
-    MidNodeMoves moves(mesh, table);
+    Moves moves(middlesOf(mesh, table.edges));
     const Index edge = table.find(1, 2);
     moves.add(edge, { -1e5, -1e5, 0 });
     EXPECT_LE(settle(mesh, table, {}, moves), 20);
-    EXPECT_EQ(moves.position(edge), (Point3{ 0.5, 0.5, 0 }));
-    EXPECT_EQ(allValid(mesh, placed(table, moves), {}), height > 0);
+    EXPECT_EQ(placed(mesh, table, moves).points[edge], (Point3{ 0.5, 0.5, 0 }));
+    EXPECT_EQ(allValid(mesh, placed(mesh, table, moves), {}), height > 0);
   }
 }
 
@@ -94,22 +95,22 @@ TEST(MidNodeGuard, makesAllCellsValidInAnyOrder)
 {
   const Mesh mesh = cadtest::cubeMesh(4, 0.1, 1);
   const EdgeTable table = buildEdgeTable(mesh);
-  MidNodeMoves moves(mesh, table);
+  Moves moves(middlesOf(mesh, table.edges));
   std::mt19937 random(4);
   std::uniform_real_distribution<double> offset(-0.1, 0.1);
   for (std::size_t e = 0; e < table.edges.size(); e += 2)
   {
     const auto edge = static_cast<Index>(e);
     moves.add(
-      edge, moves.middles[edge] + Vector3{ offset(random), offset(random), offset(random) });
+      edge, moves.targets[edge] + Vector3{ offset(random), offset(random), offset(random) });
   }
-  EXPECT_FALSE(allValid(mesh, placed(table, moves), {}));
+  EXPECT_FALSE(allValid(mesh, placed(mesh, table, moves), {}));
   Mesh shuffled = mesh;
   std::shuffle(shuffled.tetrahedra.begin(), shuffled.tetrahedra.end(), random);
   const EdgeTable otherTable = buildEdgeTable(shuffled);
-  MidNodeMoves others = moves;
+  Moves others = moves;
   EXPECT_EQ(settle(mesh, table, {}, moves), settle(shuffled, otherTable, {}, others));
-  EXPECT_TRUE(allValid(mesh, placed(table, moves), {}));
+  EXPECT_TRUE(allValid(mesh, placed(mesh, table, moves), {}));
   EXPECT_EQ(moves.fractions, others.fractions);
   const auto onTheWay = std::count_if(moves.fractions.begin(), moves.fractions.end(),
     [](double fraction) { return fraction > 0 && fraction < 1; });
