@@ -386,7 +386,8 @@ std::vector<LayerColumns::Span> LayerColumns::findSpans(
   std::vector<Span> spans(columns_.size());
   for (std::size_t c = 0; c < spans.size(); ++c)
   {
-    spans[c] = { firsts[c], std::min(lost[c], tops[c]), faded[c] };
+    const bool takesAlong = norm(ofWalls[c]) >= nodes_.leastMove * firsts[c];
+    spans[c] = { firsts[c], takesAlong ? std::min(lost[c], tops[c]) : 0, faded[c] };
   }
   return spans;
 }

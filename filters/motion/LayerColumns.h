@@ -22,7 +22,8 @@ struct ColumnNodes
   const SharedItems& shared;
   const std::vector<EntityId>& entities; ///< The CAD entities on which nodes are.
   std::vector<unsigned char> held;       ///< 1: the node stays; none: none does.
-  const EdgeTable* edges = nullptr;      ///< Of mid nodes.
+  double leastMove = 0; ///< Of the first height: a wall that moves by less takes nothing along.
+  const EdgeTable* edges = nullptr; ///< Of mid nodes.
 
   /// How many a side of a cell has.
   int count(const Facet& side) const

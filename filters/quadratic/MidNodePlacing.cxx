@@ -15,6 +15,8 @@ namespace cadrefine
 namespace
 {
 
+/// A node on a wall that moves by less of the height of the first cell does so alone.
+constexpr double leastMove = 0.25;
 /// A node that is to move by less of the length of its edge is where it is to go.
 constexpr double negligible = 1e-9;
 
@@ -58,7 +60,7 @@ public:
     }
     const std::vector<unsigned char> held = findHeld();
     LayerColumns columns(exchange_, mesh_,
-      { nodes_.points, nodes_.ids, sharedEdges_, entities, held, &nodes_.table }, moves_,
+      { nodes_.points, nodes_.ids, sharedEdges_, entities, held, leastMove, &nodes_.table }, moves_,
       classified_.projector, classified_.boundary.onBoundary, plane_);
     if (columns.any())
     {

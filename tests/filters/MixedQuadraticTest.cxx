@@ -286,7 +286,14 @@ TEST(MixedQuadraticCells, stayValidWhereNodesCannotReachTheCAD)
 {
   const cadtest::TemporaryFolder folder;
   const cadtest::FilterRun filters(cadtest::writeInto(folder, cadtest::sphere(2), ".step"));
-  std::vector<Mesh> meshes{ cadtest::hexahedralShellMesh(2, 0, 1, { 0.02, 0.1, 0.5 }) };
+  // Its thin layers go along.
+  const Mesh shell = cadtest::hexahedralShellMesh(2, 0, 1, { 0.02, 0.1, 0.5 });
+  const auto layers =
+    cadtest::refineToQuadratic(filters, filters.project(cadtest::toGrid(shell)), 0);
+  expectValid(filters, layers);
+  EXPECT_EQ(cadtest::fieldValue(layers, "UnprojectedVertices"), 0);
+
+  std::vector<Mesh> meshes;
   for (const unsigned seed : { 1, 2, 3 })
   {
     meshes.push_back(
