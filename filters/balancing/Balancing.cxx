@@ -123,7 +123,8 @@ private:
 struct Parts
 {
   Delivery delivery;
-  std::vector<std::vector<char>> cells; ///< And points, without arrays.
+  std::vector<std::vector<char>> cells;  ///< And points, without arrays.
+  vtkSmartPointer<vtkPointSet> ownCells; ///< In the place of those for this rank.
   std::vector<std::vector<GlobalId>> pointIds;
   std::vector<std::vector<GlobalId>> cellIds;
 
@@ -140,15 +141,10 @@ std::vector<GlobalId> joined(const std::vector<std::vector<GlobalId>>& lists)
   return all;
 }
 
-std::vector<char> pack(const Mesh& part)
+Parts makeParts(const RankExchange& exchange, const DistributedMesh& mesh, vtkPointSet* input,
+  const std::vector<int>& rankOfCell)
 {
-  const vtkNew<vtkUnstructuredGrid> grid;
-  return marshal(makePointSet(grid, part));
-}
-
-Parts makeParts(const DistributedMesh& mesh, vtkPointSet* input, const std::vector<int>& rankOfCell,
-  int rankCount)
-{
+  const int rankCount = exchange.size();
   std::vector<std::vector<vtkIdType>> cellsTo(rankCount);
   for (std::size_t cell = 0; cell < rankOfCell.size(); ++cell)
   {
@@ -162,7 +158,15 @@ Parts makeParts(const DistributedMesh& mesh, vtkPointSet* input, const std::vect
     parts.delivery[rank] = selectionOf(input, part);
     if (!cellsTo[rank].empty())
     {
-      parts.cells[rank] = pack(part.mesh);
+      const auto cells = makePointSet(vtkNew<vtkUnstructuredGrid>(), part.mesh);
+      if (rank == exchange.rank())
+      {
+        parts.ownCells = cells;
+      }
+      else
+      {
+        parts.cells[rank] = marshal(cells);
+      }
       parts.pointIds[rank] = part.mesh.ids;
       for (const auto& ids : part.cellIds)
       {
@@ -173,14 +177,20 @@ Parts makeParts(const DistributedMesh& mesh, vtkPointSet* input, const std::vect
   return parts;
 }
 
-vtkSmartPointer<vtkPointSet> appendParts(const std::vector<std::vector<char>>& parts)
+/// The parts of all ranks in a row, `own` in the place of this one's.
+vtkSmartPointer<vtkPointSet> appendParts(
+  const std::vector<std::vector<char>>& parts, int rank, vtkPointSet* own)
 {
   vtkNew<vtkAppendFilter> append;
-  for (const auto& bytes : parts)
+  for (int r = 0; r < static_cast<int>(parts.size()); ++r)
   {
-    if (!bytes.empty())
+    if (r == rank && own)
     {
-      append->AddInputData(unmarshal<vtkUnstructuredGrid>(bytes));
+      append->AddInputData(own);
+    }
+    else if (!parts[r].empty())
+    {
+      append->AddInputData(unmarshal<vtkUnstructuredGrid>(parts[r]));
     }
   }
   auto result = vtkSmartPointer<vtkUnstructuredGrid>::New();
@@ -231,7 +241,7 @@ Redistribution redistribute(RankExchange& exchange, const DistributedMesh& mesh,
   const std::vector<int>& ranks)
 {
   Parts parts(exchange.size());
-  agreeOnFailure(exchange, [&] { parts = makeParts(mesh, input, ranks, exchange.size()); });
+  agreeOnFailure(exchange, [&] { parts = makeParts(exchange, mesh, input, ranks); });
   Redistribution result;
   result.delivery = std::move(parts.delivery);
   ConvertedMesh ids;
@@ -243,7 +253,7 @@ Redistribution redistribute(RankExchange& exchange, const DistributedMesh& mesh,
   agreeOnFailure(exchange,
     [&]
     {
-      result.mesh = appendParts(cells);
+      result.mesh = appendParts(cells, exchange.rank(), parts.ownCells);
       setArrays(arrays, ids, result.mesh);
     });
   return result;

@@ -77,14 +77,22 @@ bool isPlanar(const MeshBounds& bounds, const CADModel& model)
   return model.count(2) == 0 || low[0] == high[0] || low[1] == high[1] || low[2] == high[2];
 }
 
+BoundaryKind kindOfBoundary(
+  RankExchange& exchange, const DistributedMesh& mesh, const CADModel& model)
+{
+  const Mesh& piece = mesh.mesh();
+  return piece.dimension == 2 && isPlanar(findBounds(exchange, piece), model)
+           ? BoundaryKind::Segments
+           : BoundaryKind::Triangles;
+}
+
 DistributedBoundary findBoundary(RankExchange& exchange, const DistributedMesh& mesh,
   const CADModel& model, const std::vector<unsigned char>& among)
 {
   DistributedBoundary boundary;
   const Mesh& piece = mesh.mesh();
-  const bool planar = piece.dimension == 2 && isPlanar(findBounds(exchange, piece), model);
-  boundary.kind = planar ? BoundaryKind::Segments : BoundaryKind::Triangles;
-  if (piece.dimension == 3 || planar)
+  boundary.kind = kindOfBoundary(exchange, mesh, model);
+  if (piece.dimension == 3 || boundary.kind == BoundaryKind::Segments)
   {
     boundary.facets = findBoundaryFacets(exchange, mesh, among);
   }

@@ -44,6 +44,10 @@ struct DistributedBoundary
 /// model: if this has no faces, or if all vertices have one coordinate in common.
 bool isPlanar(const MeshBounds& bounds, const CADModel& model);
 
+/// As what the boundary of a mesh is compared with the model. Collective.
+BoundaryKind kindOfBoundary(
+  RankExchange& exchange, const DistributedMesh& mesh, const CADModel& model);
+
 /// Boundary of the mesh: of one of volume, or a planar one, the sides met once and listed interior
 /// ones (see findBoundaryFacets); of a mesh of area in space, all cells.
 /// `among`: see findBoundaryFacets. Collective; messages in proportion to the interface between

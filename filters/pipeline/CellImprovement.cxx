@@ -42,7 +42,8 @@ class CellImprovement
 public:
   CellImprovement(
     const PipelineContext& context, MeshState& state, const CellImprovementOptions& options)
-    : context_(context), exchange_(context.exchange), state_(state), options_(options)
+    : context_(context), exchange_(context.exchange), state_(state), options_(options),
+      projector_(context.model, kindOfBoundary(exchange_, state.mesh, context.model))
   {
   }
 
@@ -55,8 +56,7 @@ public:
     if (mesh().dimension == 2)
     {
       plane_ = planeNormal(exchange_, mesh());
-      if (plane_ == Vector3{} &&
-          boundaryOf(context_, state_).boundary.kind == BoundaryKind::Segments)
+      if (plane_ == Vector3{} && projector_.kind() == BoundaryKind::Segments)
       {
         return; // the CAD's edges do not tell on which surface they are
       }
@@ -211,9 +211,8 @@ private:
   /// Collective.
   std::vector<Point3> wanted()
   {
-    const ClassifiedBoundary& boundary = boundaryOf(context_, state_);
-    return wantedPoints(exchange_, state_.mesh, boundary.projector, *state_.classification,
-      boundary.boundary.onBoundary);
+    return wantedPoints(
+      exchange_, state_.mesh, projector_, *state_.classification, onBoundaryOf(context_, state_));
   }
 
   struct Bad
@@ -316,11 +315,11 @@ private:
     {
       return;
     }
-    ClassifiedBoundary& boundary = boundaryOf(context_, state_);
+    const std::vector<unsigned char> onBoundary = onBoundaryOf(context_, state_);
     const std::vector<Point3> before = pointsToKeep(state_);
-    Moves moves = movesOntoCAD(mesh(), boundary.projector, classification);
+    Moves moves = movesOntoCAD(mesh(), projector_, classification);
     moveOntoCAD(exchange_, state_.mesh, std::move(moves), classification,
-      { boundary.projector, boundary.boundary.onBoundary, false, true, smoothWorst });
+      { projector_, onBoundary, false, true, smoothWorst });
     meshHasChanged(state_);
     scaleDensities(exchange_, state_, before);
   }
@@ -330,6 +329,7 @@ private:
   MeshState& state_;
   const CellImprovementOptions& options_;
   Vector3 plane_{}; ///< See planeNormal.
+  const BoundaryProjector projector_;
   std::int64_t operations_ = 0;
 };
 

@@ -7,6 +7,9 @@
 #include <vtkNew.h>
 #include <vtkTypeInt64Array.h>
 
+#include <cadrefine/base/IndicesWhere.h>
+#include <cadrefine/motion/MoveGuard.h>
+
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -53,15 +56,36 @@ OperationBlocks gather(const PipelineContext& context, MeshState& state, Operati
   return blocks;
 }
 
-/// Those of the vertices that are left; new ones may be on the boundary.
-std::vector<unsigned char> flagsOfKept(
-  const std::vector<unsigned char>& flags, const std::vector<Index>& kept)
+/// The boundary at the blocks: facets of their cells, with those beside these. Collective.
+ClassifiedBoundary boundaryAt(
+  const PipelineContext& context, MeshState& state, const OperationBlocks& blocks)
 {
-  std::vector<unsigned char> result(kept.size(), 1);
+  const Mesh& mesh = state.mesh.mesh();
+  std::vector<unsigned char> flags(mesh.points.size(), 0);
+  const auto flag = [&](const std::vector<Index>& cells)
+  {
+    flagVertices(mesh, cells, flags);
+    combineShared(context.exchange, state.mesh.shared, flags,
+      [](unsigned char a, unsigned char b) { return std::max(a, b); });
+  };
+  flag(indicesWhere(blocks.ofCells.size(), [&](std::size_t c) { return blocks.ofCells[c] >= 0; }));
+  flag(cellsAt(mesh, flags, state.parallelFor));
+  const std::vector<unsigned char>& onBoundary = onBoundaryOf(context, state);
+  std::transform(flags.begin(), flags.end(), onBoundary.begin(), flags.begin(),
+    [](unsigned char isNear, unsigned char isOn) { return isNear && isOn; });
+  return findClassifiedBoundary(
+    context.exchange, state.mesh, context.model, *state.classification, state.cache, flags);
+}
+
+/// Those of the vertices that are left; new ones on the boundary are on the CAD.
+std::vector<unsigned char> flagsOfKept(const std::vector<unsigned char>& flags,
+  const std::vector<Index>& kept, const std::vector<EntityId>& entities)
+{
+  std::vector<unsigned char> result(kept.size());
   for (std::size_t i = 0; i < kept.size(); ++i)
   {
     const auto vertex = static_cast<std::size_t>(kept[i]);
-    result[i] = vertex < flags.size() ? flags[vertex] : 1;
+    result[i] = vertex < flags.size() ? flags[vertex] : static_cast<bool>(entities[i]);
   }
   return result;
 }
@@ -84,15 +108,16 @@ std::int64_t operate(const PipelineContext& context, MeshState& state,
   RankExchange& exchange = context.exchange;
   const OperationBlocks blocks = gather(
     context, state, findOperationBlocks(exchange, state.mesh, flags, settings, state.parallelFor));
-  ClassifiedBoundary& boundary = boundaryOf(context, state);
+  const ClassifiedBoundary boundary = boundaryAt(context, state, blocks);
+  const std::vector<unsigned char>& onBoundary = onBoundaryOf(context, state);
   const Mesh& mesh = state.mesh.mesh();
   findNumberings(exchange, state);
   const auto labels = [&](int dimension)
   { return labelsOf(state.arrays.ofCells, cellsOf(mesh, dimension), *state.numberings); };
   const CellLabels ofCells{ labels(3), labels(2), labels(1) };
   const FieldNeeds& needs = state.mapping.needs();
-  const auto wanted = wantedPoints(
-    exchange, state.mesh, boundary.projector, *state.classification, boundary.boundary.onBoundary);
+  const auto wanted =
+    wantedPoints(exchange, state.mesh, boundary.projector, *state.classification, onBoundary);
   OperationTrace trace = operateOnBlocks(exchange, state.mesh, *state.classification, boundary,
     { blocks, wanted, ofCells, work, { needs.means, !needs.densities.empty() } },
     state.parallelFor);
@@ -101,11 +126,8 @@ std::int64_t operate(const PipelineContext& context, MeshState& state,
   {
     return 0;
   }
+  state.onBoundary = flagsOfKept(onBoundary, trace.keptVertices, state.classification->entities);
   meshHasChanged(state);
-  if (!state.onBoundary.empty())
-  {
-    state.onBoundary = flagsOfKept(state.onBoundary, trace.keptVertices);
-  }
   const std::size_t done = state.mapping.stageCount();
   state.mapping.refine(std::move(trace.cells));
   state.mapping.convert(

@@ -10,13 +10,30 @@
 
 #include <vtkCellData.h>
 #include <vtkFieldData.h>
+#include <vtkNew.h>
 #include <vtkPointData.h>
+#include <vtkUnsignedCharArray.h>
 
+#include <algorithm>
 #include <numeric>
 #include <utility>
 
 namespace cadrefine
 {
+
+namespace
+{
+
+/// Of vertices on their way to other ranks.
+constexpr const char* onBoundaryArray = "cadrefine:boundary";
+
+/// Whether all ranks know which vertices are on the boundary. Collective.
+bool knowsBoundary(RankExchange& exchange, const MeshState& state)
+{
+  return !exchange.any(state.onBoundary.size() != state.mesh.mesh().points.size());
+}
+
+} // namespace
 
 MeshState readMesh(RankExchange& exchange, vtkPointSet* input, CellOrder order)
 {
@@ -59,6 +76,15 @@ ClassifiedBoundary& boundaryOf(const PipelineContext& context, MeshState& state)
       state.mesh, context.model, *state.classification, state.cache, state.onBoundary));
   }
   return *state.boundary;
+}
+
+const std::vector<unsigned char>& onBoundaryOf(const PipelineContext& context, MeshState& state)
+{
+  if (!knowsBoundary(context.exchange, state))
+  {
+    state.onBoundary = boundaryOf(context, state).boundary.onBoundary;
+  }
+  return state.onBoundary;
 }
 
 std::vector<EntityId> entitiesOfFacets(const PipelineContext& context, MeshState& state)
@@ -205,8 +231,27 @@ void redistribute(const PipelineContext& context, MeshState& state, const std::v
     std::iota(converted.cellOf[d].begin(), converted.cellOf[d].end(),
       firstCellOfDimension(converted.mesh, d));
   }
-  Redistribution balanced = redistribute(context.exchange, state.mesh, makeDataSet(state), ranks);
+  const auto data = makeDataSet(state);
+  const bool isKnown = knowsBoundary(context.exchange, state);
+  if (isKnown)
+  {
+    vtkNew<vtkUnsignedCharArray> flags;
+    flags->SetName(onBoundaryArray);
+    flags->SetNumberOfValues(static_cast<vtkIdType>(state.onBoundary.size()));
+    std::copy(state.onBoundary.begin(), state.onBoundary.end(), flags->GetPointer(0));
+    data->GetPointData()->AddArray(flags);
+  }
+  Redistribution balanced = redistribute(context.exchange, state.mesh, data, ranks);
   MeshState next = readMesh(context.exchange, balanced.mesh);
+  if (isKnown)
+  {
+    next.onBoundary.resize(next.mesh.mesh().points.size());
+    auto* flags =
+      vtkUnsignedCharArray::SafeDownCast(next.arrays.ofVertices->GetAbstractArray(onBoundaryArray));
+    std::copy_n(
+      flags ? flags->GetPointer(0) : nullptr, next.onBoundary.size(), next.onBoundary.begin());
+    next.arrays.ofVertices->RemoveArray(onBoundaryArray);
+  }
   if (state.classification)
   {
     readClassification(context, balanced.mesh, next);

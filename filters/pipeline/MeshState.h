@@ -35,7 +35,7 @@ struct MeshState
   /// Of the mesh as it is, where they have been looked at.
   std::unique_ptr<ClassifiedBoundary> boundary = nullptr;
   std::optional<QualitySummary> quality = std::nullopt;
-  /// 1 for vertices that may be on the boundary; none: not known.
+  /// 1 for vertices on the boundary; none: not known.
   std::vector<unsigned char> onBoundary = {};
   /// Tags that do not tell kinds of cells apart, as the mesh came; none: not looked at.
   std::optional<std::vector<std::uint64_t>> numberings = std::nullopt;
@@ -55,6 +55,10 @@ void setClassification(MeshState& state, Classification classification);
 
 /// The boundary of the classified mesh. Collective.
 ClassifiedBoundary& boundaryOf(const PipelineContext& context, MeshState& state);
+
+/// For each vertex 1 if it is on the boundary: that of boundaryOf, which is not looked for where
+/// this is known. Collective.
+const std::vector<unsigned char>& onBoundaryOf(const PipelineContext& context, MeshState& state);
 
 /// For each facet of the boundary the CAD face, of a planar mesh the CAD edge, that it lies on;
 /// none off the CAD. Collective. Work: a query for a facet that spans several faces; of a planar
