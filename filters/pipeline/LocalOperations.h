@@ -18,7 +18,8 @@ void findNumberings(RankExchange& exchange, MeshState& state);
 /// are brought to one rank each, and takes arrays and classification along. Cells and listed
 /// triangles are told apart by their tags (see labelsOf). Of a mesh that is classified. Returns the
 /// number of operations over all ranks. Collective. Work and messages: those of findBlocks,
-/// redistribute where a block is on several ranks, findBoundary and operateOnBlocks.
+/// redistribute where a block is on several ranks, findClassifiedBoundary of the facets at the
+/// blocks, and operateOnBlocks.
 std::int64_t operate(const PipelineContext& context, MeshState& state,
   const std::vector<unsigned char>& flags, const BlockSettings& settings, const BlockWork& work);
 
