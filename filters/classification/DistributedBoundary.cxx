@@ -187,7 +187,8 @@ EntityId faceOf(const BoundaryProjector& projector, const Point3& centroid, int 
     return { 2, common };
   }
   const ClosestPoint nearest = projector.nearest(centroid, std::numeric_limits<double>::infinity());
-  return { 2, firstFaceAt(projector.model().nurbs(), nearest.entity) };
+  const int face = nearest.entity ? firstFaceAt(projector.model().nurbs(), nearest.entity) : -1;
+  return face < 0 ? EntityId{} : EntityId{ 2, face };
 }
 
 EntityId edgeOf(const CADModel& model, const ClosestPoint& middle)

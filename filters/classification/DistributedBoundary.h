@@ -71,7 +71,7 @@ FacetRecord makeRecord(const BoundaryProjector& projector, const ClassifiedFacet
 Point3 centroidOf(const Mesh& mesh, const Facet& facet);
 
 /// The CAD face of a triangle on the CAD with this centroid: `common`, that of its record, or where
-/// it spans several (-1) the nearest.
+/// it spans several (-1) the nearest; none where that is a wire of no face.
 EntityId faceOf(const BoundaryProjector& projector, const Point3& centroid, int common);
 
 /// The CAD edge of a segment whose middle has this place: of several that meet there the first.

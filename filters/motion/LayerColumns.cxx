@@ -368,7 +368,7 @@ std::vector<LayerColumns::Span> LayerColumns::findSpans(
   combineShared(exchange, shared_, tops, larger);
 
   const auto ofWalls = movesOfWalls(exchange, moves);
-  const auto blocked = findBlocked(exchange, ofWalls);
+  const auto blocked = findBlocked(exchange, ofWalls, isLost);
   std::vector<double> faded(columns_.size(), 0);
   for (const Member& member : members_)
   {
@@ -409,14 +409,17 @@ std::vector<Vector3> LayerColumns::movesOfWalls(RankExchange& exchange, const Mo
 }
 
 /// 1 for nodes that are held, and those of a boundary off the CAD that would leave the plane of a
-/// facet.
-std::vector<unsigned char> LayerColumns::findBlocked(
-  RankExchange& exchange, const std::vector<Vector3>& ofWalls) const
+/// facet. Members that are lost do not count: one column at most moves a node.
+std::vector<unsigned char> LayerColumns::findBlocked(RankExchange& exchange,
+  const std::vector<Vector3>& ofWalls, const std::vector<unsigned char>& isLost) const
 {
   std::vector<Vector3> ofNodes(nodes_.points.size(), Vector3{});
-  for (const Member& member : members_)
+  for (std::size_t k = 0; k < members_.size(); ++k)
   {
-    ofNodes[member.node] = ofWalls[member.column];
+    if (!isLost[k])
+    {
+      ofNodes[members_[k].node] = ofWalls[members_[k].column];
+    }
   }
   combineShared(exchange, nodes_.shared, ofNodes,
     [](const Vector3& a, const Vector3& b) { return a == Vector3{} ? b : a; });
@@ -454,7 +457,8 @@ bool LayerColumns::keepsDirection(Index node, const Vector3& move) const
 std::vector<Index> LayerColumns::follow(RankExchange& exchange, Moves& moves)
 {
   const auto ofWalls = movesOfWalls(exchange, moves);
-  const auto blocked = findBlocked(exchange, ofWalls);
+  const auto blocked =
+    findBlocked(exchange, ofWalls, std::vector<unsigned char>(members_.size(), 0));
   following_.clear();
   std::vector<Place> places(nodes_.points.size());
   for (const Member& member : members_)

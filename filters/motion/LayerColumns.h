@@ -112,8 +112,8 @@ private:
 
   /// The moves of the walls of all columns of this rank. Collective.
   std::vector<Vector3> movesOfWalls(RankExchange& exchange, const Moves& moves) const;
-  std::vector<unsigned char> findBlocked(
-    RankExchange& exchange, const std::vector<Vector3>& ofWalls) const;
+  std::vector<unsigned char> findBlocked(RankExchange& exchange,
+    const std::vector<Vector3>& ofWalls, const std::vector<unsigned char>& isLost) const;
   Point3 placeOf(Index node, const Vector3& move) const;
   bool keepsDirection(Index node, const Vector3& move) const;
   template<class Use>

@@ -116,9 +116,7 @@ private:
       combineShared(exchange_, sharedEdges_, moves_.fractions,
         [](double a, double b) { return std::min(a, b); });
     };
-    MidNodeGuard guard(
-      mesh_.mesh(), nodes_.table, nodes_.points, moves_, plane_, forOnThreads(exchange_));
-    while (exchange_.any(guard.stepBack(moves_)))
+    const auto tie = [&]
     {
       combine();
       if (columns.any())
@@ -126,6 +124,13 @@ private:
         columns.tie(exchange_, moves_);
         combine();
       }
+    };
+    tie(); // also with nodes that are held
+    MidNodeGuard guard(
+      mesh_.mesh(), nodes_.table, nodes_.points, moves_, plane_, forOnThreads(exchange_));
+    while (exchange_.any(guard.stepBack(moves_)))
+    {
+      tie();
     }
   }
 

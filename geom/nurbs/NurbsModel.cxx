@@ -29,8 +29,14 @@ std::int32_t firstFaceAt(const NurbsModel& model, EntityId entity)
     const auto& faces = model.edges[entity.index].faces;
     return faces.empty() ? -1 : faces.front();
   }
-  const auto& edges = model.vertices[entity.index].edges;
-  return edges.empty() ? -1 : firstFaceAt(model, { 1, edges.front() });
+  for (const std::int32_t edge : model.vertices[entity.index].edges)
+  {
+    if (!model.edges[edge].faces.empty())
+    {
+      return model.edges[edge].faces.front();
+    }
+  }
+  return -1;
 }
 
 } // namespace cadrefine

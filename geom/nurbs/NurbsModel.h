@@ -70,7 +70,8 @@ struct NurbsModel
   }
 };
 
-/// The face itself, or the first one that holds the edge, or the vertex's first edge; -1: none.
+/// The face itself, or the first one that holds the edge, or the first of the vertex's edges that
+/// one holds; -1: none.
 std::int32_t firstFaceAt(const NurbsModel& model, EntityId entity);
 
 } // namespace cadrefine

@@ -346,4 +346,17 @@ TEST(Degenerate, zeroLengthEdgeAndCollapsedPatch)
 }
 
 } // namespace
+TEST(FirstFace, ofAVertexIsThatOfItsFirstEdgeWithOne)
+{
+  NurbsModel model;
+  model.edges.resize(2);
+  model.edges[1].faces = { 3 };
+  model.vertices.resize(2);
+  model.vertices[0].edges = { 0, 1 };
+  EXPECT_EQ(firstFaceAt(model, { 0, 0 }), 3);
+  EXPECT_EQ(firstFaceAt(model, { 0, 1 }), -1);
+  EXPECT_EQ(firstFaceAt(model, { 1, 0 }), -1);
+  EXPECT_EQ(firstFaceAt(model, { 2, 5 }), 5);
+}
+
 } // namespace cadrefine
