@@ -1,5 +1,7 @@
 #include "classification/BoundaryCache.h"
 
+#include "mesh/BoundaryFacets.h"
+
 #include <cadrefine/base/MixedBits.h>
 
 #include <algorithm>
@@ -18,15 +20,6 @@ bool operator==(const EdgeClass& a, const EdgeClass& b)
 bool operator==(const ClassifiedFacet& a, const ClassifiedFacet& b)
 {
   return std::tie(a.points, a.entities) == std::tie(b.points, b.entities);
-}
-
-/// Fewer than four: -1 follows.
-std::array<GlobalId, 4> idsOf(const Mesh& mesh, const Facet& facet)
-{
-  std::array<GlobalId, 4> ids;
-  std::transform(facet.vertices.begin(), facet.vertices.end(), ids.begin(),
-    [&](Index vertex) { return vertex < 0 ? -1 : mesh.ids[vertex]; });
-  return ids;
 }
 
 } // namespace
@@ -60,7 +53,7 @@ BoundaryCache::BoundaryCache(const Mesh& mesh, const Classification& classificat
       known.record = record;
       known.edges = boundary.facetEdges[f];
       known.error = errors[facets_.size() - 1];
-      byIds_.emplace(idsOf(mesh, facet), static_cast<Index>(facets_.size() - 1));
+      byIds_.emplace(idsOf(mesh, facet.vertices), static_cast<Index>(facets_.size() - 1));
     }
   }
 }
@@ -68,7 +61,7 @@ BoundaryCache::BoundaryCache(const Mesh& mesh, const Classification& classificat
 Index BoundaryCache::find(
   const Mesh& mesh, const Facet& facet, const ClassifiedFacet& corners) const
 {
-  const auto found = byIds_.find(idsOf(mesh, facet));
+  const auto found = byIds_.find(idsOf(mesh, facet.vertices));
   return found != byIds_.end() && facets_[found->second].corners == corners ? found->second : -1;
 }
 

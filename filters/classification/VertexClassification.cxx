@@ -126,8 +126,7 @@ void addFaces(const ProjectionTask& task, const std::vector<ClosestPoint>& hits,
     }
   }
   combineShared(task.exchange, task.mesh.shared, meeting.faces, unite);
-  combineShared(task.exchange, task.mesh.shared, meeting.undecided,
-    [](unsigned char a, unsigned char b) { return std::max(a, b); });
+  combineFlags(task.exchange, task.mesh.shared, meeting.undecided);
   combineShared(task.exchange, task.mesh.shared, meeting.wrongSide,
     [](unsigned char a, unsigned char b) { return std::min(a, b); });
 }

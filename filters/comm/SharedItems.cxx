@@ -112,4 +112,11 @@ SharedItems makeSharedItems(
   return shared;
 }
 
+void combineFlags(
+  RankExchange& exchange, const SharedItems& shared, std::vector<unsigned char>& flags)
+{
+  combineShared(
+    exchange, shared, flags, [](unsigned char a, unsigned char b) { return std::max(a, b); });
+}
+
 } // namespace cadrefine

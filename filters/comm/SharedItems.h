@@ -72,6 +72,10 @@ template<class T, class Combine>
 void combineShared(
   RankExchange& exchange, const SharedItems& shared, std::vector<T>& values, Combine op);
 
+/// Sets the flags of the shared items that any rank has set. Collective; as combineShared.
+void combineFlags(
+  RankExchange& exchange, const SharedItems& shared, std::vector<unsigned char>& flags);
+
 /// Gives each shared item the value of its owner. Collective; one message to and from each
 /// neighbour, which holds only what the sender owns.
 template<class T>

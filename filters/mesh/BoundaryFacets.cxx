@@ -42,14 +42,6 @@ Corners cornersOf(const std::array<Index, N>& cell)
   return corners;
 }
 
-Ids idsOf(const Mesh& mesh, const Corners& corners)
-{
-  Ids ids;
-  std::transform(
-    corners.begin(), corners.end(), ids.begin(), [&](Index v) { return v < 0 ? -1 : mesh.ids[v]; });
-  return ids;
-}
-
 Ids keyOf(const Mesh& mesh, const Corners& corners)
 {
   Ids ids = idsOf(mesh, corners);
@@ -211,6 +203,14 @@ void settleShared(RankExchange& exchange, const DistributedMesh& mesh, bool anyL
 }
 
 } // namespace
+
+std::array<GlobalId, 4> idsOf(const Mesh& mesh, const std::array<Index, 4>& corners)
+{
+  std::array<GlobalId, 4> ids;
+  std::transform(
+    corners.begin(), corners.end(), ids.begin(), [&](Index v) { return v < 0 ? -1 : mesh.ids[v]; });
+  return ids;
+}
 
 std::vector<Facet> findBoundaryFacets(
   RankExchange& exchange, const DistributedMesh& mesh, const std::vector<unsigned char>& among)

@@ -5,10 +5,14 @@
 
 #include <cadrefine/mesh/Facets.h>
 
+#include <array>
 #include <vector>
 
 namespace cadrefine
 {
+
+/// The ids of a facet's or a cell's corners; -1 for those that it does not have.
+std::array<GlobalId, 4> idsOf(const Mesh& mesh, const std::array<Index, 4>& corners);
 
 /// The facets of this rank's cells that lie on the boundary of the whole mesh (of tetrahedra, or a
 /// planar one of triangles):

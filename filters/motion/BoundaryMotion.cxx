@@ -81,17 +81,8 @@ bool isInvalid(const Mesh& mesh, const Vector3& plane, Index cell)
 std::vector<Index> invalidCells(
   const Mesh& mesh, const Vector3& plane, const ParallelFor& parallelFor)
 {
-  return collect<Index>(parallelFor, mesh.cellCount(mesh.dimension), fineGrain,
-    [&](std::size_t begin, std::size_t end, std::vector<Index>& found)
-    {
-      for (std::size_t c = begin; c < end; ++c)
-      {
-        if (isInvalid(mesh, plane, static_cast<Index>(c)))
-        {
-          found.push_back(static_cast<Index>(c));
-        }
-      }
-    });
+  return indicesWhere(parallelFor, mesh.cellCount(mesh.dimension),
+    [&](std::size_t c) { return isInvalid(mesh, plane, static_cast<Index>(c)); });
 }
 
 /// See planeNormal. Collective.
@@ -121,8 +112,7 @@ std::vector<unsigned char> findHeld(RankExchange& exchange, const DistributedMes
         }
       }
     });
-  combineShared(
-    exchange, mesh.shared, held, [](unsigned char a, unsigned char b) { return std::max(a, b); });
+  combineFlags(exchange, mesh.shared, held);
   return held;
 }
 
@@ -188,12 +178,11 @@ struct Region
 Region untangleRound(const Motion& motion, std::vector<unsigned char> flags,
   const std::vector<Point3>& wanted, int rings, bool sliding, double fair = noQuality)
 {
-  const auto larger = [](unsigned char a, unsigned char b) { return std::max(a, b); };
-  combineShared(motion.exchange, motion.distributed.shared, flags, larger);
+  combineFlags(motion.exchange, motion.distributed.shared, flags);
   for (int ring = 0; ring < rings; ++ring)
   {
     flagVertices(motion.mesh(), cellsAt(motion.mesh(), flags, motion.parallelFor), flags);
-    combineShared(motion.exchange, motion.distributed.shared, flags, larger);
+    combineFlags(motion.exchange, motion.distributed.shared, flags);
   }
   const std::vector<Index> cells = cellsAt(motion.mesh(), flags, motion.parallelFor);
   for (std::size_t v = 0; v < flags.size(); ++v)

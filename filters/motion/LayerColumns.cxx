@@ -3,7 +3,6 @@
 #include "mesh/BoundaryFacets.h"
 
 #include <cadrefine/mesh/Quality.h>
-#include <cadrefine/motion/CellStacks.h>
 
 #include <algorithm>
 #include <array>
@@ -41,18 +40,6 @@ double larger(double a, double b)
 {
   return std::max(a, b);
 }
-
-/// A side of cells on its way to the rank that has the cell beyond it, and the column that stands
-/// on one of its nodes.
-struct Front
-{
-  GlobalId column;
-  std::array<GlobalId, 4> side;
-  std::int64_t place; ///< Of the node there, see ColumnNodes::at.
-  std::int64_t level;
-  double height;
-  double reach; ///< The column ends at this height.
-};
 
 /// Which column has a node: that of the lowest level, of these the smallest one.
 struct Claim
@@ -94,135 +81,6 @@ Vector3 unitNormal(const Mesh& mesh, const Facet& facet, const Vector3& plane)
     facet.corners() == 2 ? cross(p[1] - p[0], plane) : twofoldAreaVector(p, facet.corners()));
 }
 
-std::array<GlobalId, 4> idsOf(const Mesh& mesh, const Facet& side)
-{
-  std::array<GlobalId, 4> ids{ -1, -1, -1, -1 };
-  std::transform(
-    side.begin(), side.end(), ids.begin(), [&](Index vertex) { return mesh.ids[vertex]; });
-  return ids;
-}
-
-/// Climbs columns over all ranks.
-class Climb
-{
-public:
-  Climb(const DistributedMesh& mesh, const ColumnNodes& nodes)
-    : mesh_(mesh), nodes_(nodes), stacks_(mesh.mesh())
-  {
-    for (const Index vertex : mesh.shared.all)
-    {
-      vertexOf_.emplace_back(mesh.mesh().ids[vertex], vertex);
-    }
-    std::sort(vertexOf_.begin(), vertexOf_.end());
-    outgoing_.resize(mesh.shared.neighbours.size());
-  }
-
-  /// A column that stands on this node of a facet, on both sides of it.
-  void start(const Facet& facet, int place, double reach)
-  {
-    const GlobalId wall = nodes_.ids[nodes_.at(facet, place)];
-    climb(facet, { 2 * wall, {}, place, 0, 0, reach });
-    goBeyond(facet, { 2 * wall + 1, {}, place, 0, 0, reach });
-  }
-
-  /// Collective.
-  std::vector<ColumnVisit> run(RankExchange& exchange)
-  {
-    const auto isEmpty = [](const std::vector<Front>& fronts) { return fronts.empty(); };
-    while (exchange.any(!std::all_of(outgoing_.begin(), outgoing_.end(), isEmpty)))
-    {
-      const auto incoming = exchange.exchange(mesh_.shared.neighbours, outgoing_);
-      std::for_each(outgoing_.begin(), outgoing_.end(), [](auto& fronts) { fronts.clear(); });
-      for (const auto& fronts : incoming)
-      {
-        for (const Front& front : fronts)
-        {
-          const Facet side = stacks_.beyond(facetOf(front.side));
-          if (side.cell >= 0)
-          {
-            climb(side, front);
-          }
-        }
-      }
-    }
-    return std::move(visited_);
-  }
-
-private:
-  /// Through `side.cell`, and on.
-  void climb(Facet side, Front front)
-  {
-    while (side.cell >= 0)
-    {
-      const Facet above = stacks_.opposite(side);
-      if (above.cell < 0)
-      {
-        return;
-      }
-      const auto place = static_cast<int>(front.place);
-      const Index node = nodes_.at(above, place);
-      front.height += distance(nodes_.points[nodes_.at(side, place)], nodes_.points[node]);
-      ++front.level;
-      visited_.push_back({ node, front.column, front.level, front.height });
-      if (front.height >= front.reach)
-      {
-        return;
-      }
-      side = stacks_.beyond(above);
-      if (side.cell < 0)
-      {
-        send(above, front);
-      }
-    }
-  }
-
-  void goBeyond(const Facet& side, const Front& front)
-  {
-    const Facet next = stacks_.beyond(side);
-    next.cell >= 0 ? climb(next, front) : send(side, front);
-  }
-
-  /// To the ranks that have all corners of the side.
-  void send(const Facet& side, Front front)
-  {
-    front.side = idsOf(mesh_.mesh(), side);
-    const SharedVertices& shared = mesh_.shared;
-    for (std::size_t n = 0; n < shared.neighbours.size(); ++n)
-    {
-      const auto isHeld = [&](Index vertex)
-      {
-        const auto holders = shared.holdersOf(vertex);
-        return std::binary_search(holders.begin(), holders.end(), shared.neighbours[n]);
-      };
-      if (std::all_of(side.begin(), side.end(), isHeld))
-      {
-        outgoing_[n].push_back(front);
-      }
-    }
-  }
-
-  Facet facetOf(const std::array<GlobalId, 4>& ids) const
-  {
-    Facet facet;
-    std::transform(ids.begin(), ids.end(), facet.vertices.begin(),
-      [&](GlobalId id)
-      {
-        return id < 0
-                 ? -1
-                 : std::lower_bound(vertexOf_.begin(), vertexOf_.end(), std::pair{ id, Index{ 0 } })
-                     ->second;
-      });
-    return facet;
-  }
-
-  const DistributedMesh& mesh_;
-  const ColumnNodes& nodes_;
-  const CellStacks stacks_;
-  std::vector<std::pair<GlobalId, Index>> vertexOf_; ///< Of the ids of shared vertices.
-  std::vector<std::vector<Front>> outgoing_;
-  std::vector<ColumnVisit> visited_;
-};
-
 /// For each moving node the facet that its column stands on. Collective.
 std::vector<BestFacet> findBestFacets(RankExchange& exchange, const Mesh& mesh,
   const ColumnNodes& nodes, const Moves& moves, const std::vector<Facet>& facets,
@@ -238,7 +96,8 @@ std::vector<BestFacet> findBestFacets(RankExchange& exchange, const Mesh& mesh,
       if (moves.fractions[n] > 0)
       {
         const Vector3 direction = normalized(moves.targets[n] - nodes.points[n]);
-        best[n] = better(best[n], { std::abs(dot(direction, normal)), idsOf(mesh, facet) });
+        best[n] =
+          better(best[n], { std::abs(dot(direction, normal)), idsOf(mesh, facet.vertices) });
       }
     }
   }
@@ -262,13 +121,13 @@ LayerColumns::LayerColumns(RankExchange& exchange, const DistributedMesh& mesh, 
   }
   facets_ = findBoundaryFacets(exchange, mesh, fixed);
   const auto best = findBestFacets(exchange, piece, nodes_, moves, facets_, plane);
-  Climb climb(mesh, nodes_);
+  ColumnClimb climb(mesh, nodes_);
   for (const Facet& facet : facets_)
   {
     for (int k = 0; k < nodes_.count(facet); ++k)
     {
       const Index n = nodes_.at(facet, k);
-      if (moves.fractions[n] > 0 && best[n].ids == idsOf(piece, facet))
+      if (moves.fractions[n] > 0 && best[n].ids == idsOf(piece, facet.vertices))
       {
         climb.start(facet, k, reachOfMove * distance(moves.targets[n], nodes_.points[n]));
       }
@@ -436,8 +295,7 @@ std::vector<unsigned char> LayerColumns::findBlocked(RankExchange& exchange,
         blocked[n] || (!nodes_.entities[n] && std::abs(dot(move, normal)) > inPlane * norm(move));
     }
   }
-  combineShared(exchange, nodes_.shared, blocked,
-    [](unsigned char a, unsigned char b) { return std::max(a, b); });
+  combineFlags(exchange, nodes_.shared, blocked);
   return blocked;
 }
 

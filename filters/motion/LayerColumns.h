@@ -2,9 +2,9 @@
 #pragma once
 
 #include "mesh/DistributedMesh.h"
+#include "motion/ColumnClimb.h"
 
 #include <cadrefine/classification/BoundaryProjector.h>
-#include <cadrefine/mesh/EdgeTable.h>
 #include <cadrefine/mesh/Facets.h>
 #include <cadrefine/motion/MoveGuard.h>
 
@@ -13,39 +13,6 @@
 
 namespace cadrefine
 {
-
-/// What columns are made of: the vertices of a mesh, or the mid nodes of its edges.
-struct ColumnNodes
-{
-  const std::vector<Point3>& points;
-  const std::vector<GlobalId>& ids;
-  const SharedItems& shared;
-  const std::vector<EntityId>& entities; ///< The CAD entities on which nodes are.
-  std::vector<unsigned char> held;       ///< 1: the node stays; none: none does.
-  double leastMove = 0; ///< Of the first height: a wall that moves by less takes nothing along.
-  const EdgeTable* edges = nullptr; ///< Of mid nodes.
-
-  /// How many a side of a cell has.
-  int count(const Facet& side) const
-  {
-    return edges && side.corners() == 2 ? 1 : static_cast<int>(side.corners());
-  }
-  /// At corner k of a side, or between this corner and the next.
-  Index at(const Facet& side, int k) const
-  {
-    const Index corner = side.vertices[k];
-    return edges ? edges->find(corner, side.vertices[(k + 1) % side.corners()]) : corner;
-  }
-};
-
-/// A node that a column comes to, so many cells and so far above the wall.
-struct ColumnVisit
-{
-  Index node;
-  GlobalId column;
-  std::int64_t level;
-  double height;
-};
 
 /// Columns of nodes over the moving nodes of walls, through the wedges, hexahedra or quadrilaterals
 /// that stand on a boundary facet at such a node, on whatever ranks, to where the stack ends, or

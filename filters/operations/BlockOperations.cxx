@@ -281,13 +281,12 @@ std::vector<Point3> centresOf(
 OperationBlocks findOperationBlocks(RankExchange& exchange, const DistributedMesh& mesh,
   std::vector<unsigned char> flags, const BlockSettings& settings, const ParallelFor& parallelFor)
 {
-  const auto larger = [](unsigned char a, unsigned char b) { return std::max(a, b); };
   const Mesh& piece = mesh.mesh();
-  combineShared(exchange, mesh.shared, flags, larger);
+  combineFlags(exchange, mesh.shared, flags);
   for (int ring = 1; ring < settings.rings; ++ring)
   {
     flagVertices(piece, cellsAt(piece, flags, parallelFor), flags);
-    combineShared(exchange, mesh.shared, flags, larger);
+    combineFlags(exchange, mesh.shared, flags);
   }
   std::vector<Index> cells =
     cellsOfShape(cellsAt(piece, flags, parallelFor), 0, simplexCount(piece));

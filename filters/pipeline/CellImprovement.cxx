@@ -266,17 +266,8 @@ private:
     return visitCells(state_.mesh.mesh(),
       [&](const auto& cells)
       {
-        return collect<Index>(state_.parallelFor, cells.size(), fineGrain,
-          [&](std::size_t begin, std::size_t end, std::vector<Index>& bad)
-          {
-            for (std::size_t c = begin; c < end; ++c)
-            {
-              if (isBad(cells[c], points) && mayChange(cells[c]))
-              {
-                bad.push_back(static_cast<Index>(c));
-              }
-            }
-          });
+        return indicesWhere(state_.parallelFor, cells.size(),
+          [&](std::size_t c) { return isBad(cells[c], points) && mayChange(cells[c]); });
       });
   }
 

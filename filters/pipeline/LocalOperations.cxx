@@ -57,20 +57,18 @@ OperationBlocks gather(const PipelineContext& context, MeshState& state, Operati
 }
 
 /// The boundary at the blocks: facets of their cells, with those beside these. Collective.
-ClassifiedBoundary boundaryAt(
-  const PipelineContext& context, MeshState& state, const OperationBlocks& blocks)
+ClassifiedBoundary boundaryAt(const PipelineContext& context, const MeshState& state,
+  const OperationBlocks& blocks, const std::vector<unsigned char>& onBoundary)
 {
   const Mesh& mesh = state.mesh.mesh();
   std::vector<unsigned char> flags(mesh.points.size(), 0);
   const auto flag = [&](const std::vector<Index>& cells)
   {
     flagVertices(mesh, cells, flags);
-    combineShared(context.exchange, state.mesh.shared, flags,
-      [](unsigned char a, unsigned char b) { return std::max(a, b); });
+    combineFlags(context.exchange, state.mesh.shared, flags);
   };
   flag(indicesWhere(blocks.ofCells.size(), [&](std::size_t c) { return blocks.ofCells[c] >= 0; }));
   flag(cellsAt(mesh, flags, state.parallelFor));
-  const std::vector<unsigned char>& onBoundary = onBoundaryOf(context, state);
   std::transform(flags.begin(), flags.end(), onBoundary.begin(), flags.begin(),
     [](unsigned char isNear, unsigned char isOn) { return isNear && isOn; });
   return findClassifiedBoundary(
@@ -108,8 +106,8 @@ std::int64_t operate(const PipelineContext& context, MeshState& state,
   RankExchange& exchange = context.exchange;
   const OperationBlocks blocks = gather(
     context, state, findOperationBlocks(exchange, state.mesh, flags, settings, state.parallelFor));
-  const ClassifiedBoundary boundary = boundaryAt(context, state, blocks);
   const std::vector<unsigned char>& onBoundary = onBoundaryOf(context, state);
+  const ClassifiedBoundary boundary = boundaryAt(context, state, blocks, onBoundary);
   const Mesh& mesh = state.mesh.mesh();
   findNumberings(exchange, state);
   const auto labels = [&](int dimension)

@@ -85,8 +85,7 @@ std::vector<unsigned char> findVerticesOnCAD(
       onCAD[vertex] = onCAD[vertex] || records[f].onCAD;
     }
   }
-  combineShared(task.exchange, task.mesh.shared, onCAD,
-    [](unsigned char a, unsigned char b) { return std::max(a, b); });
+  combineFlags(task.exchange, task.mesh.shared, onCAD);
   return onCAD;
 }
 

@@ -90,8 +90,7 @@ private:
   std::vector<unsigned char> findHeld()
   {
     auto held = midNodesOfPyramids(nodes_.table);
-    combineShared(exchange_, sharedEdges_, held,
-      [](unsigned char a, unsigned char b) { return std::max(a, b); });
+    combineFlags(exchange_, sharedEdges_, held);
     return held;
   }
 

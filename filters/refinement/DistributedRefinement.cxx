@@ -29,8 +29,7 @@ std::vector<Index> combineMarks(RankExchange& exchange, RefinementPlan& plan)
   const auto& shared = plan.sharedEdges.all;
   std::copy_if(shared.begin(), shared.end(), std::back_inserter(fresh),
     [&](Index edge) { return !plan.marks[edge]; });
-  combineShared(exchange, plan.sharedEdges, plan.marks,
-    [](unsigned char a, unsigned char b) { return std::max(a, b); });
+  combineFlags(exchange, plan.sharedEdges, plan.marks);
   fresh.erase(
     std::remove_if(fresh.begin(), fresh.end(), [&](Index edge) { return !plan.marks[edge]; }),
     fresh.end());

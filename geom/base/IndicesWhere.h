@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cadrefine/base/MeshTypes.h>
+#include <cadrefine/base/ParallelFor.h>
 
 #include <cstddef>
 #include <vector>
@@ -22,6 +23,24 @@ std::vector<Index> indicesWhere(std::size_t count, const Predicate& holds)
     }
   }
   return indices;
+}
+
+/// The same on threads, for a predicate that is cheap.
+template<class Predicate>
+std::vector<Index> indicesWhere(
+  const ParallelFor& parallelFor, std::size_t count, const Predicate& holds)
+{
+  return collect<Index>(parallelFor, count, fineGrain,
+    [&](std::size_t begin, std::size_t end, std::vector<Index>& indices)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        if (holds(i))
+        {
+          indices.push_back(static_cast<Index>(i));
+        }
+      }
+    });
 }
 
 } // namespace cadrefine

@@ -1,0 +1,90 @@
+// Columns of nodes through the cells of boundary layers, over all ranks.
+#pragma once
+
+#include "mesh/DistributedMesh.h"
+
+#include <cadrefine/base/EntityId.h>
+#include <cadrefine/mesh/EdgeTable.h>
+#include <cadrefine/mesh/Facets.h>
+#include <cadrefine/motion/CellStacks.h>
+
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace cadrefine
+{
+
+/// What columns are made of: the vertices of a mesh, or the mid nodes of its edges.
+struct ColumnNodes
+{
+  const std::vector<Point3>& points;
+  const std::vector<GlobalId>& ids;
+  const SharedItems& shared;
+  const std::vector<EntityId>& entities; ///< The CAD entities on which nodes are.
+  std::vector<unsigned char> held;       ///< 1: the node stays; none: none does.
+  double leastMove = 0; ///< Of the first height: a wall that moves by less takes nothing along.
+  const EdgeTable* edges = nullptr; ///< Of mid nodes.
+
+  /// How many a side of a cell has.
+  int count(const Facet& side) const { return edges ? side.edges() : side.corners(); }
+  /// At corner k of a side, or between this corner and the next.
+  Index at(const Facet& side, int k) const
+  {
+    const Index corner = side.vertices[k];
+    return edges ? edges->find(corner, side.vertices[(k + 1) % side.corners()]) : corner;
+  }
+};
+
+/// A node that a column comes to, so many cells and so far above the wall.
+struct ColumnVisit
+{
+  Index node;
+  GlobalId column;
+  std::int64_t level;
+  double height;
+};
+
+/// Finds the nodes of columns. Work: linear in the cells that they go through, and that of
+/// CellStacks. Keeps references to mesh and nodes.
+class ColumnClimb
+{
+public:
+  ColumnClimb(const DistributedMesh& mesh, const ColumnNodes& nodes);
+
+  /// A column that stands on this node of a facet (see ColumnNodes::at), on both sides of it, and
+  /// ends at this height.
+  void start(const Facet& facet, int place, double reach);
+
+  /// What the columns come to on this rank: on it, and from others. Collective; messages: one to
+  /// and from each neighbour for every time that columns cross between ranks.
+  std::vector<ColumnVisit> run(RankExchange& exchange);
+
+private:
+  /// A side of cells on its way to the rank that has the cell beyond it, and the column that stands
+  /// on one of its nodes.
+  struct Front
+  {
+    GlobalId column;
+    std::array<GlobalId, 4> side;
+    std::int64_t place; ///< Of the node there, see ColumnNodes::at.
+    std::int64_t level;
+    double height;
+    double reach; ///< The column ends at this height.
+  };
+
+  void climb(Facet side, Front front);
+  void goBeyond(const Facet& side, const Front& front);
+  void send(const Facet& side, Front front);
+  Facet facetOf(const std::array<GlobalId, 4>& ids) const;
+
+  const DistributedMesh& mesh_;
+  const ColumnNodes& nodes_;
+  const CellStacks stacks_;
+  std::vector<std::pair<GlobalId, Index>> vertexOf_; ///< Of the ids of shared vertices.
+  std::vector<std::vector<Front>> outgoing_;
+  std::vector<ColumnVisit> visited_;
+};
+
+} // namespace cadrefine
