@@ -240,7 +240,8 @@ std::vector<MidpointOnCAD> projectMidpoints(RankExchange& exchange, const Mesh& 
   {
     midpoints[asking[i]].where = answers.values[i];
   }
-  for (std::size_t i = 0; edges.withOperations && i < midpoints.size(); ++i)
+  const bool offCrease = edges.withOperations || exchange.any(mesh.hasOtherThanSimplices());
+  for (std::size_t i = 0; offCrease && i < midpoints.size(); ++i)
   {
     const Index e = edgesOf[i];
     const BoundaryEdge edge =
@@ -305,13 +306,13 @@ void projectQuads(RankExchange& exchange, const Mesh& mesh, const MarkedQuads& q
       queries.push_back(middleOfQuad(points, entities, code - 3));
     }
   }
-  const auto answers = projectEdges(
-    exchange, classified.projector, std::move(queries), { "projecting", "new vertices" });
+  const auto answers =
+    projectEdges(exchange, classified.projector, queries, { "projecting", "new vertices" });
   for (std::size_t i = 0; i < asking.size(); ++i)
   {
     if (answers.values[i].entity)
     {
-      hits.push_back({ asking[i], answers.values[i] });
+      hits.push_back({ asking[i], classified.projector.offCrease(queries[i], answers.values[i]) });
     }
   }
 }

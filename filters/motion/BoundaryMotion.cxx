@@ -29,6 +29,8 @@ constexpr int sweepsARound = 5;
 constexpr double worthwhile = 0.9;
 /// A mean ratio from which on cells are no matter of local operations.
 constexpr double fairQuality = 0.3;
+/// Walls that move by less of the first cell's height do so alone.
+constexpr double leastMoveOfWalls = 1e-3;
 constexpr double noQuality = std::numeric_limits<double>::infinity();
 
 /// A mesh on its way onto the CAD.
@@ -118,7 +120,8 @@ std::vector<unsigned char> findHeld(RankExchange& exchange, const DistributedMes
 
 ColumnNodes verticesOf(const DistributedMesh& mesh, const Classification& classification)
 {
-  return { mesh.mesh().points, mesh.mesh().ids, mesh.shared, classification.entities, {} };
+  return { mesh.mesh().points, mesh.mesh().ids, mesh.shared, classification.entities, {},
+    leastMoveOfWalls };
 }
 
 /// Halves the moves of these vertices until every cell of every rank accepts them, then makes them.
@@ -205,13 +208,18 @@ void takeAlong(Motion& motion, std::vector<Index>& moving, std::vector<Index>& s
   {
     return;
   }
-  const std::vector<Index> vertices = motion.columns.follow(motion.exchange, motion.moves);
-  moving.insert(moving.end(), vertices.begin(), vertices.end());
-  for (const Index vertex : vertices)
+  const auto isOnCAD = [&](Index vertex)
+  { return static_cast<bool>(motion.classification.entities[vertex]); };
+  const auto [joining, redirected] = motion.columns.follow(motion.exchange, motion.moves);
+  moving.insert(moving.end(), joining.begin(), joining.end());
+  for (const Index vertex : joining)
   {
-    const bool isOnCAD = static_cast<bool>(motion.classification.entities[vertex]);
-    motion.slid[vertex] = motion.slid[vertex] || isOnCAD;
-    (isOnCAD ? motion.aimed : settled).push_back(vertex);
+    motion.slid[vertex] = motion.slid[vertex] || isOnCAD(vertex);
+    (isOnCAD(vertex) ? motion.aimed : settled).push_back(vertex);
+  }
+  for (const Index vertex : redirected)
+  {
+    motion.slid[vertex] = motion.slid[vertex] || isOnCAD(vertex);
   }
 }
 

@@ -18,11 +18,11 @@ ColumnClimb::ColumnClimb(const DistributedMesh& mesh, const ColumnNodes& nodes)
   outgoing_.resize(mesh.shared.neighbours.size());
 }
 
-void ColumnClimb::start(const Facet& facet, int place, double reach)
+void ColumnClimb::start(const Facet& facet, int place, double highest, double reach)
 {
   const GlobalId wall = nodes_.ids[nodes_.at(facet, place)];
-  climb(facet, { 2 * wall, {}, place, 0, 0, reach });
-  goBeyond(facet, { 2 * wall + 1, {}, place, 0, 0, reach });
+  climb(facet, { 2 * wall, {}, place, 0, 0, highest, reach });
+  goBeyond(facet, { 2 * wall + 1, {}, place, 0, 0, highest, reach });
 }
 
 std::vector<ColumnVisit> ColumnClimb::run(RankExchange& exchange)
@@ -61,6 +61,10 @@ void ColumnClimb::climb(Facet side, Front front)
     const Index node = nodes_.at(above, place);
     front.height += distance(nodes_.points[nodes_.at(side, place)], nodes_.points[node]);
     ++front.level;
+    if (front.level == 1 && front.height > front.highest)
+    {
+      return;
+    }
     visited_.push_back({ node, front.column, front.level, front.height });
     if (front.height >= front.reach)
     {

@@ -24,7 +24,7 @@ struct ColumnNodes
   const SharedItems& shared;
   const std::vector<EntityId>& entities; ///< The CAD entities on which nodes are.
   std::vector<unsigned char> held;       ///< 1: the node stays; none: none does.
-  double leastMove = 0; ///< Of the first height: a wall that moves by less takes nothing along.
+  double leastMove; ///< Of the first height: a wall that moves by less takes nothing along.
   const EdgeTable* edges = nullptr; ///< Of mid nodes.
 
   /// How many a side of a cell has.
@@ -54,8 +54,8 @@ public:
   ColumnClimb(const DistributedMesh& mesh, const ColumnNodes& nodes);
 
   /// A column that stands on this node of a facet (see ColumnNodes::at), on both sides of it, and
-  /// ends at this height.
-  void start(const Facet& facet, int place, double reach);
+  /// ends at the height `reach`; none where its first cell is higher than `highest`.
+  void start(const Facet& facet, int place, double highest, double reach);
 
   /// What the columns come to on this rank: on it, and from others. Collective; messages: one to
   /// and from each neighbour for every time that columns cross between ranks.
@@ -71,7 +71,8 @@ private:
     std::int64_t place; ///< Of the node there, see ColumnNodes::at.
     std::int64_t level;
     double height;
-    double reach; ///< The column ends at this height.
+    double highest; ///< Of the first cell.
+    double reach;   ///< The column ends at this height.
   };
 
   void climb(Facet side, Front front);

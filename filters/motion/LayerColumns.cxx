@@ -30,6 +30,8 @@ constexpr double reachOfMove = 100;
 constexpr double heightsOfMove = 6;
 /// A vertex on the CAD that goes along comes off its way by less of it.
 constexpr double alongEntity = 0.1;
+/// The least cosine between a facet's normal and a move across it, not along it.
+constexpr double across = 0.5;
 
 double smaller(double a, double b)
 {
@@ -129,11 +131,16 @@ LayerColumns::LayerColumns(RankExchange& exchange, const DistributedMesh& mesh, 
       const Index n = nodes_.at(facet, k);
       if (moves.fractions[n] > 0 && best[n].ids == idsOf(piece, facet.vertices))
       {
-        climb.start(facet, k, reachOfMove * distance(moves.targets[n], nodes_.points[n]));
+        const double move = distance(moves.targets[n], nodes_.points[n]);
+        climb.start(facet, k, move / nodes_.leastMove, reachOfMove * move);
       }
     }
   }
   listMembers(exchange, climb.run(exchange), moves);
+  std::vector<double> cosines;
+  std::transform(best.begin(), best.end(), std::back_inserter(cosines),
+    [](const BestFacet& facet) { return facet.cosine; });
+  findYielding(exchange, moves, cosines);
   const auto spans = findSpans(exchange, moves);
   const auto isBeyond = [&](const Member& member)
   {
@@ -183,27 +190,91 @@ void LayerColumns::listMembers(
   }
 }
 
-/// 1 for members whose node an earlier column has: one that comes to it in fewer cells, or, in as
-/// many, whose wall's node has the smaller id. Collective.
-std::vector<unsigned char> LayerColumns::findLost(RankExchange& exchange, const Moves& moves) const
+/// use(node, normal) of all facets.
+template<class Use>
+void LayerColumns::forAllFacets(const Use& use) const
+{
+  for (const Facet& facet : facets_)
+  {
+    const Vector3 normal = unitNormal(mesh_.mesh(), facet, plane_);
+    for (int k = 0; k < nodes_.count(facet); ++k)
+    {
+      use(nodes_.at(facet, k), normal);
+    }
+  }
+}
+
+/// Nodes that are to move along their facets only, and to which a column comes that does so too:
+/// they start none themselves. Given the cosines between the moves and the facets' normals.
+/// Collective.
+void LayerColumns::findYielding(
+  RankExchange& exchange, const Moves& moves, const std::vector<double>& cosines)
+{
+  const auto slides = [&](Index n) { return moves.fractions[n] > 0 && cosines[n] < across; };
+  std::vector<unsigned char> ofSliding(columns_.size(), 0);
+  for (std::size_t c = 0; c < walls_.size(); ++c)
+  {
+    ofSliding[c] = walls_[c] >= 0 && slides(walls_[c]);
+  }
+  combineFlags(exchange, shared_, ofSliding);
+  std::vector<unsigned char> isLeftOut;
+  std::transform(members_.begin(), members_.end(), std::back_inserter(isLeftOut),
+    [&](const Member& member) { return ofSliding[member.column]; });
+  yields_.resize(nodes_.points.size());
+  for (std::size_t n = 0; n < yields_.size(); ++n)
+  {
+    yields_[n] = slides(static_cast<Index>(n));
+  }
+  const auto ofNodes =
+    movesOfMembers(exchange, movesOfWalls(exchange, moves), findLost(exchange, moves, isLeftOut));
+  std::vector<unsigned char> stays(ofNodes.size(), 0);
+  forAllFacets([&](Index n, const Vector3& normal)
+    { stays[n] = stays[n] || std::abs(dot(ofNodes[n], normal)) > across * norm(ofNodes[n]); });
+  combineFlags(exchange, nodes_.shared, stays);
+  for (std::size_t n = 0; n < yields_.size(); ++n)
+  {
+    yields_[n] = yields_[n] && ofNodes[n] != Vector3{} && !stays[n];
+  }
+  std::vector<unsigned char> isNone(columns_.size(), 0);
+  for (std::size_t c = 0; c < walls_.size(); ++c)
+  {
+    isNone[c] = walls_[c] >= 0 && yields_[walls_[c]];
+  }
+  combineFlags(exchange, shared_, isNone);
+  members_.erase(std::remove_if(members_.begin(), members_.end(),
+                   [&](const Member& member) { return isNone[member.column]; }),
+    members_.end());
+  for (std::size_t c = 0; c < walls_.size(); ++c)
+  {
+    walls_[c] = isNone[c] ? -1 : walls_[c];
+  }
+}
+
+/// 1 for members that are left out, and for those whose node an earlier column has: one that comes
+/// to it in fewer cells, or, in as many, whose wall's node has the smaller id. Collective.
+std::vector<unsigned char> LayerColumns::findLost(
+  RankExchange& exchange, const Moves& moves, const std::vector<unsigned char>& isLeftOut) const
 {
   std::vector<Claim> claims(nodes_.points.size());
   for (std::size_t n = 0; n < claims.size(); ++n)
   {
-    claims[n] = moves.fractions[n] > 0 ? Claim{ 0, -1 } : Claim{};
+    claims[n] = moves.fractions[n] > 0 && !yields_[n] ? Claim{ 0, -1 } : Claim{};
   }
   const auto claimOf = [&](const Member& member) {
     return Claim{ member.level, columns_[member.column] };
   };
-  for (const Member& member : members_)
+  for (std::size_t k = 0; k < members_.size(); ++k)
   {
-    claims[member.node] = std::min(claims[member.node], claimOf(member));
+    Claim& claim = claims[members_[k].node];
+    claim = isLeftOut[k] ? claim : std::min(claim, claimOf(members_[k]));
   }
   combineShared(
     exchange, nodes_.shared, claims, [](const Claim& a, const Claim& b) { return std::min(a, b); });
-  std::vector<unsigned char> lost;
-  std::transform(members_.begin(), members_.end(), std::back_inserter(lost),
-    [&](const Member& member) { return claims[member.node] < claimOf(member); });
+  std::vector<unsigned char> lost = isLeftOut;
+  for (std::size_t k = 0; k < members_.size(); ++k)
+  {
+    lost[k] = lost[k] || claims[members_[k].node] < claimOf(members_[k]);
+  }
   return lost;
 }
 
@@ -211,7 +282,7 @@ std::vector<unsigned char> LayerColumns::findLost(RankExchange& exchange, const 
 std::vector<LayerColumns::Span> LayerColumns::findSpans(
   RankExchange& exchange, const Moves& moves) const
 {
-  const auto isLost = findLost(exchange, moves);
+  const auto isLost = findLost(exchange, moves, std::vector<unsigned char>(members_.size(), 0));
   std::vector<double> firsts(columns_.size(), infinity);
   std::vector<double> lost(columns_.size(), infinity);
   std::vector<double> tops(columns_.size(), 0);
@@ -245,8 +316,7 @@ std::vector<LayerColumns::Span> LayerColumns::findSpans(
   std::vector<Span> spans(columns_.size());
   for (std::size_t c = 0; c < spans.size(); ++c)
   {
-    const bool takesAlong = norm(ofWalls[c]) >= nodes_.leastMove * firsts[c];
-    spans[c] = { firsts[c], takesAlong ? std::min(lost[c], tops[c]) : 0, faded[c] };
+    spans[c] = { firsts[c], std::min(lost[c], tops[c]), faded[c] };
   }
   return spans;
 }
@@ -267,34 +337,38 @@ std::vector<Vector3> LayerColumns::movesOfWalls(RankExchange& exchange, const Mo
   return ofWalls;
 }
 
-/// 1 for nodes that are held, and those of a boundary off the CAD that would leave the plane of a
-/// facet. Members that are lost do not count: one column at most moves a node.
-std::vector<unsigned char> LayerColumns::findBlocked(RankExchange& exchange,
-  const std::vector<Vector3>& ofWalls, const std::vector<unsigned char>& isLost) const
+/// The moves of the walls over which nodes are, of one of them where there are several. Collective.
+std::vector<Vector3> LayerColumns::movesOfMembers(RankExchange& exchange,
+  const std::vector<Vector3>& ofWalls, const std::vector<unsigned char>& isLeftOut) const
 {
   std::vector<Vector3> ofNodes(nodes_.points.size(), Vector3{});
   for (std::size_t k = 0; k < members_.size(); ++k)
   {
-    if (!isLost[k])
+    if (!isLeftOut[k])
     {
       ofNodes[members_[k].node] = ofWalls[members_[k].column];
     }
   }
   combineShared(exchange, nodes_.shared, ofNodes,
     [](const Vector3& a, const Vector3& b) { return a == Vector3{} ? b : a; });
+  return ofNodes;
+}
+
+/// 1 for nodes that are held, and those of a boundary off the CAD that would leave the plane of a
+/// facet. Members that are lost do not count: one column at most moves a node.
+std::vector<unsigned char> LayerColumns::findBlocked(RankExchange& exchange,
+  const std::vector<Vector3>& ofWalls, const std::vector<unsigned char>& isLost) const
+{
+  const auto ofNodes = movesOfMembers(exchange, ofWalls, isLost);
   std::vector<unsigned char> blocked = nodes_.held;
   blocked.resize(ofNodes.size(), 0);
-  for (const Facet& facet : facets_)
-  {
-    const Vector3 normal = unitNormal(mesh_.mesh(), facet, plane_);
-    for (int k = 0; k < nodes_.count(facet); ++k)
+  forAllFacets(
+    [&](Index n, const Vector3& normal)
     {
-      const Index n = nodes_.at(facet, k);
       const Vector3& move = ofNodes[n];
       blocked[n] =
         blocked[n] || (!nodes_.entities[n] && std::abs(dot(move, normal)) > inPlane * norm(move));
-    }
-  }
+    });
   combineFlags(exchange, nodes_.shared, blocked);
   return blocked;
 }
@@ -312,7 +386,7 @@ bool LayerColumns::keepsDirection(Index node, const Vector3& move) const
   return distance(placeOf(node, move), nodes_.points[node] + move) <= alongEntity * norm(move);
 }
 
-std::vector<Index> LayerColumns::follow(RankExchange& exchange, Moves& moves)
+LayerColumns::Followers LayerColumns::follow(RankExchange& exchange, Moves& moves)
 {
   const auto ofWalls = movesOfWalls(exchange, moves);
   const auto blocked =
@@ -330,15 +404,13 @@ std::vector<Index> LayerColumns::follow(RankExchange& exchange, Moves& moves)
   }
   combineShared(exchange, nodes_.shared, places,
     [](const Place& a, const Place& b) { return a.isSet ? a : b; });
-  std::vector<Index> followers;
+  Followers followers;
   for (std::size_t n = 0; n < places.size(); ++n)
   {
     if (places[n].isSet)
     {
-      if (moves.fractions[n] == 0)
-      {
-        followers.push_back(static_cast<Index>(n));
-      }
+      (moves.fractions[n] == 0 ? followers.joining : followers.redirected)
+        .push_back(static_cast<Index>(n));
       moves.add(static_cast<Index>(n), places[n].point);
     }
   }

@@ -27,7 +27,8 @@ namespace cadrefine
 /// make way: so much less fades out that no cell of the stack loses more than a quarter of its
 /// height. Nodes of a column that are on a boundary keep to it: those on the CAD to their
 /// entity, others move if they stay in the planes of their facets; where the last one cannot go
-/// along, all of the move fades out.
+/// along, all of the move fades out. A node that is to move along the boundary itself, as on a
+/// plane of symmetry, goes with a column that does so too.
 ///
 /// Work: linear in the cells that are not simplices. Messages: one to and from each neighbour for
 /// every time that columns cross between ranks, and a few more.
@@ -44,9 +45,15 @@ public:
   /// Whether there may be columns, on any rank.
   bool any() const { return any_; }
 
-  /// Adds the moves of the columns' nodes to those of their walls. Returns those of these nodes
-  /// that did not move before. Collective.
-  std::vector<Index> follow(RankExchange& exchange, Moves& moves);
+  /// Nodes of columns.
+  struct Followers
+  {
+    std::vector<Index> joining;    ///< Did not move before.
+    std::vector<Index> redirected; ///< Were to move to other places.
+  };
+
+  /// Adds the moves of the columns' nodes to those of their walls. Collective.
+  Followers follow(RankExchange& exchange, Moves& moves);
 
   /// Makes all nodes of a column that follow, and that of its wall, go the same part of their
   /// way: the smallest. Collective.
@@ -74,15 +81,21 @@ private:
 
   void listMembers(
     RankExchange& exchange, const std::vector<ColumnVisit>& visits, const Moves& moves);
-  std::vector<unsigned char> findLost(RankExchange& exchange, const Moves& moves) const;
+  void findYielding(RankExchange& exchange, const Moves& moves, const std::vector<double>& cosines);
+  std::vector<unsigned char> findLost(
+    RankExchange& exchange, const Moves& moves, const std::vector<unsigned char>& isLeftOut) const;
   std::vector<Span> findSpans(RankExchange& exchange, const Moves& moves) const;
 
   /// The moves of the walls of all columns of this rank. Collective.
   std::vector<Vector3> movesOfWalls(RankExchange& exchange, const Moves& moves) const;
+  std::vector<Vector3> movesOfMembers(RankExchange& exchange, const std::vector<Vector3>& ofWalls,
+    const std::vector<unsigned char>& isLeftOut) const;
   std::vector<unsigned char> findBlocked(RankExchange& exchange,
     const std::vector<Vector3>& ofWalls, const std::vector<unsigned char>& isLost) const;
   Point3 placeOf(Index node, const Vector3& move) const;
   bool keepsDirection(Index node, const Vector3& move) const;
+  template<class Use>
+  void forAllFacets(const Use& use) const;
   template<class Use>
   void forAllTied(const Use& use) const;
 
@@ -95,6 +108,7 @@ private:
   std::vector<GlobalId> columns_; ///< Ascending: twice the id of the wall's node, 1 more beyond.
   std::vector<Index> walls_; ///< The node of each column's wall; -1: only other ranks start it.
   SharedItems shared_;       ///< Columns.
+  std::vector<unsigned char> yields_; ///< 1: a node that goes with a column, wherever it was to go.
   std::vector<Member> members_;
   std::vector<Member> following_; ///< Those of them that move.
 };

@@ -108,18 +108,70 @@ Mesh documentedWedges()
   return withTurnedWedges(wedgeLayers());
 }
 
+/// Columns from two walls meet, also on planes of symmetry, which are not in the CAD.
+Mesh gap()
+{
+  return cadtest::withListedBoundary(
+    cadtest::eighthOf(cadtest::hexahedralShellMesh(2, 0.02, 4, heights)));
+}
+
+/// Between planes of symmetry, which the CAD does not have inside the sphere.
+Mesh eighth(BoxKind kind)
+{
+  const Mesh boxes = cadtest::eighthOf(cadtest::hexahedralShellMesh(2, 0, 4, heights));
+  return cadtest::withListedBoundary(cadtest::mixedMesh(
+    boxes, [=](std::size_t) { return kind; }, 1));
+}
+
+Mesh eighthOfWedges()
+{
+  return eighth(BoxKind::Wedges);
+}
+
+Mesh eighthOfHexahedra()
+{
+  return eighth(BoxKind::Hexahedron);
+}
+
+TopoDS_Shape sphere()
+{
+  return cadtest::sphere(2);
+}
+
+TopoDS_Shape circle()
+{
+  return cadtest::circle(2);
+}
+
+TopoDS_Shape twoSpheres()
+{
+  return cadtest::together(cadtest::sphere(2), cadtest::sphere(6));
+}
+
+TopoDS_Shape eighthOfShell()
+{
+  return cadtest::eighthOfShell(2, 6);
+}
+
 struct Problem
 {
   std::string name;
   vtkSmartPointer<vtkPointSet> (*mesh)();
+  TopoDS_Shape (*cad)();
   double threshold; ///< Cells with a larger error are cut.
 };
 
-const std::array<Problem, 7> problems{ { { "HexahedralBall", gridOf<hexahedralBall>, 0.01 },
-  { "MixedBall", gridOf<mixedBall>, 0.01 }, { "WedgeLayers", gridOf<wedgeLayers>, 0.01 },
-  { "HexahedralLayers", gridOf<hexahedralLayers>, 0.01 },
-  { "DocumentedWedges", gridOf<documentedWedges>, 0.01 }, { "Ring", gridOf<ring>, 1e-3 },
-  { "Surface", surface, 0.01 } } };
+const std::array<Problem, 10> problems{
+  { { "HexahedralBall", gridOf<hexahedralBall>, sphere, 0.01 },
+    { "MixedBall", gridOf<mixedBall>, sphere, 0.01 },
+    { "WedgeLayers", gridOf<wedgeLayers>, sphere, 0.01 },
+    { "HexahedralLayers", gridOf<hexahedralLayers>, sphere, 0.01 },
+    { "DocumentedWedges", gridOf<documentedWedges>, sphere, 0.01 },
+    { "Gap", gridOf<gap>, twoSpheres, 0.01 },
+    { "EighthOfWedges", gridOf<eighthOfWedges>, eighthOfShell, 0.01 },
+    { "EighthOfHexahedra", gridOf<eighthOfHexahedra>, eighthOfShell, 0.01 },
+    { "Ring", gridOf<ring>, circle, 1e-3 }, { "Surface", surface, sphere, 0.01 } }
+};
 
 struct Case
 {
@@ -159,10 +211,8 @@ class MixedPartition
 {
 protected:
   const Problem& problem = problems[GetParam().problem];
-  const bool isPlanar = problem.name == "Ring";
   cadtest::TemporaryFolder folder;
-  const std::string cadFile =
-    cadtest::writeInto(folder, isPlanar ? cadtest::circle(2) : cadtest::sphere(2), ".brep");
+  const std::string cadFile = cadtest::writeInto(folder, problem.cad(), ".brep");
 
   vtkSmartPointer<vtkPointSet> wholeMesh() const
   {

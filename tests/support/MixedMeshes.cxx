@@ -455,6 +455,31 @@ Mesh hexahedralShellMesh(double radius, double offset, int n, const std::vector<
   return mesh;
 }
 
+Mesh eighthOf(const Mesh& hexahedra)
+{
+  Mesh result;
+  Lattice<Index> lattice(result);
+  const auto isInside = [&](Index v)
+  {
+    const Point3& p = hexahedra.points[v];
+    return p[0] >= 0 && p[1] >= 0 && p[2] >= 0;
+  };
+  for (auto cell : hexahedra.hexahedra)
+  {
+    if (std::all_of(cell.begin(), cell.end(), isInside))
+    {
+      for (Index& v : cell)
+      {
+        v = lattice.at(v, [&] { return hexahedra.points[v]; });
+      }
+      result.hexahedra.push_back(cell);
+    }
+  }
+  std::mt19937_64 random(1);
+  shuffleIds(result, random);
+  return result;
+}
+
 Mesh quadrilateralRingMesh(
   double radius, double offset, int corners, const std::vector<double>& heights)
 {

@@ -3,6 +3,7 @@
 #include <cadrefine/cad/import/CADFile.h>
 
 #include <BRepAlgoAPI_BuilderAlgo.hxx>
+#include <BRepAlgoAPI_Common.hxx>
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepAlgoAPI_Fuse.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
@@ -107,6 +108,13 @@ TopoDS_Shape cone(double radius, double height)
 TopoDS_Shape boxWithoutCorner(double x, double y, double z, double radius)
 {
   return BRepAlgoAPI_Cut(box(x, y, z), sphere(radius)).Shape();
+}
+
+TopoDS_Shape eighthOfShell(double innerRadius, double outerRadius)
+{
+  return BRepAlgoAPI_Common(
+    boxWithoutCorner(outerRadius, outerRadius, outerRadius, innerRadius), sphere(outerRadius))
+    .Shape();
 }
 
 TopoDS_Shape cubesAtAnEdge()

@@ -34,6 +34,8 @@ TopoDS_Shape rectangle(double x, double y);
 TopoDS_Shape cone(double radius, double height);
 /// A box with a ball about the origin, its corner, cut off.
 TopoDS_Shape boxWithoutCorner(double x, double y, double z, double radius);
+/// What lies between two spheres round the origin where no coordinate is negative.
+TopoDS_Shape eighthOfShell(double innerRadius, double outerRadius);
 /// Two unit boxes that have an edge in common and nothing else: no manifold.
 TopoDS_Shape cubesAtAnEdge();
 /// Three unit squares that have an edge in common, on the z axis.
