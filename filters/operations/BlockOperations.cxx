@@ -171,9 +171,37 @@ void keepOnly(const std::vector<Index>& kept, std::vector<T>& list)
   list.resize(kept.size());
 }
 
-/// Takes vertices out of a mesh that no cell of it has. Those of other ranks stay.
-void dropVertices(
-  const std::vector<Index>& kept, DistributedMesh& mesh, Classification& classification)
+/// Which of the shared vertices are still shared: those of them that have cells here have these
+/// numbers, the others are below 0. Collective.
+SharedVertices sharedOfKept(
+  RankExchange& exchange, const DistributedMesh& mesh, const std::vector<Index>& numbers)
+{
+  const SharedVertices& shared = mesh.shared;
+  std::vector<Index> left;
+  for (const Index vertex : shared.all)
+  {
+    if (numbers[vertex] >= 0)
+    {
+      left.push_back(numbers[vertex]);
+    }
+  }
+  if (exchange.any(left.size() < shared.all.size()))
+  {
+    return findSharedVertices(exchange, mesh.mesh().ids, left);
+  }
+  auto items = shared.items;
+  for (auto& list : items)
+  {
+    std::transform(
+      list.begin(), list.end(), list.begin(), [&](Index vertex) { return numbers[vertex]; });
+  }
+  return makeSharedItems(shared.rank, shared.neighbours, std::move(items));
+}
+
+/// Takes vertices out of a mesh that no cell of it has, though cells of other ranks may have them.
+/// Collective.
+void dropVertices(RankExchange& exchange, const std::vector<Index>& kept, DistributedMesh& mesh,
+  Classification& classification)
 {
   Mesh& cells = mesh.mesh();
   std::vector<Index> numbers(cells.points.size(), -1);
@@ -181,25 +209,23 @@ void dropVertices(
   {
     numbers[kept[i]] = static_cast<Index>(i);
   }
-  const auto renumber = [&](auto& list)
-  {
-    for (auto& cell : list)
+  visitShapes(cells,
+    [&](auto, auto& list)
     {
-      for (Index& vertex : cell)
+      for (auto& cell : list)
       {
-        vertex = numbers[vertex];
+        for (Index& vertex : cell)
+        {
+          vertex = numbers[vertex];
+        }
       }
-    }
-  };
-  visitShapes(cells, [&](auto, auto& list) { renumber(list); });
+    });
   keepOnly(kept, cells.points);
   keepOnly(kept, cells.ids);
   keepOnly(kept, classification.entities);
   keepOnly(kept, classification.parameters);
   keepOnly(kept, classification.distances);
-  auto items = mesh.shared.items;
-  renumber(items);
-  mesh.shared = makeSharedItems(mesh.shared.rank, mesh.shared.neighbours, std::move(items));
+  mesh.shared = sharedOfKept(exchange, mesh, numbers);
 }
 
 /// Gives vertices that moved along the CAD the parameters of their new places.
@@ -424,7 +450,7 @@ OperationTrace operateOnBlocks(RankExchange& exchange, DistributedMesh& mesh,
     }
   }
   trace.keptVertices = usedVertices(mesh.mesh());
-  dropVertices(trace.keptVertices, mesh, classification);
+  dropVertices(exchange, trace.keptVertices, mesh, classification);
   return trace;
 }
 

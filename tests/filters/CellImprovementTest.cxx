@@ -9,6 +9,7 @@
 #include "SamePieces.h"
 #include "TestMeshes.h"
 #include "TestShapes.h"
+#include "pipeline/LocalOperations.h"
 
 #include <cadrefine/cad/import/CADFile.h>
 #include <cadrefine/mesh/Orientation.h>
@@ -150,6 +151,10 @@ protected:
   }
 };
 
+class RankWithoutCells : public ParallelTest
+{
+};
+
 TEST_P(CellImprovement, isThatOfOneRank)
 {
   const cadtest::FilterRun filters(CADREFINE_TRUTH "/box_minus_cylinder.brep");
@@ -223,6 +228,40 @@ TEST_P(CellImprovement, keepsListedSegments)
       EXPECT_EQ(edges.count({ std::min(a, b), std::max(a, b) }), 1U) << a << " " << b;
     }
   }
+}
+
+/// Its only cell is taken out, whose vertices were shared.
+TEST_F(RankWithoutCells, sharesNoVertexAnyMore)
+{
+  const auto whole = cadtest::toGrid(cadtest::cubeMesh(1, 0, 1));
+  cadtest::addGlobalIds(whole);
+  std::vector<int> rankOfCell(static_cast<std::size_t>(whole->GetNumberOfCells()), 0);
+  rankOfCell.back() = exchange.size() - 1;
+  const auto model = cadtest::modelOf(cadtest::box(1, 1, 1));
+  RunStatistics statistics;
+  const PipelineContext context{ exchange, *model, statistics, [](const std::string&) {} };
+  MeshState state = readMesh(exchange, cadtest::pieceOf(whole, rankOfCell, exchange.rank(), false));
+  setClassification(state, Classification(state.mesh.mesh().points.size()));
+  EXPECT_EQ(
+    state.mesh.shared.all.empty(), exchange.size() == 1 || state.mesh.mesh().points.empty());
+
+  const std::size_t cells = state.mesh.mesh().tetrahedra.size();
+  const auto isLast = [&](Index cell)
+  { return exchange.rank() == exchange.size() - 1 && cell == static_cast<Index>(cells) - 1; };
+  const auto takeOut = [](BlockMesh& block, const SurfaceRule&)
+  {
+    Cavity cavity;
+    cavity.cells = { 0 };
+    block.mesh().replace(cavity);
+    OperationResult result;
+    result.counts.collapses = 1;
+    return result;
+  };
+  const std::vector<unsigned char> everywhere(state.mesh.mesh().points.size(), 1);
+  EXPECT_EQ(operate(context, state, everywhere, { 1, 0, 1000, isLast }, takeOut), 1);
+  EXPECT_EQ(countMesh(exchange, state.mesh).cells, 5);
+  EXPECT_EQ(countMesh(exchange, state.mesh).vertices, 8);
+  EXPECT_TRUE(state.mesh.shared.all.empty());
 }
 
 /// Gives the triangles materials by the side of x = 0 on which their centroids are, and moves
