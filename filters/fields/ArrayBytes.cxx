@@ -1,14 +1,17 @@
 #include "fields/ArrayBytes.h"
 
 #include "fields/ArrayTransfer.h"
-#include "fields/Marshalling.h"
 
 #include <cadrefine/base/Error.h>
 
+#include <vtkCharArray.h>
+#include <vtkCommunicator.h>
 #include <vtkDataArray.h>
 #include <vtkDataSetAttributes.h>
+#include <vtkNew.h>
 #include <vtkTable.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <string>
@@ -135,6 +138,32 @@ void read(Reader& reader, vtkDataSetAttributes* attributes)
   addAs(attribute, array, attributes);
 }
 
+/// Throws Error where it cannot be done.
+std::vector<char> marshal(vtkDataObject* data)
+{
+  vtkNew<vtkCharArray> bytes;
+  if (!vtkCommunicator::MarshalDataObject(data, bytes))
+  {
+    throw Error("arrays cannot be sent to another rank");
+  }
+  return { bytes->GetPointer(0), bytes->GetPointer(0) + bytes->GetNumberOfValues() };
+}
+
+/// Throws Error where the bytes are no table.
+vtkSmartPointer<vtkTable> unmarshal(const std::vector<char>& bytes)
+{
+  vtkNew<vtkCharArray> array;
+  array->SetNumberOfValues(static_cast<vtkIdType>(bytes.size()));
+  std::copy(bytes.begin(), bytes.end(), array->GetPointer(0));
+  const auto data = vtkCommunicator::UnMarshalDataObject(array);
+  vtkSmartPointer<vtkTable> table = vtkTable::SafeDownCast(data);
+  if (!table)
+  {
+    throw Error("arrays from another rank cannot be read");
+  }
+  return table;
+}
+
 } // namespace
 
 std::vector<char> bytesOf(vtkDataSetAttributes* attributes)
@@ -177,7 +206,7 @@ vtkSmartPointer<vtkTable> arraysOf(const std::vector<char>& bytes)
   const std::vector<char> rest = reader.rest();
   if (!rest.empty())
   {
-    const auto others = unmarshal<vtkTable>(rest);
+    const auto others = unmarshal(rest);
     for (vtkIdType c = 0; c < others->GetNumberOfColumns(); ++c)
     {
       addAs(-1, others->GetColumn(c), table->GetRowData());

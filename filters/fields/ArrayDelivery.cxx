@@ -24,83 +24,116 @@ Bytes pack(vtkDataSetAttributes* attributes)
 }
 
 /// The array of that name, type and number of components; null where there is none.
-vtkAbstractArray* arrayLike(vtkAbstractArray* array, vtkTable* table)
+vtkAbstractArray* arrayLike(vtkAbstractArray* array, vtkDataSetAttributes* attributes)
 {
   vtkAbstractArray* other =
-    array->GetName() ? table->GetRowData()->GetAbstractArray(array->GetName()) : nullptr;
+    array->GetName() ? attributes->GetAbstractArray(array->GetName()) : nullptr;
   return other && other->GetDataType() == array->GetDataType() &&
              other->GetNumberOfComponents() == array->GetNumberOfComponents()
            ? other
            : nullptr;
 }
 
-/// The tuples of all tables in a row, of the arrays that all have.
-void append(const std::vector<vtkSmartPointer<vtkTable>>& tables, vtkDataSetAttributes* attributes)
+/// The tuples of all parts in a row, of the arrays that all have.
+void append(const std::vector<vtkDataSetAttributes*>& parts, vtkDataSetAttributes* attributes)
 {
-  if (tables.empty())
+  if (parts.size() == 1)
+  {
+    attributes->ShallowCopy(parts.front());
+  }
+  if (parts.size() <= 1)
   {
     return;
   }
-  const vtkIdType total = std::accumulate(tables.begin(), tables.end(), vtkIdType{ 0 },
-    [](vtkIdType sum, vtkTable* table) { return sum + table->GetNumberOfRows(); });
-  vtkDataSetAttributes* first = tables.front()->GetRowData();
+  const vtkIdType total = std::accumulate(parts.begin(), parts.end(), vtkIdType{ 0 },
+    [](vtkIdType sum, vtkDataSetAttributes* part) { return sum + part->GetNumberOfTuples(); });
+  vtkDataSetAttributes* first = parts.front();
   for (int a = 0; a < first->GetNumberOfArrays(); ++a)
   {
     vtkAbstractArray* array = first->GetAbstractArray(a);
-    if (!std::all_of(
-          tables.begin(), tables.end(), [&](vtkTable* table) { return arrayLike(array, table); }))
+    if (!std::all_of(parts.begin(), parts.end(),
+          [&](vtkDataSetAttributes* part) { return arrayLike(array, part); }))
     {
       continue;
     }
     const auto all = emptyLike(array, total);
     vtkIdType next = 0;
-    for (vtkTable* table : tables)
+    for (vtkDataSetAttributes* part : parts)
     {
-      all->InsertTuples(next, table->GetNumberOfRows(), 0, arrayLike(array, table));
-      next += table->GetNumberOfRows();
+      all->InsertTuples(next, part->GetNumberOfTuples(), 0, arrayLike(array, part));
+      next += part->GetNumberOfTuples();
     }
     addAs(first->IsArrayAnAttribute(a), all, attributes);
   }
 }
 
-void unpack(const std::vector<Bytes>& incoming, vtkDataSetAttributes* attributes)
+/// `own`: in the place of what comes from this rank.
+void unpack(const std::vector<Bytes>& incoming, int rank, vtkDataSetAttributes* own,
+  vtkDataSetAttributes* attributes)
 {
   std::vector<vtkSmartPointer<vtkTable>> tables;
-  for (const Bytes& bytes : incoming)
+  std::vector<vtkDataSetAttributes*> parts;
+  for (int r = 0; r < static_cast<int>(incoming.size()); ++r)
   {
-    if (!bytes.empty())
+    if (r == rank && own->GetNumberOfTuples() > 0)
     {
-      tables.push_back(arraysOf(bytes));
+      parts.push_back(own);
+    }
+    else if (!incoming[r].empty())
+    {
+      tables.push_back(arraysOf(incoming[r]));
+      parts.push_back(tables.back()->GetRowData());
     }
   }
-  append(tables, attributes);
+  append(parts, attributes);
+}
+
+/// A rank that had no points does not know how the arrays of ids are called elsewhere.
+void agreeOnNamesOfIds(RankExchange& exchange, MeshArrays& arrays)
+{
+  const auto agree = [&](std::string& name)
+  {
+    const int root =
+      static_cast<int>(exchange.min(name.empty() ? exchange.size() - 1 : exchange.rank()));
+    const std::vector<char> text = exchange.broadcast({ name.begin(), name.end() }, root);
+    name.assign(text.begin(), text.end());
+  };
+  agree(arrays.vertexIdName);
+  agree(arrays.cellIdName);
 }
 
 } // namespace
 
 MeshArrays deliver(RankExchange& exchange, const MeshArrays& arrays, const Delivery& delivery)
 {
+  const auto here = static_cast<std::size_t>(exchange.rank());
   std::vector<Bytes> ofVertices(delivery.size());
   std::vector<Bytes> ofCells(delivery.size());
+  MeshArrays own;
   agreeOnFailure(exchange,
     [&]
     {
+      own = select(arrays, delivery[here]);
       for (std::size_t rank = 0; rank < delivery.size(); ++rank)
       {
-        const MeshArrays part = select(arrays, delivery[rank]);
-        ofVertices[rank] = pack(part.ofVertices);
-        ofCells[rank] = pack(part.ofCells);
+        if (rank != here)
+        {
+          const MeshArrays part = select(arrays, delivery[rank]);
+          ofVertices[rank] = pack(part.ofVertices);
+          ofCells[rank] = pack(part.ofCells);
+        }
       }
     });
   ofVertices = exchange.allToAll(ofVertices);
   ofCells = exchange.allToAll(ofCells);
   MeshArrays result{ vtkSmartPointer<vtkPointData>::New(), vtkSmartPointer<vtkCellData>::New(),
     arrays.ofMesh, arrays.vertexIdName, arrays.cellIdName };
+  agreeOnNamesOfIds(exchange, result);
   agreeOnFailure(exchange,
     [&]
     {
-      unpack(ofVertices, result.ofVertices);
-      unpack(ofCells, result.ofCells);
+      unpack(ofVertices, exchange.rank(), own.ofVertices, result.ofVertices);
+      unpack(ofCells, exchange.rank(), own.ofCells, result.ofCells);
     });
   return result;
 }

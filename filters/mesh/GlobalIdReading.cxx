@@ -2,6 +2,7 @@
 
 #include <cadrefine/base/Error.h>
 #include <cadrefine/base/LargeMemory.h>
+#include <cadrefine/base/RadixOrder.h>
 
 #include <vtkArrayDispatch.h>
 #include <vtkDataArray.h>
@@ -10,7 +11,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <type_traits>
+#include <utility>
 
 namespace cadrefine
 {
@@ -36,6 +39,28 @@ GlobalId idOf(Value value)
   {
     return value >= 0 && static_cast<GlobalId>(value) < bound ? static_cast<GlobalId>(value) : -1;
   }
+}
+
+/// numberByIds for ids that ascend from point to point; none: they do not.
+std::optional<std::vector<Index>> numberAscending(
+  const std::vector<GlobalId>& ids, const std::function<bool(std::size_t)>& isUsed)
+{
+  std::vector<Index> vertexOf(ids.size(), -1);
+  Index next = 0;
+  GlobalId last = -1;
+  for (std::size_t p = 0; p < ids.size(); ++p)
+  {
+    if (isUsed(p))
+    {
+      if (ids[p] <= last)
+      {
+        return {};
+      }
+      last = ids[p];
+      vertexOf[p] = next++;
+    }
+  }
+  return vertexOf;
 }
 
 } // namespace
@@ -72,6 +97,42 @@ void checkGlobalId(GlobalId id, vtkDataArray* array, vtkIdType place, const std:
                 "); global ids are whole numbers from 0 to 2^62 - 1. Without that array CADRefine "
                 "makes ids of its own");
   }
+}
+
+std::vector<Index> numberByIds(
+  const std::vector<GlobalId>& ids, const std::function<bool(std::size_t)>& isUsed)
+{
+  if (auto vertexOf = numberAscending(ids, isUsed))
+  {
+    return *std::move(vertexOf);
+  }
+  std::vector<PlacedKey> keys;
+  keys.reserve(ids.size());
+  for (std::size_t p = 0; p < ids.size(); ++p)
+  {
+    if (isUsed(p))
+    {
+      keys.push_back({ orderedBits(ids[p]), static_cast<std::uint32_t>(p) });
+    }
+  }
+  radixSort(keys);
+  std::vector<Index> firstWithId(ids.size(), -1);
+  for (std::size_t k = 0; k < keys.size(); ++k)
+  {
+    const bool again = k > 0 && keys[k - 1].key == keys[k].key;
+    firstWithId[keys[k].place] =
+      again ? firstWithId[keys[k - 1].place] : static_cast<Index>(keys[k].place);
+  }
+  std::vector<Index> vertexOf = std::move(firstWithId);
+  Index next = 0;
+  for (std::size_t p = 0; p < vertexOf.size(); ++p)
+  {
+    if (vertexOf[p] >= 0)
+    {
+      vertexOf[p] = vertexOf[p] == static_cast<Index>(p) ? next++ : vertexOf[vertexOf[p]];
+    }
+  }
+  return vertexOf;
 }
 
 } // namespace cadrefine

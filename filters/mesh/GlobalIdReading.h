@@ -6,6 +6,8 @@
 
 #include <vtkType.h>
 
+#include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -22,5 +24,10 @@ std::vector<GlobalId> readGlobalIds(vtkDataArray* array, const ParallelFor& para
 /// Throws Error where `id`, which readGlobalIds made of the value at `place`, is none; `item` is
 /// what has it ("point", "cell").
 void checkGlobalId(GlobalId id, vtkDataArray* array, vtkIdType place, const std::string& item);
+
+/// The vertex that each point becomes, numbered in the order of the points: one for each id; -1 for
+/// points that are not used. Work: linear.
+std::vector<Index> numberByIds(
+  const std::vector<GlobalId>& ids, const std::function<bool(std::size_t)>& isUsed);
 
 } // namespace cadrefine

@@ -10,7 +10,6 @@
 
 #include <cadrefine/base/Error.h>
 #include <cadrefine/base/LargeMemory.h>
-#include <cadrefine/base/RadixOrder.h>
 
 #include <vtkCellData.h>
 #include <vtkPointData.h>
@@ -20,7 +19,6 @@
 #include <atomic>
 #include <cmath>
 #include <iterator>
-#include <optional>
 #include <string>
 #include <utility>
 
@@ -106,65 +104,6 @@ Flags findUsed(Mesh& mesh, std::size_t points, const ParallelFor& parallelFor)
   return used;
 }
 
-/// numberVertices for ids that ascend from point to point; none: they do not.
-std::optional<std::vector<Index>> numberAscending(
-  const std::vector<GlobalId>& ids, const Flags& used)
-{
-  std::vector<Index> vertexOf(ids.size(), -1);
-  Index next = 0;
-  GlobalId last = -1;
-  for (std::size_t p = 0; p < ids.size(); ++p)
-  {
-    if (used[p])
-    {
-      if (ids[p] <= last)
-      {
-        return {};
-      }
-      last = ids[p];
-      vertexOf[p] = next++;
-    }
-  }
-  return vertexOf;
-}
-
-/// The vertex that each point becomes, numbered in the order of the points: one for each id; -1 for
-/// points that are not used.
-std::vector<Index> numberVertices(const std::vector<GlobalId>& ids, const Flags& used)
-{
-  if (auto vertexOf = numberAscending(ids, used))
-  {
-    return *std::move(vertexOf);
-  }
-  std::vector<PlacedKey> keys;
-  keys.reserve(ids.size());
-  for (std::size_t p = 0; p < ids.size(); ++p)
-  {
-    if (used[p])
-    {
-      keys.push_back({ orderedBits(ids[p]), static_cast<std::uint32_t>(p) });
-    }
-  }
-  radixSort(keys);
-  std::vector<Index> firstWithId(ids.size(), -1);
-  for (std::size_t k = 0; k < keys.size(); ++k)
-  {
-    const bool again = k > 0 && keys[k - 1].key == keys[k].key;
-    firstWithId[keys[k].place] =
-      again ? firstWithId[keys[k - 1].place] : static_cast<Index>(keys[k].place);
-  }
-  std::vector<Index> vertexOf = std::move(firstWithId);
-  Index next = 0;
-  for (std::size_t p = 0; p < vertexOf.size(); ++p)
-  {
-    if (vertexOf[p] >= 0)
-    {
-      vertexOf[p] = vertexOf[p] == static_cast<Index>(p) ? next++ : vertexOf[vertexOf[p]];
-    }
-  }
-  return vertexOf;
-}
-
 /// `cellOf` has the numbers of these cells in the data set.
 template<std::size_t Corners>
 void checkCells(
@@ -248,8 +187,9 @@ void takeVertices(const std::vector<Point3>& points, const PointIds& ids,
 void makeVertices(const std::vector<Point3>& points, const PointIds& ids, ConvertedMesh& result,
   const ParallelFor& parallelFor)
 {
+  const Flags used = findUsed(result.mesh, points.size(), parallelFor);
   const std::vector<Index> vertexOf =
-    numberVertices(ids.ids, findUsed(result.mesh, points.size(), parallelFor));
+    numberByIds(ids.ids, [&](std::size_t point) { return used[point] != 0; });
   takeVertices(points, ids, vertexOf, result);
   forEachCorner(result.mesh, parallelFor, [&](Index& corner) { corner = vertexOf[corner]; });
   for (int d = 1; d < 4; ++d)

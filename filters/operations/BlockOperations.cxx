@@ -339,11 +339,8 @@ std::vector<int> ranksOfBlocks(
   {
     return {};
   }
-  const std::int64_t here = exchange.rank();
   const auto ofVertices = blocksOfVertices(exchange, mesh, blocks.ofCells);
   const Mesh& piece = mesh.mesh();
-  std::vector<std::int64_t> lowest(blocks.sizes.size(), exchange.size());
-  std::vector<std::int64_t> highest(blocks.sizes.size(), -1);
   std::vector<std::int64_t> ofCells(piece.vertices.size(), noBlock);
   for (const auto& segment : piece.segments)
   {
@@ -355,26 +352,28 @@ std::vector<int> ranksOfBlocks(
   }
   ofCells.resize(firstCellOfDimension(piece, piece.dimension), noBlock); // listed quadrilaterals
   ofCells.insert(ofCells.end(), blocks.ofCells.begin(), blocks.ofCells.end());
+  // Of each block how many cells a rank has, and the rank: the largest number is that of most.
+  const std::int64_t size = exchange.size();
+  const std::int64_t here = size - 1 - exchange.rank();
+  std::vector<std::int64_t> shares(blocks.sizes.size(), here);
   for (const std::int64_t block : ofCells)
   {
     if (block >= 0)
     {
-      lowest[block] = here;
-      highest[block] = here;
+      shares[block] += size;
     }
   }
-  if (exchange.min(lowest) == exchange.max(highest))
-  {
-    return {};
-  }
-  const std::vector<int> owners = ownersOf(blocks.sizes, exchange.size());
+  shares = exchange.max(shares);
   std::vector<int> ranks;
   ranks.reserve(ofCells.size());
   for (const std::int64_t block : ofCells)
   {
-    ranks.push_back(block >= 0 ? owners[block] : exchange.rank());
+    ranks.push_back(
+      block >= 0 ? static_cast<int>(size - 1 - shares[block] % size) : exchange.rank());
   }
-  return ranks;
+  const bool moves =
+    std::any_of(ranks.begin(), ranks.end(), [&](int rank) { return rank != exchange.rank(); });
+  return exchange.any(moves) ? ranks : std::vector<int>{};
 }
 
 OperationTrace operateOnBlocks(RankExchange& exchange, DistributedMesh& mesh,

@@ -41,9 +41,9 @@ struct BlockSettings
 OperationBlocks findOperationBlocks(RankExchange& exchange, const DistributedMesh& mesh,
   std::vector<unsigned char> flags, const BlockSettings& settings, const ParallelFor& parallelFor);
 
-/// Where all cells are to be so that each block, with the listed cells at its vertices, is on one
-/// rank, in the order of makePointSet; empty where it is, on all ranks. Collective; two reductions
-/// of 8 bytes a block.
+/// Where all cells are to be so that each block, with the listed cells at its vertices, is on the
+/// rank that has most of it, in the order of makePointSet; empty where it is, on all ranks.
+/// Collective; a reduction of 8 bytes a block.
 std::vector<int> ranksOfBlocks(
   RankExchange& exchange, const DistributedMesh& mesh, const OperationBlocks& blocks);
 
@@ -76,7 +76,8 @@ struct OperationTrace
 /// of their parents', new vertices by the order of the blocks: all is the same on any number of
 /// ranks. Collective; messages: 16 bytes a shared vertex, one reduction of 8 bytes a block, the
 /// numbering of cells (see denseOffsets) and, where a rank has no cell at a shared vertex any more,
-/// findSharedVertices of those that were shared. Work beside that of the task: that of findFieldRows.
+/// findSharedVertices of those that were shared. Work beside that of the task: that of
+/// findFieldRows.
 OperationTrace operateOnBlocks(RankExchange& exchange, DistributedMesh& mesh,
   Classification& classification, const ClassifiedBoundary& boundary, const OperationTask& task,
   const ParallelFor& parallelFor);

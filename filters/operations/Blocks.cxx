@@ -68,20 +68,6 @@ struct Octant
 
 } // namespace
 
-std::vector<int> ownersOf(const std::vector<std::int64_t>& sizes, int ranks)
-{
-  const std::int64_t all = std::accumulate(sizes.begin(), sizes.end(), std::int64_t{ 0 });
-  std::vector<int> result;
-  std::int64_t before = 0;
-  for (const std::int64_t size : sizes)
-  {
-    result.push_back(
-      static_cast<int>((before + size / 2) * ranks / std::max<std::int64_t>(all, 1)));
-    before += size;
-  }
-  return result;
-}
-
 Blocks findBlocks(RankExchange& exchange, const std::vector<Point3>& points, const MeshBounds& box,
   int round, std::int64_t largest)
 {

@@ -17,9 +17,6 @@ struct Blocks
   std::vector<std::int64_t> sizes;    ///< Points in each block, over all ranks.
 };
 
-/// The rank that is to have each block, given their sizes: each gets about as many points.
-std::vector<int> ownersOf(const std::vector<std::int64_t>& sizes, int ranks);
-
 /// The leaves of an octree over the points of all ranks, octants with more than `largest` points
 /// being divided. Where octants lie in `box`, which holds all points, depends on `round`, so that
 /// the borders of one are inside those of the next. Collective; a reduction of 8 bytes an octant

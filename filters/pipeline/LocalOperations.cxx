@@ -4,8 +4,6 @@
 #include "motion/BoundaryMotion.h"
 
 #include <vtkCellData.h>
-#include <vtkNew.h>
-#include <vtkTypeInt64Array.h>
 
 #include <cadrefine/base/IndicesWhere.h>
 #include <cadrefine/motion/MoveGuard.h>
@@ -18,8 +16,6 @@ namespace cadrefine
 {
 namespace
 {
-
-constexpr const char* blockArray = "cadrefine:block";
 
 CellRange cellsOf(const Mesh& mesh, int dimension)
 {
@@ -35,24 +31,12 @@ OperationBlocks gather(const PipelineContext& context, MeshState& state, Operati
   {
     return blocks;
   }
-  const vtkIdType first = firstCellOfDimension(mesh, mesh.dimension);
-  vtkNew<vtkTypeInt64Array> ofCells;
-  ofCells->SetName(blockArray);
-  ofCells->SetNumberOfValues(static_cast<vtkIdType>(mesh.cellCount()));
-  ofCells->FillValue(-1);
-  std::copy(blocks.ofCells.begin(), blocks.ofCells.end(), ofCells->GetPointer(first));
-  state.arrays.ofCells->AddArray(ofCells);
-  meshHasChanged(state);
-  redistribute(context, state, ranks);
-  const auto* sent =
-    vtkTypeInt64Array::SafeDownCast(state.arrays.ofCells->GetAbstractArray(blockArray));
-  blocks.ofCells.clear();
-  const vtkIdType firstSent = firstCellOfDimension(mesh, mesh.dimension);
-  for (std::size_t c = 0; c < state.mesh.converted.cellIds[mesh.dimension].size(); ++c)
-  {
-    blocks.ofCells.push_back(sent->GetValue(firstSent + static_cast<vtkIdType>(c)));
-  }
-  state.arrays.ofCells->RemoveArray(blockArray);
+  std::vector<std::int64_t> ofCells(
+    static_cast<std::size_t>(firstCellOfDimension(mesh, mesh.dimension)), -1);
+  ofCells.insert(ofCells.end(), blocks.ofCells.begin(), blocks.ofCells.end());
+  redistribute(context, state, ranks, &ofCells);
+  blocks.ofCells.assign(
+    ofCells.begin() + firstCellOfDimension(mesh, mesh.dimension), ofCells.end());
   return blocks;
 }
 

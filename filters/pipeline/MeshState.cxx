@@ -1,6 +1,6 @@
 #include "pipeline/MeshState.h"
 
-#include "balancing/Balancing.h"
+#include "balancing/Redistribution.h"
 #include "classification/EdgeMidpoints.h"
 #include "comm/CollectiveErrors.h"
 #include "comm/Threads.h"
@@ -10,12 +10,9 @@
 
 #include <vtkCellData.h>
 #include <vtkFieldData.h>
-#include <vtkNew.h>
 #include <vtkPointData.h>
-#include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 namespace cadrefine
@@ -23,9 +20,6 @@ namespace cadrefine
 
 namespace
 {
-
-/// Of vertices on their way to other ranks.
-constexpr const char* onBoundaryArray = "cadrefine:boundary";
 
 /// Whether all ranks know which vertices are on the boundary. Collective.
 bool knowsBoundary(RankExchange& exchange, const MeshState& state)
@@ -220,52 +214,31 @@ vtkSmartPointer<vtkPointSet> makeDataSet(const MeshState& state)
   return output;
 }
 
-void redistribute(const PipelineContext& context, MeshState& state, const std::vector<int>& ranks)
+void redistribute(const PipelineContext& context, MeshState& state, const std::vector<int>& ranks,
+  std::vector<std::int64_t>* ofCells)
 {
-  ConvertedMesh& converted = state.mesh.converted;
-  converted.pointOf.resize(converted.mesh.points.size());
-  std::iota(converted.pointOf.begin(), converted.pointOf.end(), 0);
-  for (int d = 0; d < 4; ++d)
-  {
-    converted.cellOf[d].resize(converted.cellIds[d].size());
-    std::iota(converted.cellOf[d].begin(), converted.cellOf[d].end(),
-      firstCellOfDimension(converted.mesh, d));
-  }
-  const auto data = makeDataSet(state);
-  const bool isKnown = knowsBoundary(context.exchange, state);
-  if (isKnown)
-  {
-    vtkNew<vtkUnsignedCharArray> flags;
-    flags->SetName(onBoundaryArray);
-    flags->SetNumberOfValues(static_cast<vtkIdType>(state.onBoundary.size()));
-    std::copy(state.onBoundary.begin(), state.onBoundary.end(), flags->GetPointer(0));
-    data->GetPointData()->AddArray(flags);
-  }
-  Redistribution balanced = redistribute(context.exchange, state.mesh, data, ranks);
-  MeshState next = readMesh(context.exchange, balanced.mesh);
-  if (isKnown)
-  {
-    next.onBoundary.resize(next.mesh.mesh().points.size());
-    auto* flags =
-      vtkUnsignedCharArray::SafeDownCast(next.arrays.ofVertices->GetAbstractArray(onBoundaryArray));
-    std::copy_n(
-      flags ? flags->GetPointer(0) : nullptr, next.onBoundary.size(), next.onBoundary.begin());
-    next.arrays.ofVertices->RemoveArray(onBoundaryArray);
-  }
+  RankExchange& exchange = context.exchange;
+  const bool isBoundaryKnown = knowsBoundary(exchange, state);
+  Redistribution sent = redistribute(exchange, state.mesh, ranks);
+  state.onBoundary =
+    isBoundaryKnown ? sent.ofVertices(exchange, state.onBoundary) : std::vector<unsigned char>{};
   if (state.classification)
   {
-    readClassification(context, balanced.mesh, next);
+    auto& [entities, parameters, distances] = *state.classification;
+    entities = sent.ofVertices(exchange, entities);
+    parameters = sent.ofVertices(exchange, parameters);
+    distances = sent.ofVertices(exchange, distances);
   }
-  next.mesh.vertexIdBound = state.mesh.vertexIdBound; // also above ids that are no more in use
-  next.arrays.ofMesh = state.arrays.ofMesh;
-  next.prototype = state.prototype;
-  next.remembers = state.remembers;
-  next.numberings = std::move(state.numberings);
-  next.cache = std::move(state.cache);
-  state.mapping.redistribute(std::move(balanced.delivery));
-  state.mapping.append(std::move(next.mapping));
-  next.mapping = std::move(state.mapping);
-  state = std::move(next);
+  if (ofCells)
+  {
+    *ofCells = sent.ofCells(exchange, *ofCells);
+  }
+  meshHasChanged(state);
+  state.mesh = std::move(sent.mesh);
+  const std::size_t done = state.mapping.stageCount();
+  state.mapping.redistribute(std::move(sent.delivery));
+  state.mapping.convert(std::move(sent.kept));
+  followMapping(exchange, state, done);
 }
 
 PipelineResult resultOf(MeshState state)

@@ -96,8 +96,10 @@ void scaleDensities(
 /// Forgets what was found of the mesh as it was.
 void meshHasChanged(MeshState& state);
 
-/// Sends the cells to these ranks (see Balancing.h). Collective.
-void redistribute(const PipelineContext& context, MeshState& state, const std::vector<int>& ranks);
+/// Sends the cells to these ranks (see Redistribution.h), with what they and their vertices have;
+/// if given, with these values of the cells. Collective.
+void redistribute(const PipelineContext& context, MeshState& state, const std::vector<int>& ranks,
+  std::vector<std::int64_t>* ofCells = nullptr);
 
 /// Cuts the mesh as planned (see refineOntoCAD; of a mesh that is not classified, refine), and its
 /// arrays with it. Returns how many points were projected. Collective.
