@@ -228,6 +228,27 @@ bool keepsLinks(const SimplexStore<Corners>& cells, Index a, Index b)
   return common == otherCorners(cells, cells.at(a, b), a, b);
 }
 
+/// Whether an edge between two vertices may be beyond the mesh.
+bool mayBeBeyond(const EditableMesh& mesh, Index a, Index b)
+{
+  return mesh.vertex(a).isOnRim && mesh.vertex(b).isOnRim;
+}
+
+/// Whether a vertex that goes along an edge does not pinch the boundary together: no edge of facets
+/// comes to lie on another one, but for those of the facets at the edge.
+bool keepsFacets(const EditableMesh& mesh, Index from, Index to)
+{
+  const SimplexStore<3>& facets = mesh.facets();
+  const std::vector<Index> beside = otherCorners(facets, facets.at(from, to), from, to);
+  const std::vector<Index> around = otherCorners(facets, facets.at(from), from, to);
+  return std::all_of(around.begin(), around.end(),
+    [&](Index vertex)
+    {
+      return std::binary_search(beside.begin(), beside.end(), vertex) ||
+             (facets.at(to, vertex).empty() && !mayBeBeyond(mesh, to, vertex));
+    });
+}
+
 /// Whether a vertex may go along this edge.
 bool mayGo(const EditableMesh& mesh, Index from, Index to)
 {
@@ -324,7 +345,9 @@ bool proposeEdgeRemoval(const EditableMesh& mesh, Index a, Index b, Cavity& cavi
   {
     const Index first = r.front();
     const Index last = r.back();
-    if (!mesh.facets().at(first, last).empty())
+    const bool isThere = !mesh.facets().at(first, last).empty() ||
+                         (r.size() > 2 && !mesh.cells().at(first, last).empty());
+    if (isThere || mayBeBeyond(mesh, first, last))
     {
       return false;
     }
@@ -382,7 +405,7 @@ bool proposeCollapse(const EditableMesh& mesh, Index from, Index to, Cavity& cav
 {
   cavity.clear();
   const bool isSolid = mesh.dimension() == 3;
-  if (!mayGo(mesh, from, to) ||
+  if (!mayGo(mesh, from, to) || (isSolid && !keepsFacets(mesh, from, to)) ||
       !(isSolid ? keepsLinks(mesh.cells(), from, to) : keepsLinks(mesh.facets(), from, to)))
   {
     return false;

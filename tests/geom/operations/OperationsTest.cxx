@@ -212,6 +212,15 @@ TEST(EdgeRemoval, takesACellWithTwoFacetsAway)
   ASSERT_TRUE(proposeEdgeRemoval(mesh, 0, 1, cavity));
   EXPECT_TRUE(cavity.newCells.empty());
   EXPECT_EQ(cavity.newFacets.size(), 2U);
+  // Beyond the mesh there may be facets at the new edge, which would make four.
+  EditableMesh block = mesh;
+  for (const Index v : { 2, 3 })
+  {
+    EditableMesh::Vertex vertex = block.vertex(v);
+    vertex.isOnRim = true;
+    block.setVertex(v, vertex);
+  }
+  EXPECT_FALSE(proposeEdgeRemoval(block, 0, 1, cavity));
   // Another facet at the new edge would make three.
   mesh.addFacet({ { 2, 3, 0 }, 0, -1 });
   EXPECT_FALSE(proposeEdgeRemoval(mesh, 0, 1, cavity));
@@ -300,6 +309,51 @@ TEST(Collapse, keepsTheCube)
   EXPECT_GT(tried[static_cast<std::size_t>(EditableMesh::Freedom::None)], 0);
   EXPECT_GT(possible[static_cast<std::size_t>(EditableMesh::Freedom::Facet)], 0);
   EXPECT_GT(possible[static_cast<std::size_t>(EditableMesh::Freedom::Space)], 0);
+}
+
+/// Edges 0 2 and 1 2 are on the boundary, the triangle between them is inside.
+TEST(Collapse, doesNotPinchTheBoundary)
+{
+  EditableMesh mesh;
+  addVertices(mesh, { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0.3, 0.3, 1 }, { 0.3, 0.3, -1 },
+                      { -1, 0, 0.5 }, { 1, 1, -0.5 } });
+  mesh.addCell({ { 0, 1, 2, 3 }, 0, 0 });
+  mesh.addCell({ { 0, 2, 1, 4 }, 0, 1 });
+  mesh.addCell({ { 0, 3, 2, 5 }, 0, 2 });
+  mesh.addCell({ { 1, 2, 4, 6 }, 0, 3 });
+  const std::vector<std::array<Index, 3>> facets{ { 0, 1, 3 }, { 1, 2, 3 }, { 0, 1, 4 },
+    { 0, 2, 4 }, { 0, 2, 5 }, { 0, 3, 5 }, { 2, 3, 5 }, { 1, 2, 6 }, { 1, 4, 6 }, { 2, 4, 6 } };
+  for (const auto& facet : facets)
+  {
+    mesh.addFacet({ facet, 0, -1 });
+  }
+  Cavity cavity;
+  EXPECT_FALSE(proposeCollapse(mesh, 0, 1, cavity)); // four facets at the edge 1 2
+}
+
+/// The vertex 0 is in the middle of a side of a box, and goes to 1; an edge from 1 to 3 may be
+/// beyond.
+TEST(Collapse, leavesWhatMayPinchTheBoundaryBeyond)
+{
+  EditableMesh mesh;
+  addVertices(
+    mesh, { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { -1, 0, 0 }, { 0, -1, 0 }, { 0, 0, -1 } });
+  for (Index k = 1; k < 5; ++k)
+  {
+    const Index next = k % 4 + 1;
+    mesh.addCell({ { 0, next, k, 5 }, 0, k - 1 });
+    mesh.addFacet({ { 0, k, next }, 0, -1 });
+  }
+  Cavity cavity;
+  EXPECT_TRUE(proposeCollapse(mesh, 0, 1, cavity));
+  for (const Index v : { 1, 3 })
+  {
+    EditableMesh::Vertex vertex = mesh.vertex(v);
+    vertex.isOnRim = true;
+    mesh.setVertex(v, vertex);
+  }
+  EXPECT_FALSE(proposeCollapse(mesh, 0, 1, cavity));
+  EXPECT_TRUE(proposeCollapse(mesh, 0, 2, cavity));
 }
 
 TEST(Split, keepsVolumeAndLabels)
