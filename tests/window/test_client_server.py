@@ -50,7 +50,7 @@ cad = simple.OpenDataFile(os.path.join(data, "cylinder.brep"))
 mesh = simple.OpenDataFile(os.path.join(data, "cylinder_coarse.vtu"))
 adapted = AdaptToCAD(Input=mesh, CAD=cad)
 values = {"adapted": adapted_values(adapted), "ranks": largest_rank(adapted) + 1}
-adapted.ErrorMarking, adapted.MaximumSteps = "Threshold", 6  # for seconds: a server sends a text a second at most
+adapted.ErrorMarking, adapted.MaximumSteps = "Threshold", 9  # for seconds: a server sends a text a second at most
 adapted.UpdatePipeline()
 json.dump({**values, "texts": texts}, open(result, "w"))
 """
