@@ -6,6 +6,8 @@
 #include "comm/Threads.h"
 #include "mesh/BoundaryFacets.h"
 
+#include <cadrefine/classification/CADAdjacency.h>
+#include <cadrefine/classification/ClassificationTolerances.h>
 #include <cadrefine/mesh/Quality.h>
 
 #include <algorithm>
@@ -60,6 +62,60 @@ bool isClassified(const ClassifiedFacet& facet)
   const auto end = facet.entities.begin() + facet.corners;
   return std::all_of(
     facet.entities.begin(), end, [](EntityId entity) { return static_cast<bool>(entity); });
+}
+
+/// Of these faces that of the neighbour from which the surface turns least; -1: it turns too much
+/// for a facet that is no ear.
+std::int32_t faceOfNeighbours(const FacetRecord& facet, const std::vector<std::int32_t>& faces,
+  const std::vector<FacetRecord>& neighbours)
+{
+  std::int32_t face = -1;
+  double largest = facet.ear >= 0 ? -1 : ClassificationTolerances::oddFacetCosine;
+  for (const FacetRecord& neighbour : neighbours)
+  {
+    const double cosine = dot(neighbour.normal, facet.normal);
+    if (std::binary_search(faces.begin(), faces.end(), neighbour.face) &&
+        (cosine > largest || (cosine == largest && neighbour.face < face)))
+    {
+      largest = cosine;
+      face = neighbour.face;
+    }
+  }
+  return face;
+}
+
+/// Finds faces for facets of a coarse mesh of the CAD whose normals fit none: ears, where a CAD
+/// edge bends, and those beside which all others are on the CAD. Returns whether there are any.
+bool joinOddFacets(const Mesh& mesh, const DistributedBoundary& boundary,
+  const std::vector<EntityId>& entities, const CADModel& model,
+  const std::vector<std::vector<FacetRecord>>& ofEdges, std::vector<FacetRecord>& records)
+{
+  bool any = false;
+  for (std::size_t f = 0; f < records.size(); ++f)
+  {
+    FacetRecord& record = records[f];
+    const ClassifiedFacet facet = classifiedFacet(mesh, entities, boundary.facets[f]);
+    if (record.onCAD || facet.corners == 2 || !isClassified(facet))
+    {
+      continue;
+    }
+    std::vector<FacetRecord> neighbours;
+    bool isAlone = true;
+    for (int k = 0; k < facet.corners; ++k)
+    {
+      const auto onCAD = facetsOnCAD(ofEdges[boundary.facetEdges[f][k]]);
+      isAlone = isAlone && !onCAD.empty();
+      neighbours.insert(neighbours.end(), onCAD.begin(), onCAD.end());
+    }
+    if (isAlone || record.ear >= 0)
+    {
+      record.face = faceOfNeighbours(
+        record, commonFaces(model.nurbs(), facet.entities, facet.corners), neighbours);
+      record.onCAD = record.odd = record.face >= 0;
+      any = any || record.odd;
+    }
+  }
+  return any;
 }
 
 /// A record on its way to the rank that has the edge too.
@@ -223,24 +279,30 @@ BoundaryClasses classifyBoundary(RankExchange& exchange, const Mesh& mesh,
     const ClassifiedFacet facet = classifiedFacet(mesh, entities, boundary.facets[f]);
     FacetRecord& record = records[f];
     classes.known[f] = cache.find(mesh, boundary.facets[f], facet);
-    if (classes.known[f] >= 0)
+    if (classes.known[f] >= 0 && !cache.record(classes.known[f]).odd)
     {
       record = cache.record(classes.known[f]);
       return;
     }
+    classes.known[f] = -1; // its neighbours may have changed
     record = makeRecord(projector, facet);
     if (boundary.ofSurface)
     {
       record.onCAD = isClassified(facet);
     }
-    if (record.onCAD && boundary.kind == BoundaryKind::Triangles)
+    if (boundary.kind == BoundaryKind::Triangles)
     {
-      record.face = projector.faceOf(facet);
+      record.face = record.onCAD ? projector.faceOf(facet) : -1;
+      record.ear = projector.earOf(facet);
     }
   };
   agreeOnFailure(
     exchange, [&] { forEachIndex(parallelFor, records.size(), coarseGrain, classifyFacet); });
-  const auto ofEdges = gatherFacetRecords(exchange, boundary, records);
+  auto ofEdges = gatherFacetRecords(exchange, boundary, records);
+  if (exchange.any(joinOddFacets(mesh, boundary, entities, projector.model(), ofEdges, records)))
+  {
+    ofEdges = gatherFacetRecords(exchange, boundary, records);
+  }
   const auto& edges = boundary.edges.edges();
   classes.ofEdges.resize(edges.size());
   const auto classifyEdge = [&](std::size_t e)

@@ -120,16 +120,42 @@ std::int32_t BoundaryProjector::faceOf(const ClassifiedFacet& facet) const
   return faces.size() == 1 ? faces[0] : faces_.nearestOf(faces, facet.points, facet.corners);
 }
 
-std::int32_t BoundaryProjector::commonCrease(
-  const std::array<Point3, 2>& points, const std::array<EntityId, 2>& entities) const
+std::int32_t BoundaryProjector::earOf(const ClassifiedFacet& facet) const
 {
+  const auto isOnEdge = [](EntityId entity) { return entity && entity.dimension <= 1; };
+  const auto& [a, b, c, none] = facet.entities;
+  if (facet.corners != 3 || !isOnEdge(a) || !isOnEdge(b) || !isOnEdge(c))
+  {
+    return -1;
+  }
+  const auto ofTwo = commonEntities(model_.nurbs(), a, b, 1);
+  const auto ofThird = entitiesAround(model_.nurbs(), c, 1);
+  const auto found = std::find_if(ofTwo.begin(), ofTwo.end(),
+    [&](std::int32_t edge)
+    {
+      return model_.nurbs().edges[edge].faces.size() == 2 &&
+             std::binary_search(ofThird.begin(), ofThird.end(), edge);
+    });
+  return found == ofTwo.end() ? -1 : *found;
+}
+
+/// Of an ear the long side, beyond which the same face goes on, is not on the CAD edge: that runs
+/// along the two others.
+std::int32_t BoundaryProjector::commonCrease(const std::array<Point3, 2>& points,
+  const std::array<EntityId, 2>& entities, const std::vector<FacetRecord>& onCAD) const
+{
+  const auto isLongSide = [&](std::int32_t edge)
+  {
+    return onCAD.size() == 2 && onCAD[0].face >= 0 && onCAD[0].face == onCAD[1].face &&
+           (onCAD[0].ear == edge || onCAD[1].ear == edge);
+  };
   const Point3 middle = 0.5 * (points[0] + points[1]);
   std::int32_t best = -1;
   double bestDistance = ClassificationTolerances::creaseDistance * distance(points[0], points[1]);
   for (const std::int32_t edge : commonEntities(model_.nurbs(), entities[0], entities[1], 1))
   {
     const double away = nearestOn({ 1, edge }, middle).distance;
-    if (model_.nurbs().edges[edge].sharp && away < bestDistance)
+    if (model_.nurbs().edges[edge].sharp && away < bestDistance && !isLongSide(edge))
     {
       best = edge;
       bestDistance = away;
@@ -181,7 +207,7 @@ EdgeClass BoundaryProjector::classify(const std::array<Point3, 2>& points,
   }
   const auto pairs = meshEdges(points, onCAD);
   const bool angle = std::any_of(pairs.begin(), pairs.end(), hasAngle);
-  const std::int32_t common = angle ? commonCrease(points, entities) : -1;
+  const std::int32_t common = angle ? commonCrease(points, entities, onCAD) : -1;
   const std::int32_t crease = common >= 0 ? common : edges_.findCrease(pairs).edge;
   if (crease >= 0 && isOnLineOf(crease, entities[0]) && isOnLineOf(crease, entities[1]))
   {

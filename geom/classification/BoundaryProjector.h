@@ -81,6 +81,10 @@ public:
   /// whose normal fits; -1 where there is none.
   std::int32_t faceOf(const ClassifiedFacet& facet) const;
 
+  /// The CAD edge between two faces that all corners of a triangle lie on, which is an ear of one
+  /// of them; -1: none.
+  std::int32_t earOf(const ClassifiedFacet& facet) const;
+
   /// Class of the edge between two classified vertices, from the facets beside it (never from its
   /// ends alone).
   EdgeClass classify(const std::array<Point3, 2>& points, const std::array<EntityId, 2>& entities,
@@ -112,8 +116,8 @@ public:
 
 private:
   bool fitsNormal(EntityId entity, const ClosestPoint& where, const Vector3& normal) const;
-  std::int32_t commonCrease(
-    const std::array<Point3, 2>& points, const std::array<EntityId, 2>& entities) const;
+  std::int32_t commonCrease(const std::array<Point3, 2>& points,
+    const std::array<EntityId, 2>& entities, const std::vector<FacetRecord>& onCAD) const;
   std::int32_t commonSmoothEdge(const std::array<Point3, 2>& points,
     const std::array<EntityId, 2>& entities, const std::vector<FacetRecord>& onCAD) const;
   /// Whether the crease is part of a line of creases that the entity, an edge or a vertex, is on.

@@ -4,6 +4,7 @@
 
 #include "DataSets.h"
 #include "FilterRun.h"
+#include "MeshChecks.h"
 #include "TestMeshes.h"
 #include "TestShapes.h"
 #include "vtkCADModelCache.h"
@@ -15,8 +16,10 @@
 #include <vtkPointData.h>
 #include <vtkUnstructuredGrid.h>
 
+#include <cmath>
 #include <iostream>
 #include <map>
+#include <numeric>
 #include <ostream>
 #include <random>
 #include <set>
@@ -345,6 +348,51 @@ TEST(Conflicts, areNoneWhereTheMeshIsFineEnough)
   const cadtest::FilterRun filters(cadtest::writeInto(folder, cadtest::box(1, 1, 1), ".brep"));
   const auto projected = filters.project(cadtest::toGrid(cadtest::cubeMesh(3, 0, 1)));
   EXPECT_EQ(cadtest::fieldValue(projected, "ClassificationConflicts"), 0);
+}
+
+/// Two cones base to base, whose normals differ by 70 degrees from the axis, and six points on the
+/// circle between them. The upper one has an ear there, a triangle of three of these points, which
+/// fits neither cone: its long side is not on the circle.
+TEST(Ears, areOnTheFaceBeyondTheirLongSide)
+{
+  const double slope = std::tan(70 * 3.14159265358979323846 / 180);
+  Mesh mesh;
+  for (int k = 0; k < 6; ++k)
+  {
+    const double angle = 3.14159265358979323846 / 3 * k;
+    mesh.points.push_back({ std::cos(angle), std::sin(angle), 0 });
+  }
+  const Index top = 6;
+  const Index bottom = 7;
+  const Index middle = 8;
+  mesh.points.insert(mesh.points.end(), { { 0, 0, slope }, { 0, 0, -slope }, { 0, 0, -0.5 } });
+  mesh.ids.resize(mesh.points.size());
+  std::iota(mesh.ids.begin(), mesh.ids.end(), GlobalId{ 0 });
+  for (Index k = 0; k < 6; ++k)
+  {
+    mesh.tetrahedra.push_back({ k, (k + 1) % 6, bottom, middle });
+    if (k >= 2)
+    {
+      mesh.tetrahedra.push_back({ (k + 1) % 6, k, top, middle });
+    }
+  }
+  mesh.tetrahedra.push_back({ 2, 0, top, middle });
+  mesh.tetrahedra.push_back({ 0, 2, 1, middle });
+  ASSERT_TRUE(cadtest::isValid(mesh));
+  const cadtest::TemporaryFolder folder;
+  const cadtest::FilterRun filters(
+    cadtest::writeInto(folder, cadtest::doubleCone(1, slope), ".brep"));
+  const auto fine = filters.refineUniformly(filters.project(cadtest::toGrid(mesh)));
+  EXPECT_EQ(cadtest::fieldValue(fine, "UnprojectedVertices"), 0);
+  vtkDataArray* dimensions = fine->GetPointData()->GetArray("CADDimension");
+  int onCircle = 0;
+  for (vtkIdType p = 0; p < fine->GetNumberOfPoints(); ++p)
+  {
+    Point3 point;
+    fine->GetPoint(p, point.data());
+    onCircle += dimensions->GetTuple1(p) >= 0 && std::abs(point[2]) < 1e-9;
+  }
+  EXPECT_EQ(onCircle, 12);
 }
 
 } // namespace

@@ -105,6 +105,14 @@ TopoDS_Shape cone(double radius, double height)
   return BRepPrimAPI_MakeCone(radius, 0, height).Shape();
 }
 
+TopoDS_Shape doubleCone(double radius, double height)
+{
+  const gp_Ax2 downward(gp::Origin(), gp::DZ().Reversed(), gp::DX());
+  return BRepAlgoAPI_Fuse(
+    cone(radius, height), BRepPrimAPI_MakeCone(downward, radius, 0, height).Shape())
+    .Shape();
+}
+
 TopoDS_Shape boxWithoutCorner(double x, double y, double z, double radius)
 {
   return BRepAlgoAPI_Cut(box(x, y, z), sphere(radius)).Shape();
