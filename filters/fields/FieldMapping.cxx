@@ -4,8 +4,6 @@
 #include <vtkFieldData.h>
 #include <vtkPointData.h>
 
-#include <algorithm>
-#include <iterator>
 #include <utility>
 
 namespace cadrefine
@@ -70,11 +68,6 @@ void FieldMapping::scale(WeightedRows densities)
 void FieldMapping::addMidNodes(std::vector<std::array<Index, 2>> edges)
 {
   stages_.emplace_back(std::move(edges));
-}
-
-void FieldMapping::append(FieldMapping next)
-{
-  std::move(next.stages_.begin(), next.stages_.end(), std::back_inserter(stages_));
 }
 
 MeshArrays FieldMapping::follow(RankExchange& exchange, MeshArrays arrays, std::size_t done) const

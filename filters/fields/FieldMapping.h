@@ -49,8 +49,6 @@ public:
   void scale(WeightedRows densities);
   /// The mesh became one of second order, with a mid node on each edge.
   void addMidNodes(std::vector<std::array<Index, 2>> edges);
-  /// All that happened on another mapping, which starts where this one ends.
-  void append(FieldMapping next);
 
   /// The arrays at the end of the way, given those after its first `done` legs. Collective where
   /// cells went to other ranks.

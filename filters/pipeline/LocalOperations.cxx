@@ -3,8 +3,6 @@
 #include "fields/CellTags.h"
 #include "motion/BoundaryMotion.h"
 
-#include <vtkCellData.h>
-
 #include <cadrefine/base/IndicesWhere.h>
 #include <cadrefine/motion/MoveGuard.h>
 

@@ -96,14 +96,19 @@ Ring ringOf(const EditableMesh& mesh, const std::vector<Index>& cells, Index a, 
   return isWhole && ring.vertices.size() <= largestRing ? ring : Ring{ {}, true };
 }
 
+/// Whether an edge between two vertices may be beyond the mesh.
+bool mayBeBeyond(const EditableMesh& mesh, Index a, Index b)
+{
+  return mesh.vertex(a).isOnRim && mesh.vertex(b).isOnRim;
+}
+
 /// Whether an edge may have cells beyond the mesh: if both ends have, unless these are no simplices
 /// and the edge's cells are a closed ring. (Where simplices follow, other blocks have their turn.)
 bool mayGoBeyond(const EditableMesh& mesh, const Ring& ring, Index a, Index b)
 {
-  const EditableMesh::Vertex& one = mesh.vertex(a);
-  const EditableMesh::Vertex& other = mesh.vertex(b);
   const bool isClosed = !ring.vertices.empty() && ring.isClosed && mesh.facets().at(a, b).empty();
-  return one.isOnRim && other.isOnRim && !(isClosed && one.isBesideOthers && other.isBesideOthers);
+  const bool areBesideOthers = mesh.vertex(a).isBesideOthers && mesh.vertex(b).isBesideOthers;
+  return mayBeBeyond(mesh, a, b) && !(isClosed && areBesideOthers);
 }
 
 /// The triangulation of a ring with the best worst cell.
@@ -226,12 +231,6 @@ bool keepsLinks(const SimplexStore<Corners>& cells, Index a, Index b)
   std::vector<Index> common;
   std::set_intersection(ofA.begin(), ofA.end(), ofB.begin(), ofB.end(), std::back_inserter(common));
   return common == otherCorners(cells, cells.at(a, b), a, b);
-}
-
-/// Whether an edge between two vertices may be beyond the mesh.
-bool mayBeBeyond(const EditableMesh& mesh, Index a, Index b)
-{
-  return mesh.vertex(a).isOnRim && mesh.vertex(b).isOnRim;
 }
 
 /// Whether a vertex that goes along an edge does not pinch the boundary together: no edge of facets

@@ -26,6 +26,16 @@ void addVertices(EditableMesh& mesh, const std::vector<Point3>& points)
   }
 }
 
+void putOnRim(EditableMesh& mesh, const std::vector<Index>& vertices)
+{
+  for (const Index v : vertices)
+  {
+    EditableMesh::Vertex vertex = mesh.vertex(v);
+    vertex.isOnRim = true;
+    mesh.setVertex(v, vertex);
+  }
+}
+
 double volumeOf(const EditableMesh& mesh)
 {
   double volume = 0;
@@ -214,12 +224,7 @@ TEST(EdgeRemoval, takesACellWithTwoFacetsAway)
   EXPECT_EQ(cavity.newFacets.size(), 2U);
   // Beyond the mesh there may be facets at the new edge, which would make four.
   EditableMesh block = mesh;
-  for (const Index v : { 2, 3 })
-  {
-    EditableMesh::Vertex vertex = block.vertex(v);
-    vertex.isOnRim = true;
-    block.setVertex(v, vertex);
-  }
+  putOnRim(block, { 2, 3 });
   EXPECT_FALSE(proposeEdgeRemoval(block, 0, 1, cavity));
   // Another facet at the new edge would make three.
   mesh.addFacet({ { 2, 3, 0 }, 0, -1 });
@@ -346,12 +351,7 @@ TEST(Collapse, leavesWhatMayPinchTheBoundaryBeyond)
   }
   Cavity cavity;
   EXPECT_TRUE(proposeCollapse(mesh, 0, 1, cavity));
-  for (const Index v : { 1, 3 })
-  {
-    EditableMesh::Vertex vertex = mesh.vertex(v);
-    vertex.isOnRim = true;
-    mesh.setVertex(v, vertex);
-  }
+  putOnRim(mesh, { 1, 3 });
   EXPECT_FALSE(proposeCollapse(mesh, 0, 1, cavity));
   EXPECT_TRUE(proposeCollapse(mesh, 0, 2, cavity));
 }
