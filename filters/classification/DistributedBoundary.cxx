@@ -7,7 +7,6 @@
 #include "mesh/BoundaryFacets.h"
 
 #include <cadrefine/classification/CADAdjacency.h>
-#include <cadrefine/classification/ClassificationTolerances.h>
 #include <cadrefine/mesh/Quality.h>
 
 #include <algorithm>
@@ -64,28 +63,25 @@ bool isClassified(const ClassifiedFacet& facet)
     facet.entities.begin(), end, [](EntityId entity) { return static_cast<bool>(entity); });
 }
 
-/// Of these faces that of the neighbour from which the surface turns least; -1: it turns too much
-/// for a facet that is no ear.
-std::int32_t faceOfNeighbours(const FacetRecord& facet, const std::vector<std::int32_t>& faces,
-  const std::vector<FacetRecord>& neighbours)
+/// The face of the neighbour from which the surface turns least, for an ear, or that of all
+/// neighbours; -1: they are not on one face.
+std::int32_t faceOfNeighbours(const FacetRecord& facet, const std::vector<FacetRecord>& neighbours)
 {
-  std::int32_t face = -1;
-  double largest = facet.ear >= 0 ? -1 : ClassificationTolerances::oddFacetCosine;
-  for (const FacetRecord& neighbour : neighbours)
+  const auto turnsLess = [&](const FacetRecord& a, const FacetRecord& b)
   {
-    const double cosine = dot(neighbour.normal, facet.normal);
-    if (std::binary_search(faces.begin(), faces.end(), neighbour.face) &&
-        (cosine > largest || (cosine == largest && neighbour.face < face)))
-    {
-      largest = cosine;
-      face = neighbour.face;
-    }
-  }
-  return face;
+    const double ofA = dot(a.normal, facet.normal);
+    const double ofB = dot(b.normal, facet.normal);
+    return ofA > ofB || (ofA == ofB && a.face < b.face);
+  };
+  const auto nearest = std::min_element(neighbours.begin(), neighbours.end(), turnsLess);
+  const bool isDecided =
+    facet.ear >= 0 || std::all_of(neighbours.begin(), neighbours.end(),
+                        [&](const FacetRecord& other) { return other.face == nearest->face; });
+  return isDecided ? nearest->face : -1;
 }
 
 /// Finds faces for facets of a coarse mesh of the CAD whose normals fit none: ears, where a CAD
-/// edge bends, and those beside which all others are on the CAD. Returns whether there are any.
+/// edge bends, and those amid facets of one face. Returns whether there are any.
 bool joinOddFacets(const Mesh& mesh, const DistributedBoundary& boundary,
   const std::vector<EntityId>& entities, const CADModel& model,
   const std::vector<std::vector<FacetRecord>>& ofEdges, std::vector<FacetRecord>& records)
@@ -100,18 +96,19 @@ bool joinOddFacets(const Mesh& mesh, const DistributedBoundary& boundary,
       continue;
     }
     std::vector<FacetRecord> neighbours;
-    bool isAlone = true;
+    bool isAmid = true;
     for (int k = 0; k < facet.corners; ++k)
     {
       const auto onCAD = facetsOnCAD(ofEdges[boundary.facetEdges[f][k]]);
-      isAlone = isAlone && !onCAD.empty();
+      isAmid = isAmid && !onCAD.empty();
       neighbours.insert(neighbours.end(), onCAD.begin(), onCAD.end());
     }
-    if (isAlone || record.ear >= 0)
+    if (isAmid || (record.ear >= 0 && !neighbours.empty()))
     {
-      record.face = faceOfNeighbours(
-        record, commonFaces(model.nurbs(), facet.entities, facet.corners), neighbours);
-      record.onCAD = record.odd = record.face >= 0;
+      const std::int32_t face = faceOfNeighbours(record, neighbours);
+      const auto faces = commonFaces(model.nurbs(), facet.entities, facet.corners);
+      record.onCAD = record.odd = std::binary_search(faces.begin(), faces.end(), face);
+      record.face = record.onCAD ? face : -1;
       any = any || record.odd;
     }
   }

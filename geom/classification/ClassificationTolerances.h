@@ -24,9 +24,6 @@ struct ClassificationTolerances
   /// Cosine of 60 degrees. Normals and tangents that differ by less fit: six facets round a
   /// cylinder do, a wall that meets the CAD at a right angle does not.
   static constexpr double fittingCosine = 0.5;
-  /// A facet whose normal fits no face, and beside which all others are on the CAD, is on the face
-  /// of one from which it differs by less than 75 degrees: a wall is not.
-  static inline const double oddFacetCosine = cosineOfDegrees(75);
   /// Neighbours that differ by less than a crease are on one smooth surface.
   static double creaseCosine() { return std::cos(NurbsModel::creaseAngle); }
   /// Twice the angle of a crease: two facets of a coarse mesh on one curved face may differ so.
