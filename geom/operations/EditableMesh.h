@@ -185,6 +185,9 @@ public:
     }
   }
 
+  /// Whether both vertices have cells beyond this mesh: an edge between them may be there, or have
+  /// cells there.
+  bool areOnRim(Index a, Index b) const { return vertices_[a].isOnRim && vertices_[b].isOnRim; }
   Freedom freedomOf(Index v) const;
   bool hasFacet(const std::array<Index, 3>& corners) const;
   /// Whether a vertex lies in the plane of a facet, or on the line of a segment, but for rounding

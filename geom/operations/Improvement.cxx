@@ -1,6 +1,7 @@
 #include <cadrefine/operations/Improvement.h>
 
 #include <cadrefine/mesh/Quality.h>
+#include <cadrefine/operations/FailedAttempts.h>
 #include <cadrefine/operations/Operations.h>
 #include <cadrefine/operations/ParentCells.h>
 #include <cadrefine/operations/QualityCost.h>
@@ -10,7 +11,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
-#include <unordered_map>
 #include <utility>
 
 namespace cadrefine
@@ -108,62 +108,20 @@ private:
   /// Whether a cell is there, bad, and not as it was when nothing helped.
   bool isWorthATry(Index cell) const
   {
-    if (!cells().exists(cell))
-    {
-      return false;
-    }
-    const auto& corners = cells()[cell].corners;
-    const auto last = tried_.find(cell);
-    return mesh_.qualityOf(cell) < limits_.floor &&
-           (last == tried_.end() ||
-             std::any_of(corners.begin(), corners.end(),
-               [&](Index vertex) { return changedAt(vertex) > last->second; }));
+    return cells().exists(cell) && mesh_.qualityOf(cell) < limits_.floor &&
+           !failed_.hasCell(cell, cells()[cell].corners);
   }
 
   /// Nothing helped a cell, and so nothing that was tried with its edges: other cells need not try
   /// the same again.
   void noteFailure(Index cell)
   {
-    tried_[cell] = now_;
+    failed_.noteCell(cell);
     const auto& corners = cells()[cell].corners;
     const bool withSplit = mesh_.qualityOf(cell) < limits_.minimum;
     for (const auto& [i, j] : edgesOfCell<Dimension>())
     {
-      failures_[keyOf(corners[i], corners[j])] = { now_, withSplit };
-    }
-  }
-
-  static std::uint64_t keyOf(Index a, Index b)
-  {
-    const auto [low, high] = std::minmax(a, b);
-    return static_cast<std::uint64_t>(low) << 32 | static_cast<std::uint64_t>(high);
-  }
-
-  /// Whether it is known that nothing is to be gained from an edge as it is, also by halving it.
-  bool isHopeless(const std::array<Index, 2>& edge, bool withSplit) const
-  {
-    const auto found = failures_.find(keyOf(edge[0], edge[1]));
-    return found != failures_.end() && (found->second.withSplit || !withSplit) &&
-           changedAt(edge[0]) <= found->second.time && changedAt(edge[1]) <= found->second.time;
-  }
-
-  /// When the cells at a vertex last changed.
-  std::int64_t changedAt(Index vertex) const
-  {
-    const auto v = static_cast<std::size_t>(vertex);
-    return v < changes_.size() ? changes_[v] : 0;
-  }
-
-  /// Of these cells.
-  void noteChange(const std::vector<Cell>& cells)
-  {
-    changes_.resize(std::max(changes_.size(), mesh_.vertexCount()), 0);
-    for (const auto& cell : cells)
-    {
-      for (const Index vertex : cell.corners)
-      {
-        changes_[vertex] = now_;
-      }
+      failed_.noteEdge(corners[i], corners[j], withSplit);
     }
   }
 
@@ -236,7 +194,7 @@ private:
   {
     for (const auto& [i, j] : edgesOfCell<Dimension>())
     {
-      if (!isHopeless({ corners[i], corners[j] }, withSplit))
+      if (!failed_.hasEdge(corners[i], corners[j], withSplit))
       {
         visit(corners[i], corners[j]);
       }
@@ -411,8 +369,7 @@ private:
   template<class Move>
   void considerMove(Index vertex, const Move& move)
   {
-    std::int64_t& stuck = stuck_.try_emplace(vertex, -1).first->second;
-    if (changedAt(vertex) <= stuck)
+    if (failed_.hasVertex(vertex))
     {
       return;
     }
@@ -426,7 +383,7 @@ private:
     }
     if (!QualityCost::isGain(before, least))
     {
-      stuck = now_;
+      failed_.noteVertex(vertex);
       return;
     }
     const Point3 start = mesh_.vertex(vertex).point;
@@ -436,7 +393,7 @@ private:
     const double newWorst = mesh_.worst(around);
     if (!mayMove || !gains({ worst, before }, { newWorst, costOf(around) }))
     {
-      stuck = now_;
+      failed_.noteVertex(vertex);
     }
     else if (newWorst > best_.worst && worstPresent(around) >= present)
     {
@@ -455,7 +412,6 @@ private:
       return false;
     }
     ++(result_.counts.*best_.count);
-    ++now_;
     if (best_.count == &OperationCounts::splits)
     {
       mesh_.setVertex(middle_, best_.middle);
@@ -465,7 +421,7 @@ private:
     if (best_.moved >= 0)
     {
       mesh_.moveVertex(best_.moved, best_.place);
-      noteChange(copiesOf(cells().at(best_.moved)));
+      failed_.noteChange(copiesOf(cells().at(best_.moved)));
     }
     else
     {
@@ -485,7 +441,7 @@ private:
       }
     }
     mesh_.replace(cavity);
-    noteChange(newCellsOf(cavity));
+    failed_.noteChange(newCellsOf(cavity));
   }
 
   static std::vector<Cell>& newCellsOf(Cavity& cavity)
@@ -595,16 +551,7 @@ private:
   Index middle_ = -1; ///< A vertex without cells.
   Cavity cavity_;
   Best best_;
-  std::int64_t now_ = 0;                          ///< Operations so far.
-  std::vector<std::int64_t> changes_;             ///< See changedAt.
-  std::unordered_map<Index, std::int64_t> tried_; ///< When nothing helped a cell.
-  std::unordered_map<Index, std::int64_t> stuck_; ///< When no move helped a vertex.
-  struct Failure
-  {
-    std::int64_t time = 0;
-    bool withSplit = false;
-  };
-  std::unordered_map<std::uint64_t, Failure> failures_; ///< When nothing helped a cell at an edge.
+  FailedAttempts failed_;
   OperationResult result_;
 };
 

@@ -96,19 +96,13 @@ Ring ringOf(const EditableMesh& mesh, const std::vector<Index>& cells, Index a, 
   return isWhole && ring.vertices.size() <= largestRing ? ring : Ring{ {}, true };
 }
 
-/// Whether an edge between two vertices may be beyond the mesh.
-bool mayBeBeyond(const EditableMesh& mesh, Index a, Index b)
-{
-  return mesh.vertex(a).isOnRim && mesh.vertex(b).isOnRim;
-}
-
 /// Whether an edge may have cells beyond the mesh: if both ends have, unless these are no simplices
 /// and the edge's cells are a closed ring. (Where simplices follow, other blocks have their turn.)
 bool mayGoBeyond(const EditableMesh& mesh, const Ring& ring, Index a, Index b)
 {
   const bool isClosed = !ring.vertices.empty() && ring.isClosed && mesh.facets().at(a, b).empty();
   const bool areBesideOthers = mesh.vertex(a).isBesideOthers && mesh.vertex(b).isBesideOthers;
-  return mayBeBeyond(mesh, a, b) && !(isClosed && areBesideOthers);
+  return mesh.areOnRim(a, b) && !(isClosed && areBesideOthers);
 }
 
 /// The triangulation of a ring with the best worst cell.
@@ -244,7 +238,7 @@ bool keepsFacets(const EditableMesh& mesh, Index from, Index to)
     [&](Index vertex)
     {
       return std::binary_search(beside.begin(), beside.end(), vertex) ||
-             (facets.at(to, vertex).empty() && !mayBeBeyond(mesh, to, vertex));
+             (facets.at(to, vertex).empty() && !mesh.areOnRim(to, vertex));
     });
 }
 
@@ -346,7 +340,7 @@ bool proposeEdgeRemoval(const EditableMesh& mesh, Index a, Index b, Cavity& cavi
     const Index last = r.back();
     const bool isThere = !mesh.facets().at(first, last).empty() ||
                          (r.size() > 2 && !mesh.cells().at(first, last).empty());
-    if (isThere || mayBeBeyond(mesh, first, last))
+    if (isThere || mesh.areOnRim(first, last))
     {
       return false;
     }

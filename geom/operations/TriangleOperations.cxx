@@ -55,7 +55,7 @@ bool mayBeBeyond(const EditableMesh& mesh, const LabelledSimplex<3>& facet)
     const Index a = facet.corners[k];
     const Index b = facet.corners[(k + 1) % 3];
     onRim += mesh.vertex(a).isOnRim;
-    if (mesh.vertex(a).isOnRim && mesh.vertex(b).isOnRim && mesh.facets().at(a, b).empty())
+    if (mesh.areOnRim(a, b) && mesh.facets().at(a, b).empty())
     {
       return true;
     }
@@ -74,7 +74,7 @@ bool mayBeBeyond(const EditableMesh& mesh, const Cavity& cavity)
 /// swapped; -1 otherwise.
 Index beyondEdge(const EditableMesh& mesh, const Cavity& cavity, Index a, Index b)
 {
-  if (mesh.segmentOf(a, b) >= 0 || (mesh.vertex(a).isOnRim && mesh.vertex(b).isOnRim))
+  if (mesh.segmentOf(a, b) >= 0 || mesh.areOnRim(a, b))
   {
     return -1;
   }
@@ -129,8 +129,7 @@ bool proposeSwap(const EditableMesh& mesh, Index a, Index b, Cavity& cavity)
 {
   cavity.clear();
   cavity.facets = mesh.facets().at(a, b);
-  const bool isWithin = !mesh.vertex(a).isOnRim || !mesh.vertex(b).isOnRim;
-  if (cavity.facets.size() != 2 || mesh.segmentOf(a, b) >= 0 || !isWithin)
+  if (cavity.facets.size() != 2 || mesh.segmentOf(a, b) >= 0 || mesh.areOnRim(a, b))
   {
     return false;
   }
