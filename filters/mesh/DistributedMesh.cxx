@@ -7,6 +7,7 @@
 #include <cadrefine/base/IndicesWhere.h>
 #include <cadrefine/base/LargeMemory.h>
 #include <cadrefine/mesh/Facets.h>
+#include <cadrefine/mesh/VertexFlags.h>
 
 #include <algorithm>
 #include <limits>
@@ -226,6 +227,17 @@ DistributedMesh makeDistributedMesh(RankExchange& exchange, vtkPointSet* input, 
   }
   result.vertexIdBound = exchange.max(largest) + 1;
   return result;
+}
+
+void flagRings(RankExchange& exchange, const DistributedMesh& mesh, int rings,
+  std::vector<unsigned char>& flags, const ParallelFor& parallelFor)
+{
+  combineFlags(exchange, mesh.shared, flags);
+  for (int ring = 0; ring < rings; ++ring)
+  {
+    flagVertices(mesh.mesh(), cellsAt(mesh.mesh(), flags, parallelFor), flags);
+    combineFlags(exchange, mesh.shared, flags);
+  }
 }
 
 MeshBounds combineBounds(RankExchange& exchange, const MeshBounds& bounds)

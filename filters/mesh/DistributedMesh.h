@@ -52,6 +52,12 @@ SharedVertices findSharedPoints(const DistributedMesh& mesh, const SharedEdges& 
 /// surface is taken, and that of findSharedVertices.
 SharedVertices findShared(RankExchange& exchange, const Mesh& mesh);
 
+/// Flags the vertices of all cells within so many rings of cells round the flagged vertices, on all
+/// ranks that have them. Collective; one exchange between neighbours for each ring and one before,
+/// work: for each ring a look at each cell.
+void flagRings(RankExchange& exchange, const DistributedMesh& mesh, int rings,
+  std::vector<unsigned char>& flags, const ParallelFor& parallelFor);
+
 /// Box round the whole mesh: low above high where it has no points.
 struct MeshBounds
 {

@@ -7,6 +7,7 @@
 #include "motion/Untangling.h"
 
 #include <cadrefine/base/IndicesWhere.h>
+#include <cadrefine/mesh/VertexFlags.h>
 
 #include <algorithm>
 #include <limits>
@@ -181,12 +182,7 @@ struct Region
 Region untangleRound(const Motion& motion, std::vector<unsigned char> flags,
   const std::vector<Point3>& wanted, int rings, bool sliding, double fair = noQuality)
 {
-  combineFlags(motion.exchange, motion.distributed.shared, flags);
-  for (int ring = 0; ring < rings; ++ring)
-  {
-    flagVertices(motion.mesh(), cellsAt(motion.mesh(), flags, motion.parallelFor), flags);
-    combineFlags(motion.exchange, motion.distributed.shared, flags);
-  }
+  flagRings(motion.exchange, motion.distributed, rings, flags, motion.parallelFor);
   const std::vector<Index> cells = cellsAt(motion.mesh(), flags, motion.parallelFor);
   for (std::size_t v = 0; v < flags.size(); ++v)
   {

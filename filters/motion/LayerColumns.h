@@ -4,9 +4,9 @@
 #include "mesh/DistributedMesh.h"
 #include "motion/ColumnClimb.h"
 
+#include <cadrefine/base/Moves.h>
 #include <cadrefine/classification/BoundaryProjector.h>
 #include <cadrefine/mesh/Facets.h>
-#include <cadrefine/motion/MoveGuard.h>
 
 #include <cstdint>
 #include <vector>

@@ -3,7 +3,7 @@
 #include "comm/Threads.h"
 
 #include <cadrefine/base/IndicesWhere.h>
-#include <cadrefine/motion/MoveGuard.h>
+#include <cadrefine/mesh/VertexFlags.h>
 #include <cadrefine/motion/PatchOptimiser.h>
 
 #include <algorithm>

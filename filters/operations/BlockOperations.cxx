@@ -8,7 +8,7 @@
 
 #include <cadrefine/base/IndicesWhere.h>
 #include <cadrefine/base/LargeMemory.h>
-#include <cadrefine/motion/MoveGuard.h>
+#include <cadrefine/mesh/VertexFlags.h>
 
 #include <algorithm>
 #include <array>
@@ -308,12 +308,7 @@ OperationBlocks findOperationBlocks(RankExchange& exchange, const DistributedMes
   std::vector<unsigned char> flags, const BlockSettings& settings, const ParallelFor& parallelFor)
 {
   const Mesh& piece = mesh.mesh();
-  combineFlags(exchange, mesh.shared, flags);
-  for (int ring = 1; ring < settings.rings; ++ring)
-  {
-    flagVertices(piece, cellsAt(piece, flags, parallelFor), flags);
-    combineFlags(exchange, mesh.shared, flags);
-  }
+  flagRings(exchange, mesh, settings.rings - 1, flags, parallelFor);
   std::vector<Index> cells =
     cellsOfShape(cellsAt(piece, flags, parallelFor), 0, simplexCount(piece));
   cells.erase(std::remove_if(

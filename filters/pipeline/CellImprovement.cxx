@@ -9,7 +9,7 @@
 #include <cadrefine/base/IndicesWhere.h>
 #include <cadrefine/base/ParallelFor.h>
 #include <cadrefine/mesh/Quality.h>
-#include <cadrefine/motion/MoveGuard.h>
+#include <cadrefine/mesh/VertexFlags.h>
 #include <cadrefine/operations/Improvement.h>
 
 #include <vtkCellData.h>

@@ -4,7 +4,7 @@
 #include "motion/BoundaryMotion.h"
 
 #include <cadrefine/base/IndicesWhere.h>
-#include <cadrefine/motion/MoveGuard.h>
+#include <cadrefine/mesh/VertexFlags.h>
 
 #include <algorithm>
 #include <array>
@@ -44,13 +44,10 @@ ClassifiedBoundary boundaryAt(const PipelineContext& context, const MeshState& s
 {
   const Mesh& mesh = state.mesh.mesh();
   std::vector<unsigned char> flags(mesh.points.size(), 0);
-  const auto flag = [&](const std::vector<Index>& cells)
-  {
-    flagVertices(mesh, cells, flags);
-    combineFlags(context.exchange, state.mesh.shared, flags);
-  };
-  flag(indicesWhere(blocks.ofCells.size(), [&](std::size_t c) { return blocks.ofCells[c] >= 0; }));
-  flag(cellsAt(mesh, flags, state.parallelFor));
+  flagVertices(mesh,
+    indicesWhere(blocks.ofCells.size(), [&](std::size_t c) { return blocks.ofCells[c] >= 0; }),
+    flags);
+  flagRings(context.exchange, state.mesh, 1, flags, state.parallelFor);
   std::transform(flags.begin(), flags.end(), onBoundary.begin(), flags.begin(),
     [](unsigned char isNear, unsigned char isOn) { return isNear && isOn; });
   return findClassifiedBoundary(

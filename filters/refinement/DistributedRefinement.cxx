@@ -10,6 +10,7 @@
 
 #include <cadrefine/base/Error.h>
 #include <cadrefine/base/LargeMemory.h>
+#include <cadrefine/mesh/VertexFlags.h>
 
 #include <algorithm>
 #include <iterator>

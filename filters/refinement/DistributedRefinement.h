@@ -7,7 +7,7 @@
 #include "fields/CADArrays.h"
 #include "mesh/DistributedMesh.h"
 
-#include <cadrefine/motion/MoveGuard.h>
+#include <cadrefine/base/Moves.h>
 #include <cadrefine/refinement/RefinementTrace.h>
 
 #include <vector>

@@ -5,6 +5,7 @@
 #include <cadrefine/base/VertexBuckets.h>
 #include <cadrefine/mesh/Facets.h>
 #include <cadrefine/mesh/QualitySummary.h>
+#include <cadrefine/mesh/VertexFlags.h>
 #include <cadrefine/motion/MoveGuard.h>
 
 #include <gtest/gtest.h>
