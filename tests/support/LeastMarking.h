@@ -21,4 +21,8 @@ std::vector<std::vector<cadrefine::Index>> cellsOf(const cadrefine::Mesh& mesh);
 std::set<IdPair> leastMarking(
   const cadrefine::Mesh& mesh, const std::vector<unsigned char>& cellMarks);
 
+/// The same of a mesh of all shapes: the least fixpoint of the rules in LongestEdgeMarking.h.
+std::set<IdPair> leastMixedMarking(
+  const cadrefine::Mesh& mesh, const std::vector<unsigned char>& cellMarks, bool keepLayers);
+
 } // namespace cadtest
