@@ -1,5 +1,7 @@
 #include "operations/BlockMesh.h"
 
+#include "operations/VertexBlocks.h"
+
 #include <cadrefine/classification/CADAdjacency.h>
 
 #include <algorithm>

@@ -33,8 +33,6 @@ struct Members
   std::vector<Index> segments;
 };
 
-constexpr std::int64_t besideOthers = -3;
-
 /// The cells of a block in the order of their ids, with its facets and segments: what the
 /// operations do to them does not depend on how the piece is numbered.
 class BlockMesh

@@ -4,6 +4,7 @@
 #include "mesh/MeshPlane.h"
 #include "operations/BlockMesh.h"
 #include "operations/PieceMaker.h"
+#include "operations/VertexBlocks.h"
 #include "refinement/DistributedRefinement.h"
 
 #include <cadrefine/base/IndicesWhere.h>
@@ -13,7 +14,6 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <limits>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -22,107 +22,6 @@ namespace cadrefine
 {
 namespace
 {
-
-constexpr std::int64_t noBlock = -1;
-constexpr std::int64_t manyBlocks = -2;
-
-std::int64_t joined(std::int64_t a, std::int64_t b)
-{
-  constexpr std::int64_t unknown = std::numeric_limits<std::int64_t>::max();
-  if (a == unknown || b == unknown || a == b)
-  {
-    return std::min(a, b);
-  }
-  return manyBlocks;
-}
-
-/// The block that all cells at a vertex, of all ranks, are of; none, or many, where it stays, as at
-/// cells that are not simplices.
-std::vector<std::int64_t> blocksOfVertices(
-  RankExchange& exchange, const DistributedMesh& mesh, const std::vector<std::int64_t>& ofCells)
-{
-  std::vector<std::int64_t> result(
-    mesh.mesh().points.size(), std::numeric_limits<std::int64_t>::max());
-  const auto joinAt = [&](const auto& cells)
-  {
-    for (std::size_t c = 0; c < cells.size(); ++c)
-    {
-      for (const Index vertex : cells[c])
-      {
-        result[vertex] = joined(result[vertex], ofCells[c]);
-      }
-    }
-  };
-  visitCells(mesh.mesh(), joinAt);
-  visitOwnShapes(mesh.mesh(),
-    [&](auto shape, const auto& cells)
-    {
-      for (const auto& cell : cells)
-      {
-        for (const Index vertex : cell)
-        {
-          result[vertex] = isSimplex(shape) ? result[vertex] : manyBlocks;
-        }
-      }
-    });
-  for (const auto& [vertex] : mesh.mesh().vertices)
-  {
-    result[vertex] = manyBlocks; // it is listed
-  }
-  combineShared(exchange, mesh.shared, result, joined);
-  return result;
-}
-
-/// The block of a cell of lower dimension: that which one of its vertices is within.
-template<std::size_t Corners>
-std::int64_t blockOf(
-  const std::array<Index, Corners>& corners, const std::vector<std::int64_t>& ofVertices)
-{
-  for (const Index vertex : corners)
-  {
-    if (ofVertices[vertex] >= 0)
-    {
-      return ofVertices[vertex];
-    }
-  }
-  return noBlock;
-}
-
-/// Marks the vertices of cells that are not simplices, but for those where a listed segment of no
-/// block ends, on whatever rank.
-void markBesideOthers(
-  RankExchange& exchange, const DistributedMesh& mesh, std::vector<std::int64_t>& ofVertices)
-{
-  const auto mark = [&](const auto& cell, std::int64_t code)
-  {
-    for (const Index vertex : cell)
-    {
-      ofVertices[vertex] = code;
-    }
-  };
-  visitOwnShapes(mesh.mesh(),
-    [&](auto shape, const auto& cells)
-    {
-      for (const auto& cell : cells)
-      {
-        if (!isSimplex(shape))
-        {
-          mark(cell, besideOthers);
-        }
-      }
-    });
-  combineShared(exchange, mesh.shared, ofVertices,
-    [](std::int64_t a, std::int64_t b) { return std::min(a, b); });
-  for (const auto& segment : mesh.mesh().segments)
-  {
-    if (blockOf(segment, ofVertices) < 0)
-    {
-      mark(segment, manyBlocks);
-    }
-  }
-  combineShared(exchange, mesh.shared, ofVertices,
-    [](std::int64_t a, std::int64_t b) { return std::max(a, b); });
-}
 
 /// Ids of new vertices: by the order of their blocks, and in a block by that in which they came.
 void numberNewVertices(RankExchange& exchange, const std::vector<std::int64_t>& blocks,
@@ -248,12 +147,6 @@ std::size_t simplexCount(const Mesh& mesh)
   return visitCells(mesh, [](const auto& cells) { return cells.size(); });
 }
 
-/// The triangles that are no cells of the mesh's own dimension.
-std::size_t listedTriangles(const Mesh& mesh)
-{
-  return mesh.dimension == 3 ? mesh.triangles.size() : 0;
-}
-
 /// What each block has, and what is in none.
 std::pair<std::map<std::int64_t, Members>, Members> findMembers(const DistributedMesh& mesh,
   const std::vector<std::int64_t>& ofCells, const std::vector<std::int64_t>& ofVertices,
@@ -376,6 +269,7 @@ OperationTrace operateOnBlocks(RankExchange& exchange, DistributedMesh& mesh,
   const ParallelFor& parallelFor)
 {
   auto ofVertices = blocksOfVertices(exchange, mesh, task.blocks.ofCells);
+  holdStrays(exchange, mesh, ofVertices);
   markBesideOthers(exchange, mesh, ofVertices);
   const auto [members, others] =
     findMembers(mesh, task.blocks.ofCells, ofVertices, boundary.boundary);

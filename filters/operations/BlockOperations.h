@@ -72,12 +72,11 @@ struct OperationTrace
 
 /// Works on the cells of each block (see improveCells), with the vertices that it shares with
 /// others, or with cells that stay, in place. New vertices on the CAD are given their distance from
-/// it. New cells have ids in the order
-/// of their parents', new vertices by the order of the blocks: all is the same on any number of
-/// ranks. Collective; messages: 16 bytes a shared vertex, one reduction of 8 bytes a block, the
-/// numbering of cells (see denseOffsets) and, where a rank has no cell at a shared vertex any more,
-/// findSharedVertices of those that were shared. Work beside that of the task: that of
-/// findFieldRows.
+/// it. New cells have ids in the order of their parents', new vertices by the order of the blocks:
+/// all is the same on any number of ranks. Collective; messages: 16 bytes a shared vertex, one
+/// reduction of 8 bytes a block, the numbering of cells (see denseOffsets) and, where a rank has no
+/// cell at a shared vertex any more, findSharedVertices of those that were shared. Work beside that
+/// of the task: that of findFieldRows.
 OperationTrace operateOnBlocks(RankExchange& exchange, DistributedMesh& mesh,
   Classification& classification, const ClassifiedBoundary& boundary, const OperationTask& task,
   const ParallelFor& parallelFor);

@@ -183,11 +183,11 @@ TEST_P(CellImprovement, isThatOfOneRank)
   }
 }
 
-/// The edges of every seventh tetrahedron, each once.
-Cells<2> edgesOfSome(const Mesh& mesh)
+/// The edges of every tetrahedron, or of every so many.
+std::set<std::array<Index, 2>> edgesOf(const Mesh& mesh, std::size_t step = 1)
 {
   std::set<std::array<Index, 2>> edges;
-  for (std::size_t c = 0; c < mesh.tetrahedra.size(); c += 7)
+  for (std::size_t c = 0; c < mesh.tetrahedra.size(); c += step)
   {
     for (const auto& [i, j] : tetrahedronEdges)
     {
@@ -195,7 +195,7 @@ Cells<2> edgesOfSome(const Mesh& mesh)
       edges.insert({ low, high });
     }
   }
-  return { edges.begin(), edges.end() };
+  return edges;
 }
 
 /// Listed segments stay edges of cells, also those between vertices of several blocks.
@@ -203,7 +203,8 @@ TEST_P(CellImprovement, keepsListedSegments)
 {
   const cadtest::FilterRun filters(CADREFINE_TRUTH "/box_minus_cylinder.brep");
   Mesh mesh = cadtest::toMesh(spoiltMesh(filters));
-  mesh.segments = edgesOfSome(mesh);
+  const auto listed = edgesOf(mesh, 7);
+  mesh.segments = { listed.begin(), listed.end() };
   const auto whole = filters.moveOntoCAD(cadtest::toGrid(mesh));
   const auto model = readCADFile(CADREFINE_TRUTH "/box_minus_cylinder.brep");
   const auto rankOfCell = cadtest::deal(GetParam(), whole, exchange.size());
@@ -214,19 +215,81 @@ TEST_P(CellImprovement, keepsListedSegments)
     const Mesh after = cadtest::toMesh(gathered);
     EXPECT_NE(after.tetrahedra.size(), mesh.tetrahedra.size());
     EXPECT_GE(after.segments.size(), mesh.segments.size());
-    std::set<std::array<Index, 2>> edges;
-    for (const auto& cell : after.tetrahedra)
-    {
-      for (const auto& [i, j] : tetrahedronEdges)
-      {
-        const auto [low, high] = std::minmax(cell[i], cell[j]);
-        edges.insert({ low, high });
-      }
-    }
+    const auto edges = edgesOf(after);
     for (const auto& [a, b] : after.segments)
     {
       EXPECT_EQ(edges.count({ std::min(a, b), std::max(a, b) }), 1U) << a << " " << b;
     }
+  }
+}
+
+/// Adds fins and beams that end at new points, and triangles and segments through the mesh.
+void addStrays(Mesh& mesh)
+{
+  const auto edges = edgesOf(mesh);
+  const auto isEdge = [&](Index a, Index b) {
+    return a == b || edges.count({ std::min(a, b), std::max(a, b) }) > 0;
+  };
+  for (std::size_t c = 0; c + 40 < mesh.tetrahedra.size(); c += 37)
+  {
+    const auto& [a, b, other, another] = mesh.tetrahedra[c];
+    const auto tip = static_cast<Index>(mesh.points.size());
+    mesh.points.push_back(mesh.points[a] + Point3{ 0, 0, 5 + 0.001 * static_cast<double>(c) });
+    mesh.segments.push_back({ a, tip });
+    mesh.triangles.push_back({ b, a, tip });
+    const Index far = mesh.tetrahedra[c + 40][0];
+    if (!isEdge(a, far) && !isEdge(b, far))
+    {
+      mesh.segments.push_back({ b, far });
+      mesh.triangles.push_back({ far, a, b });
+    }
+  }
+}
+
+/// How many beams of addStrays are there with the fin beside them.
+int beamsWithFin(const Mesh& mesh)
+{
+  std::set<std::array<Index, 2>> ofFins;
+  for (const auto& corners : mesh.triangles)
+  {
+    for (const Index a : corners)
+    {
+      for (const Index b : corners)
+      {
+        ofFins.insert({ a, b });
+      }
+    }
+  }
+  return static_cast<int>(std::count_if(mesh.segments.begin(), mesh.segments.end(),
+    [&](const std::array<Index, 2>& ends)
+    {
+      return std::max(mesh.points[ends[0]][2], mesh.points[ends[1]][2]) > 4 &&
+             ofFins.count(ends) > 0;
+    }));
+}
+
+/// Listed cells that are no sides of cells, of which vertices may be in several blocks, or in none.
+TEST_P(CellImprovement, keepsFinsAndBeams)
+{
+  const cadtest::FilterRun filters(CADREFINE_TRUTH "/box_minus_cylinder.brep");
+  Mesh mesh = cadtest::toMesh(spoiltMesh(filters));
+  addStrays(mesh);
+  const auto whole = filters.moveOntoCAD(cadtest::toGrid(mesh));
+  whole->GetFieldData()->Initialize();
+  const auto model = readCADFile(CADREFINE_TRUTH "/box_minus_cylinder.brep");
+  const auto rankOfCell = cadtest::deal(GetParam(), whole, exchange.size());
+  const auto piece = cadtest::pieceOf(whole, rankOfCell, exchange.rank(), false);
+  const auto pieces = improved(exchange, piece, *model);
+  RankExchange alone(nullptr);
+  const auto serial = exchange.rank() == 0 ? improved(alone, whole, *model) : nullptr;
+  cadtest::expectSame(exchange, pieces, serial);
+  if (exchange.rank() == 0)
+  {
+    const Mesh after = cadtest::toMesh(serial);
+    EXPECT_NE(after.tetrahedra.size(), mesh.tetrahedra.size());
+    EXPECT_TRUE(cadtest::isValid(after));
+    EXPECT_GT(beamsWithFin(mesh), 10);
+    EXPECT_GE(beamsWithFin(after), beamsWithFin(mesh)); // halved with cells that are
   }
 }
 

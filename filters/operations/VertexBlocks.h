@@ -1,0 +1,57 @@
+// The block that the cells at a vertex are of.
+#pragma once
+
+#include "mesh/DistributedMesh.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace cadrefine
+{
+
+/// Of a cell: it stays.
+constexpr std::int64_t noBlock = -1;
+/// Of a vertex: it stays, as its cells are not all of one block.
+constexpr std::int64_t manyBlocks = -2;
+/// Of a vertex: it stays, as it has cells that are not simplices.
+constexpr std::int64_t besideOthers = -3;
+
+/// The block that all cells at a vertex, of all ranks, are of; negative where it stays: where some
+/// are of none or of another, or not simplices, where there are none, and where it is listed.
+/// Collective; 8 bytes a shared vertex.
+std::vector<std::int64_t> blocksOfVertices(
+  RankExchange& exchange, const DistributedMesh& mesh, const std::vector<std::int64_t>& ofCells);
+
+/// Makes vertices stay that have listed triangles or segments which are no sides of cells, such as
+/// fins and beams on a solid. Each block is on one rank, with the listed cells at its vertices.
+/// Collective; 8 bytes a shared vertex if there are any. Work: a look at each cell, and at its
+/// sides where listed cells are at blocks.
+void holdStrays(
+  RankExchange& exchange, const DistributedMesh& mesh, std::vector<std::int64_t>& ofVertices);
+
+/// Marks the vertices of cells that are not simplices, but for those where a listed segment of no
+/// block ends, on whatever rank. Collective; 16 bytes a shared vertex.
+void markBesideOthers(
+  RankExchange& exchange, const DistributedMesh& mesh, std::vector<std::int64_t>& ofVertices);
+
+/// The block of a cell of lower dimension: that which one of its vertices is within.
+template<std::size_t Corners>
+std::int64_t blockOf(
+  const std::array<Index, Corners>& corners, const std::vector<std::int64_t>& ofVertices)
+{
+  for (const Index vertex : corners)
+  {
+    if (ofVertices[vertex] >= 0)
+    {
+      return ofVertices[vertex];
+    }
+  }
+  return noBlock;
+}
+
+/// How many triangles are no cells of the mesh's own dimension.
+std::size_t listedTriangles(const Mesh& mesh);
+
+} // namespace cadrefine
