@@ -269,7 +269,7 @@ OperationTrace operateOnBlocks(RankExchange& exchange, DistributedMesh& mesh,
   const ParallelFor& parallelFor)
 {
   auto ofVertices = blocksOfVertices(exchange, mesh, task.blocks.ofCells);
-  holdStrays(exchange, mesh, ofVertices);
+  holdStrays(exchange, mesh, task.blocks.ofCells, ofVertices);
   markBesideOthers(exchange, mesh, ofVertices);
   const auto [members, others] =
     findMembers(mesh, task.blocks.ofCells, ofVertices, boundary.boundary);

@@ -19,46 +19,80 @@ std::int64_t joined(std::int64_t a, std::int64_t b)
   return manyBlocks;
 }
 
-/// Takes the vertices of these cells of lower dimension that are no sides of cells, such as fins
-/// and beams on a solid, out of their blocks on this rank: they stay. `sides(use)` calls
-/// use(corners) for those of all cells.
-template<std::size_t Corners, class Sides>
-void holdStrays(const Cells<Corners>& listed, std::size_t count, const Sides& sides,
-  std::vector<std::int64_t>& ofVertices)
+/// use(corners) of the edges, or of the triangles, of all simplices of blocks.
+template<std::size_t Corners, class Use>
+void forSidesInBlocks(const Mesh& mesh, const std::vector<std::int64_t>& ofCells, const Use& use)
+{
+  const auto forSidesOf = [&](const auto& cell)
+  {
+    for (std::size_t i = 0; i < cell.size(); ++i)
+    {
+      for (std::size_t j = 0; j < i; ++j)
+      {
+        if constexpr (Corners == 2)
+        {
+          use({ cell[i], cell[j] });
+        }
+        else
+        {
+          for (std::size_t k = 0; k < j; ++k)
+          {
+            use({ cell[i], cell[j], cell[k] });
+          }
+        }
+      }
+    }
+  };
+  visitCells(mesh,
+    [&](const auto& cells)
+    {
+      for (std::size_t c = 0; c < cells.size(); ++c)
+      {
+        if (ofCells[c] >= 0)
+        {
+          forSidesOf(cells[c]);
+        }
+      }
+    });
+}
+
+/// Makes the vertices of these `count` listed cells stay, but for those of sides of cells in
+/// blocks.
+template<std::size_t Corners>
+void holdStrays(const Mesh& mesh, const std::vector<std::int64_t>& ofCells,
+  const Cells<Corners>& listed, std::size_t count, std::vector<std::int64_t>& ofVertices)
 {
   const auto sorted = [](std::array<Index, Corners> corners)
   {
     std::sort(corners.begin(), corners.end());
     return corners;
   };
-  Cells<Corners> strays;
+  Cells<Corners> atBlocks;
   for (std::size_t c = 0; c < count; ++c)
   {
     if (blockOf(listed[c], ofVertices) >= 0)
     {
-      strays.push_back(sorted(listed[c]));
+      atBlocks.push_back(sorted(listed[c]));
     }
   }
-  if (strays.empty())
+  if (atBlocks.empty())
   {
     return;
   }
-  std::sort(strays.begin(), strays.end());
-  std::vector<unsigned char> isSide(strays.size(), 0);
-  sides(
+  std::sort(atBlocks.begin(), atBlocks.end());
+  std::vector<unsigned char> isSide(atBlocks.size(), 0);
+  forSidesInBlocks<Corners>(mesh, ofCells,
     [&](const std::array<Index, Corners>& corners)
     {
-      if (blockOf(corners, ofVertices) >= 0)
+      const auto found = std::lower_bound(atBlocks.begin(), atBlocks.end(), sorted(corners));
+      if (found != atBlocks.end() && *found == sorted(corners))
       {
-        const auto key = sorted(corners);
-        const auto [first, last] = std::equal_range(strays.begin(), strays.end(), key);
-        std::fill(
-          isSide.begin() + (first - strays.begin()), isSide.begin() + (last - strays.begin()), 1);
+        isSide[found - atBlocks.begin()] = 1;
       }
     });
-  for (std::size_t c = 0; c < strays.size(); ++c)
+  for (std::size_t c = 0; c < atBlocks.size(); ++c)
   {
-    for (const Index vertex : strays[c])
+    for (const Index vertex : atBlocks[c])
     {
       ofVertices[vertex] = isSide[c] ? ofVertices[vertex] : manyBlocks;
     }
@@ -102,44 +136,13 @@ std::vector<std::int64_t> blocksOfVertices(
   return result;
 }
 
-void holdStrays(
-  RankExchange& exchange, const DistributedMesh& mesh, std::vector<std::int64_t>& ofVertices)
+void holdStrays(RankExchange& exchange, const DistributedMesh& mesh,
+  const std::vector<std::int64_t>& ofCells, std::vector<std::int64_t>& ofVertices)
 {
   const Mesh& piece = mesh.mesh();
   const std::vector<std::int64_t> before = ofVertices;
-  holdStrays<3>(
-    piece.triangles, listedTriangles(piece),
-    [&](const auto& use)
-    {
-      for (const auto& cell : piece.tetrahedra)
-      {
-        for (const auto& [i, j, k] : tetrahedronFaces)
-        {
-          use({ cell[i], cell[j], cell[k] });
-        }
-      }
-    },
-    ofVertices);
-  holdStrays<2>(
-    piece.segments, piece.segments.size(),
-    [&](const auto& use)
-    {
-      visitCells(piece,
-        [&](const auto& cells)
-        {
-          for (const auto& cell : cells)
-          {
-            for (std::size_t i = 0; i < cell.size(); ++i)
-            {
-              for (std::size_t k = 0; k < i; ++k)
-              {
-                use({ cell[i], cell[k] });
-              }
-            }
-          }
-        });
-    },
-    ofVertices);
+  holdStrays(piece, ofCells, piece.triangles, listedTriangles(piece), ofVertices);
+  holdStrays(piece, ofCells, piece.segments, piece.segments.size(), ofVertices);
   if (exchange.any(ofVertices != before))
   {
     combineShared(exchange, mesh.shared, ofVertices, joined);

@@ -26,10 +26,10 @@ std::vector<std::int64_t> blocksOfVertices(
 
 /// Makes vertices stay that have listed triangles or segments which are no sides of cells, such as
 /// fins and beams on a solid. Each block is on one rank, with the listed cells at its vertices.
-/// Collective; 8 bytes a shared vertex if there are any. Work: a look at each cell, and at its
-/// sides where listed cells are at blocks.
-void holdStrays(
-  RankExchange& exchange, const DistributedMesh& mesh, std::vector<std::int64_t>& ofVertices);
+/// Collective; 8 bytes a shared vertex if there are any. Work: a look at each listed cell, and
+/// where some are at blocks at each side of these, by the logarithm of their number.
+void holdStrays(RankExchange& exchange, const DistributedMesh& mesh,
+  const std::vector<std::int64_t>& ofCells, std::vector<std::int64_t>& ofVertices);
 
 /// Marks the vertices of cells that are not simplices, but for those where a listed segment of no
 /// block ends, on whatever rank. Collective; 16 bytes a shared vertex.
