@@ -16,13 +16,6 @@ namespace
 /// Of boundary off the CAD, without tags.
 constexpr Index wallLabel = -2;
 
-template<std::size_t Corners>
-std::array<Index, Corners> sorted(std::array<Index, Corners> corners)
-{
-  std::sort(corners.begin(), corners.end());
-  return corners;
-}
-
 EditableMesh::Kind kindOf(const Mesh& mesh, BoundaryKind boundary)
 {
   if (mesh.dimension == 3)

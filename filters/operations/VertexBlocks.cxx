@@ -1,5 +1,7 @@
 #include "operations/VertexBlocks.h"
 
+#include <cadrefine/operations/EditableMesh.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -57,16 +59,11 @@ void forSidesInBlocks(const Mesh& mesh, const std::vector<std::int64_t>& ofCells
 }
 
 /// Makes the vertices of these `count` listed cells stay, but for those of sides of cells in
-/// blocks.
+/// blocks. Returns whether there are any.
 template<std::size_t Corners>
-void holdStrays(const Mesh& mesh, const std::vector<std::int64_t>& ofCells,
+bool holdStrays(const Mesh& mesh, const std::vector<std::int64_t>& ofCells,
   const Cells<Corners>& listed, std::size_t count, std::vector<std::int64_t>& ofVertices)
 {
-  const auto sorted = [](std::array<Index, Corners> corners)
-  {
-    std::sort(corners.begin(), corners.end());
-    return corners;
-  };
   Cells<Corners> atBlocks;
   for (std::size_t c = 0; c < count; ++c)
   {
@@ -77,7 +74,7 @@ void holdStrays(const Mesh& mesh, const std::vector<std::int64_t>& ofCells,
   }
   if (atBlocks.empty())
   {
-    return;
+    return false;
   }
   std::sort(atBlocks.begin(), atBlocks.end());
   std::vector<unsigned char> isSide(atBlocks.size(), 0);
@@ -97,6 +94,7 @@ void holdStrays(const Mesh& mesh, const std::vector<std::int64_t>& ofCells,
       ofVertices[vertex] = isSide[c] ? ofVertices[vertex] : manyBlocks;
     }
   }
+  return std::find(isSide.begin(), isSide.end(), 0) != isSide.end();
 }
 
 } // namespace
@@ -140,10 +138,11 @@ void holdStrays(RankExchange& exchange, const DistributedMesh& mesh,
   const std::vector<std::int64_t>& ofCells, std::vector<std::int64_t>& ofVertices)
 {
   const Mesh& piece = mesh.mesh();
-  const std::vector<std::int64_t> before = ofVertices;
-  holdStrays(piece, ofCells, piece.triangles, listedTriangles(piece), ofVertices);
-  holdStrays(piece, ofCells, piece.segments, piece.segments.size(), ofVertices);
-  if (exchange.any(ofVertices != before))
+  const bool triangles =
+    holdStrays(piece, ofCells, piece.triangles, listedTriangles(piece), ofVertices);
+  const bool segments =
+    holdStrays(piece, ofCells, piece.segments, piece.segments.size(), ofVertices);
+  if (exchange.any(triangles || segments))
   {
     combineShared(exchange, mesh.shared, ofVertices, joined);
   }

@@ -38,6 +38,14 @@ bool hasCorner(const std::array<Index, Corners>& corners, Index vertex)
   return std::find(corners.begin(), corners.end(), vertex) != corners.end();
 }
 
+/// Ascending: the same for cells with the same corners.
+template<std::size_t Corners>
+std::array<Index, Corners> sorted(std::array<Index, Corners> corners)
+{
+  std::sort(corners.begin(), corners.end());
+  return corners;
+}
+
 /// Whether a triangle turns from `a` to `b`.
 bool goesAlong(const std::array<Index, 3>& triangle, Index a, Index b);
 

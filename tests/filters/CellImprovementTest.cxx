@@ -149,6 +149,18 @@ protected:
     improveCells(context, state, { 0.3, {}, 1000 });
     return makeDataSet(state);
   }
+
+  /// What becomes of a mesh on one rank, on rank 0; of its pieces it is the same.
+  vtkSmartPointer<vtkPointSet> improvedAlike(vtkPointSet* whole, const CADModel& model)
+  {
+    const auto rankOfCell = cadtest::deal(GetParam(), whole, exchange.size());
+    const auto piece = cadtest::pieceOf(whole, rankOfCell, exchange.rank(), false);
+    const auto pieces = improved(exchange, piece, model);
+    RankExchange alone(nullptr);
+    auto serial = exchange.rank() == 0 ? improved(alone, whole, model) : nullptr;
+    cadtest::expectSame(exchange, pieces, serial);
+    return serial;
+  }
 };
 
 class RankWithoutCells : public ParallelTest
@@ -160,12 +172,7 @@ TEST_P(CellImprovement, isThatOfOneRank)
   const cadtest::FilterRun filters(CADREFINE_TRUTH "/box_minus_cylinder.brep");
   const auto whole = spoiltMesh(filters);
   const auto model = readCADFile(CADREFINE_TRUTH "/box_minus_cylinder.brep");
-  const auto rankOfCell = cadtest::deal(GetParam(), whole, exchange.size());
-  const auto piece = cadtest::pieceOf(whole, rankOfCell, exchange.rank(), false);
-  const auto pieces = improved(exchange, piece, *model);
-  RankExchange alone(nullptr);
-  const auto serial = exchange.rank() == 0 ? improved(alone, whole, *model) : nullptr;
-  cadtest::expectSame(exchange, pieces, serial);
+  const auto serial = improvedAlike(whole, *model);
   if (exchange.rank() == 0)
   {
     const Shape before = shapeOf(whole);
@@ -277,12 +284,7 @@ TEST_P(CellImprovement, keepsFinsAndBeams)
   const auto whole = filters.moveOntoCAD(cadtest::toGrid(mesh));
   whole->GetFieldData()->Initialize();
   const auto model = readCADFile(CADREFINE_TRUTH "/box_minus_cylinder.brep");
-  const auto rankOfCell = cadtest::deal(GetParam(), whole, exchange.size());
-  const auto piece = cadtest::pieceOf(whole, rankOfCell, exchange.rank(), false);
-  const auto pieces = improved(exchange, piece, *model);
-  RankExchange alone(nullptr);
-  const auto serial = exchange.rank() == 0 ? improved(alone, whole, *model) : nullptr;
-  cadtest::expectSame(exchange, pieces, serial);
+  const auto serial = improvedAlike(whole, *model);
   if (exchange.rank() == 0)
   {
     const Mesh after = cadtest::toMesh(serial);
@@ -420,12 +422,7 @@ protected:
 
   Shapes compare(vtkPointSet* whole, const CADModel& model)
   {
-    const auto rankOfCell = cadtest::deal(GetParam(), whole, exchange.size());
-    const auto piece = cadtest::pieceOf(whole, rankOfCell, exchange.rank(), false);
-    const auto pieces = improved(exchange, piece, model);
-    RankExchange alone(nullptr);
-    const auto serial = exchange.rank() == 0 ? improved(alone, whole, model) : nullptr;
-    cadtest::expectSame(exchange, pieces, serial);
+    const auto serial = improvedAlike(whole, model);
     return serial
              ? Shapes{ shapeOfTriangles(whole), shapeOfTriangles(serial), cadtest::toMesh(serial) }
              : Shapes{};
