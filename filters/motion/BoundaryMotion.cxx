@@ -136,7 +136,6 @@ void settle(Motion& motion, MoveGuard& guard, const std::vector<Index>& moving)
     if (motion.columns.any())
     {
       motion.columns.tie(motion.exchange, moves);
-      combineShared(motion.exchange, motion.distributed.shared, moves.fractions, smaller);
     }
   }
   for (const Index vertex : moving)

@@ -30,6 +30,8 @@ constexpr double reachOfMove = 100;
 constexpr double heightsOfMove = 6;
 /// A vertex on the CAD that goes along comes off its way by less of it.
 constexpr double alongEntity = 0.1;
+/// Of what fades out: from so much height on it does so smoothly, and the first height stays.
+constexpr double smoothHeights = 2;
 /// The least cosine between a facet's normal and a move across it, not along it.
 constexpr double across = 0.5;
 
@@ -43,18 +45,6 @@ double larger(double a, double b)
   return std::max(a, b);
 }
 
-/// Which column has a node: that of the lowest level, of these the smallest one.
-struct Claim
-{
-  std::int64_t level = std::numeric_limits<std::int64_t>::max();
-  GlobalId column = -1;
-
-  friend bool operator<(const Claim& a, const Claim& b)
-  {
-    return a.level != b.level ? a.level < b.level : a.column < b.column;
-  }
-};
-
 /// The facet at a moving node whose normal is nearest to the direction of its move.
 struct BestFacet
 {
@@ -66,6 +56,13 @@ BestFacet better(const BestFacet& a, const BestFacet& b)
 {
   return a.cosine != b.cosine ? (a.cosine > b.cosine ? a : b) : (a.ids < b.ids ? a : b);
 }
+
+/// Where a column ends: at a moving node, so high up.
+struct Arrival
+{
+  GlobalId end = -1;
+  double height = 0;
+};
 
 /// Where a node is to go, if anywhere.
 struct Place
@@ -141,18 +138,21 @@ LayerColumns::LayerColumns(RankExchange& exchange, const DistributedMesh& mesh, 
   std::transform(best.begin(), best.end(), std::back_inserter(cosines),
     [](const BestFacet& facet) { return facet.cosine; });
   findYielding(exchange, moves, cosines);
-  const auto spans = findSpans(exchange, moves);
+  const auto claims = findClaims(exchange, moves, std::vector<unsigned char>(members_.size(), 0));
+  const auto spans = findSpans(exchange, moves, claims);
   const auto isBeyond = [&](const Member& member)
   {
     const Span& span = spans[member.column];
-    return member.height > span.end || (member.height == span.end && span.faded == 1);
+    return claims[member.node] < claimOf(member) || member.height > span.end ||
+           (member.height == span.height && span.faded == 1);
   };
   members_.erase(std::remove_if(members_.begin(), members_.end(), isBeyond), members_.end());
   for (Member& member : members_)
   {
-    const auto& [first, end, faded] = spans[member.column];
+    const auto& [first, end, height, faded, smooth] = spans[member.column];
     const double x = end > first ? (member.height - first) / (end - first) : 0;
-    member.part = 1 - faded * x * x * (3 - 2 * x);
+    member.part =
+      1 - faded * (smooth * x * x * (3 - 2 * x) + (1 - smooth) * (member.height / height));
   }
 }
 
@@ -170,7 +170,7 @@ void LayerColumns::listMembers(
   for (const auto& [node, column, level, height] : visits)
   {
     const auto found = std::lower_bound(columns_.begin(), columns_.end(), column);
-    members_.push_back({ node, static_cast<Index>(found - columns_.begin()), level, height, 0 });
+    members_.push_back({ node, static_cast<Index>(found - columns_.begin()), level, height, 1 });
   }
 
   std::vector<std::pair<GlobalId, Index>> moving;
@@ -225,8 +225,12 @@ void LayerColumns::findYielding(
   {
     yields_[n] = slides(static_cast<Index>(n));
   }
-  const auto ofNodes =
-    movesOfMembers(exchange, movesOfWalls(exchange, moves), findLost(exchange, moves, isLeftOut));
+  const auto claims = findClaims(exchange, moves, isLeftOut);
+  for (std::size_t k = 0; k < members_.size(); ++k)
+  {
+    isLeftOut[k] = isLeftOut[k] || claims[members_[k].node] < claimOf(members_[k]);
+  }
+  const auto ofNodes = movesOfMembers(exchange, movesOfWalls(exchange, moves), isLeftOut);
   std::vector<unsigned char> stays(ofNodes.size(), 0);
   forAllFacets([&](Index n, const Vector3& normal)
     { stays[n] = stays[n] || std::abs(dot(ofNodes[n], normal)) > across * norm(ofNodes[n]); });
@@ -250,9 +254,8 @@ void LayerColumns::findYielding(
   }
 }
 
-/// 1 for members that are left out, and for those whose node an earlier column has: one that comes
-/// to it in fewer cells, or, in as many, whose wall's node has the smaller id. Collective.
-std::vector<unsigned char> LayerColumns::findLost(
+/// Which columns have the nodes, given 1 for members that are left out. Collective.
+std::vector<LayerColumns::Claim> LayerColumns::findClaims(
   RankExchange& exchange, const Moves& moves, const std::vector<unsigned char>& isLeftOut) const
 {
   std::vector<Claim> claims(nodes_.points.size());
@@ -260,9 +263,6 @@ std::vector<unsigned char> LayerColumns::findLost(
   {
     claims[n] = moves.fractions[n] > 0 && !yields_[n] ? Claim{ 0, -1 } : Claim{};
   }
-  const auto claimOf = [&](const Member& member) {
-    return Claim{ member.level, columns_[member.column] };
-  };
   for (std::size_t k = 0; k < members_.size(); ++k)
   {
     Claim& claim = claims[members_[k].node];
@@ -270,45 +270,118 @@ std::vector<unsigned char> LayerColumns::findLost(
   }
   combineShared(
     exchange, nodes_.shared, claims, [](const Claim& a, const Claim& b) { return std::min(a, b); });
-  std::vector<unsigned char> lost = isLeftOut;
-  for (std::size_t k = 0; k < members_.size(); ++k)
+  return claims;
+}
+
+/// Pairs of columns of which each ends at the wall of the other one, so near that their moves do
+/// not fade out between them, and which share their nodes with no third column, given the heights
+/// of their tops: 1 for columns of such pairs. Collective.
+std::vector<unsigned char> LayerColumns::findFacing(RankExchange& exchange, const Moves& moves,
+  const std::vector<Claim>& claims, const std::vector<double>& tops)
+{
+  std::vector<GlobalId> ends(columns_.size(), -1); // moving nodes
+  facing_.assign(columns_.size(), -1);
+  for (const auto& [node, c, level, height, part] : members_)
   {
-    lost[k] = lost[k] || claims[members_[k].node] < claimOf(members_[k]);
+    if (height == tops[c] && claims[node].column < 0)
+    {
+      ends[c] = nodes_.ids[node];
+      facing_[c] = node;
+    }
   }
-  return lost;
+  const auto largest = [](GlobalId a, GlobalId b) { return std::max(a, b); };
+  combineShared(exchange, shared_, ends, largest);
+  std::vector<unsigned char> faces(columns_.size(), 0);
+  if (!exchange.any(std::any_of(ends.begin(), ends.end(), [](GlobalId end) { return end >= 0; })))
+  {
+    return faces;
+  }
+  std::vector<std::array<Arrival, 2>> arrivals(nodes_.points.size()); // of the columns on a node
+  for (std::size_t c = 0; c < columns_.size(); ++c)
+  {
+    if (walls_[c] >= 0)
+    {
+      arrivals[walls_[c]][columns_[c] % 2] = { ends[c], tops[c] };
+    }
+  }
+  combineShared(exchange, nodes_.shared, arrivals,
+    [](const auto& a, const auto& b) {
+      return std::array{ a[0].end < 0 ? b[0] : a[0], a[1].end < 0 ? b[1] : a[1] };
+    });
+
+  const auto ofWalls = movesOfWalls(exchange, moves);
+  std::vector<GlobalId> faced(columns_.size(), -1); // columns
+  for (std::size_t c = 0; c < columns_.size(); ++c)
+  {
+    for (int side = 0; side < 2 && facing_[c] >= 0; ++side)
+    {
+      const Arrival& back = arrivals[facing_[c]][side];
+      const bool isNear = std::min(tops[c], back.height) <
+                          heightsOfMove * (norm(ofWalls.own[c]) + norm(ofWalls.facing[c]));
+      faced[c] = back.end == columns_[c] / 2 && isNear ? 2 * ends[c] + side : faced[c];
+    }
+  }
+  combineShared(exchange, shared_, faced, largest);
+  std::vector<unsigned char> isNone(columns_.size(), 0);
+  for (const Member& member : members_)
+  {
+    const GlobalId owner = claims[member.node].column;
+    const Index c = member.column;
+    isNone[c] =
+      isNone[c] || faced[c] < 0 || (owner >= 0 && owner != columns_[c] && owner != faced[c]);
+  }
+  combineFlags(exchange, shared_, isNone);
+  for (std::size_t c = 0; c < columns_.size(); ++c)
+  {
+    facing_[c] = isNone[c] ? -1 : facing_[c];
+  }
+  std::transform(
+    isNone.begin(), isNone.end(), faces.begin(), [](unsigned char none) { return none ? 0 : 1; });
+  anyFacing_ = exchange.any(std::count(faces.begin(), faces.end(), 1) > 0);
+  return faces;
 }
 
 /// Collective.
 std::vector<LayerColumns::Span> LayerColumns::findSpans(
-  RankExchange& exchange, const Moves& moves) const
+  RankExchange& exchange, const Moves& moves, const std::vector<Claim>& claims)
 {
-  const auto isLost = findLost(exchange, moves, std::vector<unsigned char>(members_.size(), 0));
   std::vector<double> firsts(columns_.size(), infinity);
-  std::vector<double> lost(columns_.size(), infinity);
   std::vector<double> tops(columns_.size(), 0);
+  for (const Member& member : members_)
+  {
+    const Index c = member.column;
+    firsts[c] = std::min(firsts[c], member.height);
+    tops[c] = std::max(tops[c], member.height);
+  }
+  combineShared(exchange, shared_, firsts, smaller);
+  combineShared(exchange, shared_, tops, larger);
+  const auto faces = findFacing(exchange, moves, claims, tops);
+  const auto ofWalls = movesOfWalls(exchange, moves);
+  std::vector<unsigned char> isLost;
+  std::transform(members_.begin(), members_.end(), std::back_inserter(isLost),
+    [&](const Member& member) { return claims[member.node] < claimOf(member); });
+  std::vector<double> lost(columns_.size(), infinity);
+  std::vector<double> lasts(columns_.size(), 0); // below the tops
   for (std::size_t k = 0; k < members_.size(); ++k)
   {
     const auto& [node, c, level, height, part] = members_[k];
-    firsts[c] = std::min(firsts[c], height);
-    tops[c] = std::max(tops[c], height);
-    lost[c] = isLost[k] ? std::min(lost[c], height) : lost[c];
+    lost[c] = isLost[k] && !faces[c] ? std::min(lost[c], height) : lost[c];
+    lasts[c] = height < tops[c] ? std::max(lasts[c], height) : lasts[c];
   }
-  combineShared(exchange, shared_, firsts, smaller);
   combineShared(exchange, shared_, lost, smaller);
-  combineShared(exchange, shared_, tops, larger);
+  combineShared(exchange, shared_, lasts, larger);
 
-  const auto ofWalls = movesOfWalls(exchange, moves);
   const auto blocked = findBlocked(exchange, ofWalls, isLost);
   std::vector<double> faded(columns_.size(), 0);
   for (const Member& member : members_)
   {
     const Index c = member.column;
-    const double move = norm(ofWalls[c]);
+    const double move = norm(ofWalls.own[c]);
     const double height = tops[c] - firsts[c];
     if (member.height == tops[c])
     {
-      const bool goesAlong = lost[c] == infinity && tops[c] < reachOfMove * move &&
-                             !blocked[member.node] && keepsDirection(member.node, ofWalls[c]);
+      const bool goesAlong = !faces[c] && lost[c] == infinity && tops[c] < reachOfMove * move &&
+                             !blocked[member.node] && keepsDirection(member.node, ofWalls.own[c]);
       faded[c] = goesAlong ? std::max(faded[c], std::min(1.0, height / (heightsOfMove * move))) : 1;
     }
   }
@@ -316,37 +389,49 @@ std::vector<LayerColumns::Span> LayerColumns::findSpans(
   std::vector<Span> spans(columns_.size());
   for (std::size_t c = 0; c < spans.size(); ++c)
   {
-    spans[c] = { firsts[c], std::min(lost[c], tops[c]), faded[c] };
+    const double height = std::min(lost[c], tops[c]);
+    const double end = faces[c] ? lasts[c] : height;
+    const double difference = norm(ofWalls.own[c] - ofWalls.facing[c]);
+    const double smooth =
+      std::clamp((end - firsts[c]) / difference - (smoothHeights - 1), 0.0, 1.0);
+    spans[c] = { firsts[c], end, height, faded[c], faded[c] < 1 ? 1 : smooth };
   }
   return spans;
 }
 
-std::vector<Vector3> LayerColumns::movesOfWalls(RankExchange& exchange, const Moves& moves) const
+std::vector<Vector3> LayerColumns::movesOf(
+  RankExchange& exchange, const Moves& moves, const std::vector<Index>& ofColumns) const
 {
-  std::vector<Vector3> ofWalls(walls_.size(), Vector3{});
-  for (std::size_t c = 0; c < walls_.size(); ++c)
+  std::vector<Vector3> result(columns_.size(), Vector3{});
+  for (std::size_t c = 0; c < ofColumns.size(); ++c)
   {
-    const Index n = walls_[c];
+    const Index n = ofColumns[c];
     if (n >= 0 && moves.fractions[n] > 0)
     {
-      ofWalls[c] = moves.targets[n] - nodes_.points[n];
+      result[c] = moves.targets[n] - nodes_.points[n];
     }
   }
-  combineShared(exchange, shared_, ofWalls,
+  combineShared(exchange, shared_, result,
     [](const Vector3& a, const Vector3& b) { return a == Vector3{} ? b : a; });
-  return ofWalls;
+  return result;
+}
+
+/// Collective.
+LayerColumns::WallMoves LayerColumns::movesOfWalls(RankExchange& exchange, const Moves& moves) const
+{
+  return { movesOf(exchange, moves, walls_), movesOf(exchange, moves, facing_) };
 }
 
 /// The moves of the walls over which nodes are, of one of them where there are several. Collective.
-std::vector<Vector3> LayerColumns::movesOfMembers(RankExchange& exchange,
-  const std::vector<Vector3>& ofWalls, const std::vector<unsigned char>& isLeftOut) const
+std::vector<Vector3> LayerColumns::movesOfMembers(RankExchange& exchange, const WallMoves& ofWalls,
+  const std::vector<unsigned char>& isLeftOut) const
 {
   std::vector<Vector3> ofNodes(nodes_.points.size(), Vector3{});
   for (std::size_t k = 0; k < members_.size(); ++k)
   {
     if (!isLeftOut[k])
     {
-      ofNodes[members_[k].node] = ofWalls[members_[k].column];
+      ofNodes[members_[k].node] = ofWalls.of(members_[k]);
     }
   }
   combineShared(exchange, nodes_.shared, ofNodes,
@@ -356,8 +441,8 @@ std::vector<Vector3> LayerColumns::movesOfMembers(RankExchange& exchange,
 
 /// 1 for nodes that are held, and those of a boundary off the CAD that would leave the plane of a
 /// facet. Members that are lost do not count: one column at most moves a node.
-std::vector<unsigned char> LayerColumns::findBlocked(RankExchange& exchange,
-  const std::vector<Vector3>& ofWalls, const std::vector<unsigned char>& isLost) const
+std::vector<unsigned char> LayerColumns::findBlocked(
+  RankExchange& exchange, const WallMoves& ofWalls, const std::vector<unsigned char>& isLost) const
 {
   const auto ofNodes = movesOfMembers(exchange, ofWalls, isLost);
   std::vector<unsigned char> blocked = nodes_.held;
@@ -395,10 +480,10 @@ LayerColumns::Followers LayerColumns::follow(RankExchange& exchange, Moves& move
   std::vector<Place> places(nodes_.points.size());
   for (const Member& member : members_)
   {
-    const Vector3& move = ofWalls[member.column];
+    const Vector3 move = ofWalls.of(member);
     if (move != Vector3{} && !blocked[member.node])
     {
-      places[member.node] = { placeOf(member.node, member.part * move), 1 };
+      places[member.node] = { placeOf(member.node, move), 1 };
       following_.push_back(member);
     }
   }
@@ -425,23 +510,33 @@ void LayerColumns::forAllTied(const Use& use) const
   {
     use(member.column, member.node);
   }
-  for (std::size_t c = 0; c < walls_.size(); ++c)
+  const auto useNodes = [&](const std::vector<Index>& nodes)
   {
-    if (walls_[c] >= 0)
+    for (std::size_t c = 0; c < nodes.size(); ++c)
     {
-      use(static_cast<Index>(c), walls_[c]);
+      if (nodes[c] >= 0)
+      {
+        use(static_cast<Index>(c), nodes[c]);
+      }
     }
-  }
+  };
+  useNodes(walls_);
+  useNodes(facing_);
 }
 
 void LayerColumns::tie(RankExchange& exchange, Moves& moves) const
 {
-  std::vector<double> smallest(walls_.size(), infinity);
-  forAllTied([&](Index column, Index node)
-    { smallest[column] = std::min(smallest[column], moves.fractions[node]); });
-  combineShared(exchange, shared_, smallest, smaller);
-  forAllTied([&](Index column, Index node)
-    { moves.fractions[node] = std::min(moves.fractions[node], smallest[column]); });
+  // The second time what facing columns have got from each other's walls.
+  for (int pass = 0; pass < (anyFacing_ ? 2 : 1); ++pass)
+  {
+    std::vector<double> smallest(walls_.size(), infinity);
+    forAllTied([&](Index column, Index node)
+      { smallest[column] = std::min(smallest[column], moves.fractions[node]); });
+    combineShared(exchange, shared_, smallest, smaller);
+    forAllTied([&](Index column, Index node)
+      { moves.fractions[node] = std::min(moves.fractions[node], smallest[column]); });
+    combineShared(exchange, nodes_.shared, moves.fractions, smaller);
+  }
 }
 
 } // namespace cadrefine

@@ -9,6 +9,7 @@
 #include <cadrefine/mesh/Facets.h>
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace cadrefine
@@ -27,8 +28,10 @@ namespace cadrefine
 /// make way: so much less fades out that no cell of the stack loses more than a quarter of its
 /// height. Nodes of a column that are on a boundary keep to it: those on the CAD to their
 /// entity, others move if they stay in the planes of their facets; where the last one cannot go
-/// along, all of the move fades out. A node that is to move along the boundary itself, as on a
-/// plane of symmetry, goes with a column that does so too.
+/// along, all of the move fades out. Where the last one is on another wall, from which a column
+/// comes back, the move fades into that of this wall, and the two columns go as one. Heights that
+/// are smaller than two of what fades out are scaled more and more alike. A node that is to move
+/// along the boundary itself, as on a plane of symmetry, goes with a column that does so too.
 ///
 /// Work: linear in the cells that are not simplices. Messages: one to and from each neighbour for
 /// every time that columns cross between ranks, and a few more.
@@ -56,10 +59,23 @@ public:
   Followers follow(RankExchange& exchange, Moves& moves);
 
   /// Makes all nodes of a column that follow, and that of its wall, go the same part of their
-  /// way: the smallest. Collective.
+  /// way: the smallest. So do facing columns. Collective.
   void tie(RankExchange& exchange, Moves& moves) const;
 
 private:
+  /// Which column has a node: that of the lowest level, of these the smallest one; -1: the node
+  /// moves by itself.
+  struct Claim
+  {
+    std::int64_t level = std::numeric_limits<std::int64_t>::max();
+    GlobalId column = -1;
+
+    friend bool operator<(const Claim& a, const Claim& b)
+    {
+      return a.level != b.level ? a.level < b.level : a.column < b.column;
+    }
+  };
+
   /// A node that a column comes to, see ColumnVisit.
   struct Member
   {
@@ -67,31 +83,51 @@ private:
     Index column;
     std::int64_t level;
     double height;
-    double part; ///< Of the move of the wall's node.
+    double part; ///< Of the move of the wall's node; the rest is of the facing one's.
   };
 
-  /// Heights of a column's first node, and of where it ends; what part of the move has faded out
-  /// there.
+  /// Of all columns of this rank.
+  struct WallMoves
+  {
+    std::vector<Vector3> own;
+    std::vector<Vector3> facing; ///< Zero where a column faces none.
+
+    Vector3 of(const Member& member) const
+    {
+      return member.part * own[member.column] + (1 - member.part) * facing[member.column];
+    }
+  };
+
+  /// How a column's move fades out: smoothly from its first node to where it ends, or in proportion
+  /// to the height, from the wall on.
   struct Span
   {
-    double first;
-    double end;
-    double faded;
+    double first;  ///< Height of the first node.
+    double end;    ///< Of the last one; between walls of that before the facing wall.
+    double height; ///< Of where the column ends, or of the facing wall.
+    double faded;  ///< Part of the move that has faded out there.
+    double smooth; ///< Weight of the smooth way.
   };
 
   void listMembers(
     RankExchange& exchange, const std::vector<ColumnVisit>& visits, const Moves& moves);
   void findYielding(RankExchange& exchange, const Moves& moves, const std::vector<double>& cosines);
-  std::vector<unsigned char> findLost(
+  std::vector<Claim> findClaims(
     RankExchange& exchange, const Moves& moves, const std::vector<unsigned char>& isLeftOut) const;
-  std::vector<Span> findSpans(RankExchange& exchange, const Moves& moves) const;
+  Claim claimOf(const Member& member) const { return { member.level, columns_[member.column] }; }
+  std::vector<unsigned char> findFacing(RankExchange& exchange, const Moves& moves,
+    const std::vector<Claim>& claims, const std::vector<double>& tops);
+  std::vector<Span> findSpans(
+    RankExchange& exchange, const Moves& moves, const std::vector<Claim>& claims);
 
-  /// The moves of the walls of all columns of this rank. Collective.
-  std::vector<Vector3> movesOfWalls(RankExchange& exchange, const Moves& moves) const;
-  std::vector<Vector3> movesOfMembers(RankExchange& exchange, const std::vector<Vector3>& ofWalls,
+  /// The moves of the nodes that columns have on this rank or on others. Collective.
+  std::vector<Vector3> movesOf(
+    RankExchange& exchange, const Moves& moves, const std::vector<Index>& ofColumns) const;
+  WallMoves movesOfWalls(RankExchange& exchange, const Moves& moves) const;
+  std::vector<Vector3> movesOfMembers(RankExchange& exchange, const WallMoves& ofWalls,
     const std::vector<unsigned char>& isLeftOut) const;
-  std::vector<unsigned char> findBlocked(RankExchange& exchange,
-    const std::vector<Vector3>& ofWalls, const std::vector<unsigned char>& isLost) const;
+  std::vector<unsigned char> findBlocked(RankExchange& exchange, const WallMoves& ofWalls,
+    const std::vector<unsigned char>& isLost) const;
   Point3 placeOf(Index node, const Vector3& move) const;
   bool keepsDirection(Index node, const Vector3& move) const;
   template<class Use>
@@ -109,6 +145,10 @@ private:
   std::vector<Index> walls_; ///< The node of each column's wall; -1: only other ranks start it.
   SharedItems shared_;       ///< Columns.
   std::vector<unsigned char> yields_; ///< 1: a node that goes with a column, wherever it was to go.
+  /// The node of the wall where a column ends, if another one comes back from there; -1: none, or
+  /// only other ranks have it.
+  std::vector<Index> facing_;
+  bool anyFacing_ = false; ///< On any rank.
   std::vector<Member> members_;
   std::vector<Member> following_; ///< Those of them that move.
 };

@@ -110,18 +110,13 @@ private:
   /// Takes the moves back until all cells of all ranks are valid.
   void settle(const LayerColumns& columns)
   {
-    const auto combine = [&]
+    const auto tie = [&]
     {
       combineShared(exchange_, sharedEdges_, moves_.fractions,
         [](double a, double b) { return std::min(a, b); });
-    };
-    const auto tie = [&]
-    {
-      combine();
       if (columns.any())
       {
         columns.tie(exchange_, moves_);
-        combine();
       }
     };
     tie(); // also with nodes that are held

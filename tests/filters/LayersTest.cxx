@@ -294,6 +294,42 @@ TEST_P(Layers, keepTheirFirstHeights)
   }
 }
 
+/// Cells through a wall whose both sides are on the CAD, which bulges by more than it is thick.
+class ThinWalls
+  : public ParallelTest
+  , public testing::WithParamInterface<BoxKind>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(Cases, ThinWalls, testing::Values(BoxKind::Hexahedron, BoxKind::Wedges));
+
+TEST_P(ThinWalls, followBothSides)
+{
+  constexpr double thickness = 0.06;
+  const cadtest::TemporaryFolder folder;
+  const cadtest::FilterRun filters(
+    cadtest::writeInto(
+      folder, cadtest::together(cadtest::sphere(2), cadtest::sphere(2 + thickness)), ".brep"),
+    worldController());
+  const Mesh boxes = cadtest::hexahedralWallMesh(2, 2, { 0.01, 0.03, thickness });
+  const auto whole = cadtest::toGrid(cadtest::mixedMesh(
+    boxes, [](std::size_t) { return GetParam(); }, 1));
+  auto mesh = filters.project(cadtest::pieceOf(whole,
+    cadtest::deal(cadtest::Dealing::Random, whole, exchange.size()), exchange.rank(), false));
+  for (int level = 0; level < 2; ++level)
+  {
+    mesh = filters.refineUniformly(mesh);
+    EXPECT_EQ(cadtest::fieldValue(mesh, "UnprojectedVertices"), 0);
+    EXPECT_EQ(cadtest::fieldValue(mesh, "InvalidCells"), 0);
+    const Mesh piece = cadtest::toMesh(mesh);
+    for (const Point3& point : piece.points)
+    {
+      EXPECT_GE(norm(point), 2 - 1e-9);
+      EXPECT_LE(norm(point), 2 + thickness + 1e-9);
+    }
+  }
+}
+
 } // namespace
 
 } // namespace cadrefine

@@ -24,6 +24,7 @@ namespace
 using cadtest::BoxKind;
 
 const std::vector<double> heights{ 0.02, 0.06, 0.15, 0.5 };
+constexpr double wallThickness = 0.06;
 
 /// Of the shells round a sphere those of layers; the outermost is of another kind.
 Mesh layers(BoxKind kind)
@@ -115,6 +116,13 @@ Mesh gap()
     cadtest::eighthOf(cadtest::hexahedralShellMesh(2, 0.02, 4, heights)));
 }
 
+/// Both of whose sides are on the CAD, which bulges by more than it is thick.
+Mesh thinWall()
+{
+  return cadtest::withListedBoundary(
+    cadtest::hexahedralWallMesh(2, 2, { 0.01, 0.03, wallThickness }));
+}
+
 /// Between planes of symmetry, which the CAD does not have inside the sphere.
 Mesh eighth(BoxKind kind)
 {
@@ -148,6 +156,11 @@ TopoDS_Shape twoSpheres()
   return cadtest::together(cadtest::sphere(2), cadtest::sphere(6));
 }
 
+TopoDS_Shape sidesOfThinWall()
+{
+  return cadtest::together(cadtest::sphere(2), cadtest::sphere(2 + wallThickness));
+}
+
 TopoDS_Shape eighthOfShell()
 {
   return cadtest::eighthOfShell(2, 6);
@@ -161,17 +174,16 @@ struct Problem
   double threshold; ///< Cells with a larger error are cut.
 };
 
-const std::array<Problem, 10> problems{
-  { { "HexahedralBall", gridOf<hexahedralBall>, sphere, 0.01 },
-    { "MixedBall", gridOf<mixedBall>, sphere, 0.01 },
-    { "WedgeLayers", gridOf<wedgeLayers>, sphere, 0.01 },
-    { "HexahedralLayers", gridOf<hexahedralLayers>, sphere, 0.01 },
-    { "DocumentedWedges", gridOf<documentedWedges>, sphere, 0.01 },
-    { "Gap", gridOf<gap>, twoSpheres, 0.01 },
-    { "EighthOfWedges", gridOf<eighthOfWedges>, eighthOfShell, 0.01 },
-    { "EighthOfHexahedra", gridOf<eighthOfHexahedra>, eighthOfShell, 0.01 },
-    { "Ring", gridOf<ring>, circle, 1e-3 }, { "Surface", surface, sphere, 0.01 } }
-};
+const std::array<Problem, 11> problems{ { { "HexahedralBall", gridOf<hexahedralBall>, sphere,
+                                            0.01 },
+  { "MixedBall", gridOf<mixedBall>, sphere, 0.01 },
+  { "WedgeLayers", gridOf<wedgeLayers>, sphere, 0.01 },
+  { "HexahedralLayers", gridOf<hexahedralLayers>, sphere, 0.01 },
+  { "DocumentedWedges", gridOf<documentedWedges>, sphere, 0.01 },
+  { "Gap", gridOf<gap>, twoSpheres, 0.01 }, { "ThinWall", gridOf<thinWall>, sidesOfThinWall, 0.01 },
+  { "EighthOfWedges", gridOf<eighthOfWedges>, eighthOfShell, 0.01 },
+  { "EighthOfHexahedra", gridOf<eighthOfHexahedra>, eighthOfShell, 0.01 },
+  { "Ring", gridOf<ring>, circle, 1e-3 }, { "Surface", surface, sphere, 0.01 } } };
 
 struct Case
 {

@@ -311,6 +311,28 @@ void halveSome(Mesh& mesh, std::size_t first, std::mt19937_64& random)
   mesh.quadrilaterals = left;
 }
 
+/// The cells all of whose corners are accepted.
+Mesh partOf(const Mesh& hexahedra, const std::function<bool(const Point3&)>& accepts)
+{
+  Mesh result;
+  Lattice<Index> lattice(result);
+  const auto isInside = [&](Index v) { return accepts(hexahedra.points[v]); };
+  for (auto cell : hexahedra.hexahedra)
+  {
+    if (std::all_of(cell.begin(), cell.end(), isInside))
+    {
+      for (Index& v : cell)
+      {
+        v = lattice.at(v, [&] { return hexahedra.points[v]; });
+      }
+      result.hexahedra.push_back(cell);
+    }
+  }
+  std::mt19937_64 random(1);
+  shuffleIds(result, random);
+  return result;
+}
+
 } // namespace
 
 Mesh hexahedraMesh(int n, double jitter, std::uint64_t seed)
@@ -457,27 +479,13 @@ Mesh hexahedralShellMesh(double radius, double offset, int n, const std::vector<
 
 Mesh eighthOf(const Mesh& hexahedra)
 {
-  Mesh result;
-  Lattice<Index> lattice(result);
-  const auto isInside = [&](Index v)
-  {
-    const Point3& p = hexahedra.points[v];
-    return p[0] >= 0 && p[1] >= 0 && p[2] >= 0;
-  };
-  for (auto cell : hexahedra.hexahedra)
-  {
-    if (std::all_of(cell.begin(), cell.end(), isInside))
-    {
-      for (Index& v : cell)
-      {
-        v = lattice.at(v, [&] { return hexahedra.points[v]; });
-      }
-      result.hexahedra.push_back(cell);
-    }
-  }
-  std::mt19937_64 random(1);
-  shuffleIds(result, random);
-  return result;
+  return partOf(hexahedra, [](const Point3& p) { return p[0] >= 0 && p[1] >= 0 && p[2] >= 0; });
+}
+
+Mesh hexahedralWallMesh(double radius, int n, const std::vector<double>& heights)
+{
+  return partOf(hexahedralShellMesh(radius, 0, n, heights),
+    [&](const Point3& p) { return norm(p) < radius + 2 * heights.back(); });
 }
 
 Mesh quadrilateralRingMesh(

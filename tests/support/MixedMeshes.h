@@ -43,6 +43,8 @@ cadrefine::Mesh hexahedralBallMesh(
 /// times the radius. They stand on it with their side 0, 1, 2, 3, the lowest shell first.
 cadrefine::Mesh hexahedralShellMesh(
   double radius, double offset, int n, const std::vector<double>& heights);
+/// The shells at these heights round a sphere alone, of n x n hexahedra on each side of a cube.
+cadrefine::Mesh hexahedralWallMesh(double radius, int n, const std::vector<double>& heights);
 /// Those of these hexahedra where no coordinate is negative.
 cadrefine::Mesh eighthOf(const cadrefine::Mesh& hexahedra);
 /// Rings of quadrilaterals round a polygon near a circle at these heights; outside, to three times
