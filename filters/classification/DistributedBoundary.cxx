@@ -1,6 +1,7 @@
 #include "classification/DistributedBoundary.h"
 
 #include "classification/BoundaryCache.h"
+#include "classification/OddFacets.h"
 #include "comm/CollectiveErrors.h"
 #include "comm/SharedEdges.h"
 #include "comm/Threads.h"
@@ -61,58 +62,6 @@ bool isClassified(const ClassifiedFacet& facet)
   const auto end = facet.entities.begin() + facet.corners;
   return std::all_of(
     facet.entities.begin(), end, [](EntityId entity) { return static_cast<bool>(entity); });
-}
-
-/// The face of the neighbour from which the surface turns least, for an ear, or that of all
-/// neighbours; -1: they are not on one face.
-std::int32_t faceOfNeighbours(const FacetRecord& facet, const std::vector<FacetRecord>& neighbours)
-{
-  const auto turnsLess = [&](const FacetRecord& a, const FacetRecord& b)
-  {
-    const double ofA = dot(a.normal, facet.normal);
-    const double ofB = dot(b.normal, facet.normal);
-    return ofA > ofB || (ofA == ofB && a.face < b.face);
-  };
-  const auto nearest = std::min_element(neighbours.begin(), neighbours.end(), turnsLess);
-  const bool isDecided =
-    facet.ear >= 0 || std::all_of(neighbours.begin(), neighbours.end(),
-                        [&](const FacetRecord& other) { return other.face == nearest->face; });
-  return isDecided ? nearest->face : -1;
-}
-
-/// Finds faces for facets of a coarse mesh of the CAD whose normals fit none: ears, where a CAD
-/// edge bends, and those amid facets of one face. Returns whether there are any.
-bool joinOddFacets(const Mesh& mesh, const DistributedBoundary& boundary,
-  const std::vector<EntityId>& entities, const CADModel& model,
-  const std::vector<std::vector<FacetRecord>>& ofEdges, std::vector<FacetRecord>& records)
-{
-  bool any = false;
-  for (std::size_t f = 0; f < records.size(); ++f)
-  {
-    FacetRecord& record = records[f];
-    const ClassifiedFacet facet = classifiedFacet(mesh, entities, boundary.facets[f]);
-    if (record.onCAD || facet.corners == 2 || !isClassified(facet))
-    {
-      continue;
-    }
-    std::vector<FacetRecord> neighbours;
-    bool isAmid = true;
-    for (int k = 0; k < facet.corners; ++k)
-    {
-      const auto onCAD = facetsOnCAD(ofEdges[boundary.facetEdges[f][k]]);
-      isAmid = isAmid && !onCAD.empty();
-      neighbours.insert(neighbours.end(), onCAD.begin(), onCAD.end());
-    }
-    if (isAmid || (record.ear >= 0 && !neighbours.empty()))
-    {
-      const std::int32_t face = faceOfNeighbours(record, neighbours);
-      const auto faces = commonFaces(model.nurbs(), facet.entities, facet.corners);
-      record.onCAD = record.odd = std::binary_search(faces.begin(), faces.end(), face);
-      record.face = record.onCAD ? face : -1;
-      any = any || record.odd;
-    }
-  }
-  return any;
 }
 
 /// A record on its way to the rank that has the edge too.
@@ -287,6 +236,7 @@ BoundaryClasses classifyBoundary(RankExchange& exchange, const Mesh& mesh,
     {
       record.onCAD = isClassified(facet);
     }
+    record.odd = !record.onCAD && facet.corners > 2 && isClassified(facet);
     if (boundary.kind == BoundaryKind::Triangles)
     {
       record.face = record.onCAD ? projector.faceOf(facet) : -1;
@@ -296,7 +246,7 @@ BoundaryClasses classifyBoundary(RankExchange& exchange, const Mesh& mesh,
   agreeOnFailure(
     exchange, [&] { forEachIndex(parallelFor, records.size(), coarseGrain, classifyFacet); });
   auto ofEdges = gatherFacetRecords(exchange, boundary, records);
-  if (exchange.any(joinOddFacets(mesh, boundary, entities, projector.model(), ofEdges, records)))
+  if (joinOddFacets(exchange, mesh, boundary, entities, projector.model(), ofEdges, records))
   {
     ofEdges = gatherFacetRecords(exchange, boundary, records);
   }

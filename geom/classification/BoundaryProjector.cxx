@@ -5,6 +5,7 @@
 #include <cadrefine/mesh/Quality.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace cadrefine
@@ -13,11 +14,28 @@ namespace
 {
 
 constexpr double leastPartInside = 1.0 / 8;
+/// Of a mesh edge's length: a place so near to one of its ends is not that of its middle.
+constexpr double atEnd = 0.1;
 
 /// The nearer of two answers; on a tie the smaller entity.
 bool isBetter(const ClosestPoint& a, const ClosestPoint& b)
 {
   return a.distance != b.distance ? a.distance < b.distance : a.entity < b.entity;
+}
+
+/// Unit vectors square to one, 45 degrees apart.
+std::array<Vector3, 8> directionsAcross(const Vector3& vector)
+{
+  const auto smallest = std::min_element(
+    vector.begin(), vector.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
+  Vector3 axis{};
+  axis[smallest - vector.begin()] = 1;
+  const Vector3 first = normalized(cross(vector, axis));
+  const Vector3 second = normalized(cross(vector, first));
+  const Vector3 sum = normalized(first + second);
+  const Vector3 difference = normalized(first - second);
+  return { first, sum, second, -1.0 * difference, -1.0 * first, -1.0 * sum, -1.0 * second,
+    difference };
 }
 
 /// That of the facet, but for quadrilaterals, which need not be flat.
@@ -149,13 +167,23 @@ std::int32_t BoundaryProjector::commonCrease(const std::array<Point3, 2>& points
     return onCAD.size() == 2 && onCAD[0].face >= 0 && onCAD[0].face == onCAD[1].face &&
            (onCAD[0].ear == edge || onCAD[1].ear == edge);
   };
+  // However far that bows.
+  const auto isBetween = [&](std::int32_t edge)
+  {
+    const auto& faces = model_.nurbs().edges[edge].faces;
+    return onCAD.size() == 2 && onCAD[0].face != onCAD[1].face &&
+           std::binary_search(faces.begin(), faces.end(), onCAD[0].face) &&
+           std::binary_search(faces.begin(), faces.end(), onCAD[1].face);
+  };
   const Point3 middle = 0.5 * (points[0] + points[1]);
+  const double limit = ClassificationTolerances::creaseDistance * distance(points[0], points[1]);
   std::int32_t best = -1;
-  double bestDistance = ClassificationTolerances::creaseDistance * distance(points[0], points[1]);
+  double bestDistance = std::numeric_limits<double>::infinity();
   for (const std::int32_t edge : commonEntities(model_.nurbs(), entities[0], entities[1], 1))
   {
     const double away = nearestOn({ 1, edge }, middle).distance;
-    if (model_.nurbs().edges[edge].sharp && away < bestDistance && !isLongSide(edge))
+    if (model_.nurbs().edges[edge].sharp && away < bestDistance && !isLongSide(edge) &&
+        (away < limit || isBetween(edge)))
     {
       best = edge;
       bestDistance = away;
@@ -268,7 +296,102 @@ ClosestPoint BoundaryProjector::projectSmoothly(
 
 ClosestPoint BoundaryProjector::projectMidpoint(const BoundaryEdge& edge) const
 {
-  return project(edge.edgeClass, 0.5 * (edge.points[0] + edge.points[1]), edge.entities);
+  const auto& [a, b] = edge.points;
+  const ClosestPoint where = project(edge.edgeClass, 0.5 * (a + b), edge.entities);
+  if (!where.entity ||
+      std::min(distance(where.point, a), distance(where.point, b)) > atEnd * distance(a, b))
+  {
+    return where;
+  }
+  const ClosestPoint between =
+    edge.edgeClass.edge >= 0 ? betweenOnEdge(edge) : betweenOnFaces(edge);
+  return between.entity ? between : where;
+}
+
+/// Of the place of a point on a CAD edge its parameter; at an end of the edge that of the end, and
+/// of a closed edge both.
+std::vector<double> BoundaryProjector::parametersOn(std::int32_t edge, const Point3& point) const
+{
+  const NurbsEdge& curve = model_.nurbs().edges[edge];
+  const ClosestPoint where = nearestOn({ 1, edge }, point);
+  if (where.entity.dimension == 1)
+  {
+    return { where.parameters[0] };
+  }
+  std::vector<double> ends;
+  if (where.entity == EntityId{ 0, curve.firstVertex })
+  {
+    ends.push_back(curve.segments.front().t0);
+  }
+  if (where.entity == EntityId{ 0, curve.lastVertex })
+  {
+    ends.push_back(curve.segments.back().t1);
+  }
+  return ends;
+}
+
+/// The point of the CAD edge between those nearest to the ends that is as far from one end as from
+/// the other, by bisection.
+ClosestPoint BoundaryProjector::betweenOnEdge(const BoundaryEdge& edge) const
+{
+  const auto& [a, b] = edge.points;
+  const EntityId onEdge{ 1, edge.edgeClass.edge };
+  std::array<double, 2> range{ 0, std::numeric_limits<double>::infinity() };
+  for (const double ofA : parametersOn(onEdge.index, a))
+  {
+    for (const double ofB : parametersOn(onEdge.index, b))
+    {
+      if (std::abs(ofB - ofA) < std::abs(range[1] - range[0]))
+      {
+        range = { ofA, ofB };
+      }
+    }
+  }
+  ClosestPoint where;
+  if (range[1] == std::numeric_limits<double>::infinity())
+  {
+    return where;
+  }
+  const bool isAFirst = range[0] < range[1];
+  const Point3& first = isAFirst ? a : b;
+  const Point3& last = isAFirst ? b : a;
+  double low = isAFirst ? range[0] : range[1];
+  double high = isAFirst ? range[1] : range[0];
+  for (int k = 0; k < std::numeric_limits<double>::digits; ++k)
+  {
+    const double t = 0.5 * (low + high);
+    const Point3 point = model_.evaluate(onEdge, { t, 0 });
+    (distance(point, first) < distance(point, last) ? low : high) = t;
+  }
+  where.entity = onEdge;
+  where.parameters = { 0.5 * (low + high), 0 };
+  where.point = model_.evaluate(onEdge, where.parameters);
+  where.distance = distance(where.point, 0.5 * (a + b));
+  return where;
+}
+
+/// Of the places on faces of eight points round the middle, as far off as the ends are, the one
+/// that is nearest to the middle and as far from one end as from the other: these two added.
+ClosestPoint BoundaryProjector::betweenOnFaces(const BoundaryEdge& edge) const
+{
+  const Point3& a = std::min(edge.points[0], edge.points[1]);
+  const Point3& b = std::max(edge.points[0], edge.points[1]);
+  const Point3 middle = 0.5 * (a + b);
+  double least = std::numeric_limits<double>::infinity();
+  ClosestPoint best;
+  for (const Vector3& direction : directionsAcross(b - a))
+  {
+    ClosestPoint where = projectSmoothly(edge.entities, middle + 0.5 * distance(a, b) * direction);
+    where.distance = distance(where.point, middle);
+    const double off =
+      where.distance + std::abs(distance(where.point, a) - distance(where.point, b));
+    if (where.entity.dimension == 2 && off < least)
+    {
+      best = where;
+      least = off;
+    }
+  }
+  return best;
 }
 
 ClosestPoint BoundaryProjector::offCrease(const BoundaryEdge& edge, const ClosestPoint& where) const

@@ -91,7 +91,8 @@ public:
     const std::vector<FacetRecord>& facets) const;
 
   /// The point of the CAD for the midpoint of an edge; with no entity for Straight. The same for
-  /// both directions of the edge.
+  /// both directions of the edge. Where an end of the edge is nearest, as under a bow of the CAD
+  /// that is as high as it is wide, a point between the ends, as far from one as from the other.
   ClosestPoint projectMidpoint(const BoundaryEdge& edge) const;
   /// The same for another point that stands for the edge, such as one of a curved edge.
   ClosestPoint project(
@@ -122,6 +123,9 @@ private:
     const std::array<EntityId, 2>& entities, const std::vector<FacetRecord>& onCAD) const;
   /// Whether the crease is part of a line of creases that the entity, an edge or a vertex, is on.
   bool isOnLineOf(std::int32_t crease, EntityId entity) const;
+  std::vector<double> parametersOn(std::int32_t edge, const Point3& point) const;
+  ClosestPoint betweenOnEdge(const BoundaryEdge& edge) const;
+  ClosestPoint betweenOnFaces(const BoundaryEdge& edge) const;
   ClosestPoint projectOnEdge(std::int32_t edge, const Point3& point) const;
   ClosestPoint nearestOnShared(const std::array<EntityId, 2>& entities, const Point3& point) const;
   ClosestPoint projectSmoothly(const std::array<EntityId, 2>& entities, const Point3& point) const;

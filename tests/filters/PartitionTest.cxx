@@ -166,6 +166,27 @@ bool roundSheets(const std::vector<Point3>& side)
   return all(radiusIs(0)) || all(radiusIs(1)) || all(heightIs(0)) || all(heightIs(1));
 }
 
+/// Of the end of a rounded cylinder only the rim is there.
+vtkSmartPointer<vtkPointSet> flatEnd()
+{
+  return cadtest::toGrid(cadtest::prismMesh(1, 4, 6, 3));
+}
+
+TopoDS_Shape roundEnd()
+{
+  return cadtest::roundedCylinder(1, 4);
+}
+
+bool onRoundEnd(const std::vector<Point3>& side)
+{
+  return std::all_of(side.begin(), side.end(),
+    [](const Point3& p)
+    {
+      const double radius = std::hypot(p[0], p[1], std::max(p[2] - 4, 0.0));
+      return std::abs(radius - 1) < 1e-11 || std::abs(p[2]) < 1e-11;
+    });
+}
+
 /// Creases, corners and a seam, found by facets on several ranks.
 vtkSmartPointer<vtkPointSet> boxWithHole()
 {
@@ -186,7 +207,7 @@ bool roundBoxWithHole(const std::vector<Point3>& side)
          onPlane(1, size[1]) || onPlane(2, size[2]);
 }
 
-const std::array<Problem, 11> problems{ { { "Ball", "", cadtest::taggedBall, 0.01, onSphere },
+const std::array<Problem, 12> problems{ { { "Ball", "", cadtest::taggedBall, 0.01, onSphere },
   { "Surface", "", surface, 0.01, nowhere },
   { "Wing", CADREFINE_DATA "/naca0012_sharp.igs", wing, 1e-4, roundWing },
   { "Arcs", CADREFINE_DATA "/three_arcs.igs", arcs, 1e-3, roundArcs },
@@ -195,6 +216,7 @@ const std::array<Problem, 11> problems{ { { "Ball", "", cadtest::taggedBall, 0.0
   { "CoarseBall", "", coarseBall, 0.01, nearSphere },
   { "Shell", "", ballInShell, 0.01, farOutside },
   { "Cubes", "", cubesAtAnEdge, 0.01, onCubes, cadtest::cubesAtAnEdge },
+  { "RoundEnd", "", flatEnd, 0.1, onRoundEnd, roundEnd },
   { "Sheets", "", threeSheets, 0.01, roundSheets, cadtest::threeSheets },
   { "Ring", "", discInRing, 1e-3, farOutside, circle } } };
 

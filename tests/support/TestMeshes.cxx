@@ -397,6 +397,35 @@ Mesh twoCubes(int n, const Point3& second)
 
 } // namespace
 
+Mesh prismMesh(double radius, double height, int corners, int layers)
+{
+  Mesh mesh;
+  for (int level = 0; level <= layers; ++level)
+  {
+    for (int c = 0; c < corners; ++c)
+    {
+      const double angle = 2 * pi * c / corners;
+      mesh.points.push_back(
+        { radius * std::cos(angle), radius * std::sin(angle), height * level / layers });
+    }
+  }
+  for (int level = 0; level < layers; ++level)
+  {
+    for (int c = 1; c + 1 < corners; ++c)
+    {
+      const std::array<Index, 3> low{ level * corners, level * corners + c,
+        level * corners + c + 1 };
+      const auto& [a, b, d] = low;
+      mesh.tetrahedra.push_back({ a, b, d, d + corners });
+      mesh.tetrahedra.push_back({ a, b, d + corners, b + corners });
+      mesh.tetrahedra.push_back({ a, b + corners, d + corners, a + corners });
+    }
+  }
+  mesh.ids.resize(mesh.points.size());
+  std::iota(mesh.ids.begin(), mesh.ids.end(), 0);
+  return mesh;
+}
+
 Mesh cubesAtAnEdgeMesh(int n)
 {
   return twoCubes(n, { 1, 1, 0 });

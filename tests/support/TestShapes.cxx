@@ -24,6 +24,7 @@
 #include <gp_Ax2.hxx>
 #include <gp_Ax3.hxx>
 #include <gp_Circ.hxx>
+#include <gp_Cylinder.hxx>
 #include <gp_Pln.hxx>
 #include <gp_Trsf.hxx>
 
@@ -56,6 +57,18 @@ TopoDS_Shape cylinder(double radius, double height)
 TopoDS_Shape pipe(double innerRadius, double outerRadius, double height)
 {
   return BRepAlgoAPI_Cut(cylinder(outerRadius, height), cylinder(innerRadius, height)).Shape();
+}
+
+TopoDS_Shape roundedCylinder(double radius, double height)
+{
+  return BRepAlgoAPI_Fuse(
+    cylinder(radius, height), BRepPrimAPI_MakeSphere(gp_Pnt(0, 0, height), radius).Shape())
+    .Shape();
+}
+
+TopoDS_Shape halfPipe(double radius, double height)
+{
+  return BRepBuilderAPI_MakeFace(gp_Cylinder(gp_Ax3(), radius), 0, M_PI, 0, height).Shape();
 }
 
 TopoDS_Shape partWithCavity()

@@ -202,6 +202,32 @@ TEST_F(ThinSheet, keepsMidpointsOnTheirCrease)
   EXPECT_NEAR(distance(where.point, at(1.01, 70, 1)), 0, 1e-9);
 }
 
+/// Of a diameter all of the bow over it is as near to its middle as its ends are.
+TEST(HalfPipe, hasTheMiddleOfADiameterAtTheTopOfTheBow)
+{
+  const auto model = cadtest::modelOf(cadtest::halfPipe(1, 2));
+  const BoundaryProjector projector(*model, BoundaryKind::Triangles);
+  for (const double z : { 0.0, 0.7, 2.0 })
+  {
+    const std::array<Point3, 2> points{ { { 1, 0, z }, { -1, 0, z } } };
+    std::array<EntityId, 2> entities;
+    for (int k = 0; k < 2; ++k)
+    {
+      entities[k] = projector.nearest(points[k], unlimited).entity;
+    }
+    const std::int32_t rim = projector.nearest({ 0, 1, z }, unlimited).entity.index;
+    const EdgeClass edgeClass =
+      z == 0.7 ? EdgeClass{ EdgeClass::Smooth, -1 } : EdgeClass{ EdgeClass::OnEdge, rim };
+    const ClosestPoint where = projector.projectMidpoint({ edgeClass, points, entities });
+    EXPECT_EQ(where.entity.dimension, z == 0.7 ? 2 : 1);
+    EXPECT_NEAR(distance(where.point, { 0, 1, z }), 0, 1e-9);
+    EXPECT_NEAR(where.distance, 1, 1e-9);
+    const ClosestPoint back = projector.projectMidpoint(
+      { edgeClass, { points[1], points[0] }, { entities[1], entities[0] } });
+    EXPECT_EQ(back.point, where.point);
+  }
+}
+
 /// From the inner rim of a ring to its outer one, through the hole.
 TEST(Ring, keepsTheMiddleOfAChordThatCrossesTheHole)
 {
