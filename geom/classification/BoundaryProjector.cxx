@@ -14,6 +14,8 @@ namespace
 {
 
 constexpr double leastPartInside = 1.0 / 8;
+/// A place on a face is taken instead of one on its border that is so many times nearer.
+constexpr double asNear = 1.25;
 /// Of a mesh edge's length: a place so near to one of its ends is not that of its middle.
 constexpr double atEnd = 0.1;
 
@@ -377,11 +379,14 @@ ClosestPoint BoundaryProjector::betweenOnFaces(const BoundaryEdge& edge) const
   const Point3& a = std::min(edge.points[0], edge.points[1]);
   const Point3& b = std::max(edge.points[0], edge.points[1]);
   const Point3 middle = 0.5 * (a + b);
+  const auto faces = commonEntities(model_.nurbs(), edge.entities[0], edge.entities[1], 2);
   double least = std::numeric_limits<double>::infinity();
   ClosestPoint best;
   for (const Vector3& direction : directionsAcross(b - a))
   {
-    ClosestPoint where = projectSmoothly(edge.entities, middle + 0.5 * distance(a, b) * direction);
+    const Point3 beside = middle + 0.5 * distance(a, b) * direction;
+    ClosestPoint where =
+      faces.empty() ? nearest(beside, 2 * distance(a, b)) : nearestOnShared(edge.entities, beside);
     where.distance = distance(where.point, middle);
     const double off =
       where.distance + std::abs(distance(where.point, a) - distance(where.point, b));
@@ -417,17 +422,16 @@ ClosestPoint BoundaryProjector::offCrease(const BoundaryEdge& edge, const Closes
   {
     return border;
   }
-  if (!model_.nurbs().edges[border.entity.index].sharp)
+  const bool isSharp = model_.nurbs().edges[border.entity.index].sharp;
+  if (!isSharp && where.entity.dimension == 2)
   {
     // Beyond a smooth edge the surface goes on.
     const auto beside = entitiesAround(model_.nurbs(), border.entity, 2);
-    const bool isBeside = where.entity.dimension == 2 &&
-                          std::binary_search(beside.begin(), beside.end(), where.entity.index);
+    const bool isBeside = std::binary_search(beside.begin(), beside.end(), where.entity.index);
     return isBeside ? where : border;
   }
   // As far inside as the middle is outside; where the face is narrower than that, less.
-  double part = 1;
-  while (part >= leastPartInside)
+  for (double part = 1; isSharp && part >= leastPartInside; part *= 0.5)
   {
     ClosestPoint inside =
       nearestOnShared(edge.entities, border.point + part * (border.point - middle));
@@ -436,9 +440,10 @@ ClosestPoint BoundaryProjector::offCrease(const BoundaryEdge& edge, const Closes
       inside.distance = distance(middle, inside.point);
       return inside;
     }
-    part *= 0.5;
   }
-  return border;
+  // The face leaves its border across the chord, as a dome its rim.
+  const ClosestPoint between = betweenOnFaces(edge);
+  return between.entity && between.distance <= asNear * border.distance ? between : border;
 }
 
 ClosestPoint BoundaryProjector::project(

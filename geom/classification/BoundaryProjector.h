@@ -100,8 +100,9 @@ public:
   /// A place for the midpoint of an edge that is projected to `where`, in the faces that both ends
   /// share: not on another one that is nearer to a chord which leaves its face, and not on a crease
   /// that the edge is not on, where it would meet the vertices of the crease's own mesh edges. As
-  /// far inside the crease as the midpoint is outside, or less where the face is narrower. Work:
-  /// none where `where` is on such a face; else a projection a face, and up to four more.
+  /// far inside the crease as the midpoint is outside, or less where the face is narrower; where it
+  /// leaves its border across the chord, as a dome its rim, at a point that is about as near. Work:
+  /// none where `where` is on such a face; else a projection a face, and up to twelve more.
   ClosestPoint offCrease(const BoundaryEdge& edge, const ClosestPoint& where) const;
 
   /// CAD vertices that want a mesh vertex of their own: see findCorners.
