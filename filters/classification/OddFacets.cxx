@@ -4,44 +4,98 @@
 #include <cadrefine/classification/CADAdjacency.h>
 
 #include <algorithm>
+#include <tuple>
 
 namespace cadrefine
 {
 namespace
 {
 
-/// What surrounds a patch of odd facets that meet at edges.
-struct Surroundings
+/// Whether a face has one rim alone, as a dome, unlike a pipe: all edges that it shares with others
+/// are joined.
+bool endsThere(const NurbsModel& model, std::int32_t face)
+{
+  std::vector<std::int32_t> left;
+  for (const std::int32_t edge : model.faces[face].edges)
+  {
+    if (!isSeam(model.edges[edge]))
+    {
+      left.push_back(edge);
+    }
+  }
+  std::vector<std::int32_t> vertices; // of what is joined to the first edge
+  const auto isJoined = [&](std::int32_t edge)
+  {
+    const NurbsEdge& curve = model.edges[edge];
+    return std::count(vertices.begin(), vertices.end(), curve.firstVertex) > 0 ||
+           std::count(vertices.begin(), vertices.end(), curve.lastVertex) > 0;
+  };
+  for (auto next = left.begin(); next != left.end();
+       next = std::find_if(left.begin(), left.end(), isJoined))
+  {
+    vertices.push_back(model.edges[*next].firstVertex);
+    vertices.push_back(model.edges[*next].lastVertex);
+    left.erase(next);
+  }
+  return left.empty();
+}
+
+/// What all tell: none yet, the same, or -1, different ones.
+struct Common
 {
   static constexpr std::int32_t none = -2;
 
-  unsigned char isSeveral = 0;  ///< It is a patch of several facets.
+  std::int32_t value = none;
+
+  void add(Common other)
+  {
+    value = value == none || value == other.value ? other.value : other.value == none ? value : -1;
+  }
+};
+
+/// What surrounds a patch of odd facets that meet at edges.
+struct Surroundings
+{
+  unsigned char isWide = 0;     ///< It is a patch of several facets, or a quadrilateral.
   unsigned char isOpen = 0;     ///< A facet off the CAD is beside it, or nothing.
   unsigned char isAtBorder = 0; ///< A CAD edge that bounds one face alone is beside it.
-  /// A CAD edge between two faces is beside it, or a facet from which it turns by less than 60
-  /// degrees.
-  unsigned char isTied = 0;
-  std::int32_t face = none; ///< That of the patch, as they tell; -1: they tell different ones.
+  unsigned char isTied = 0;     ///< A facet from which it turns by less than 60 degrees is.
+  unsigned char isAmid = 0;     ///< A facet without a CAD edge between is.
+  unsigned char sides =
+    0;         ///< Of CAD edges between two faces: 1, 2: facets on the first, the second.
+  Common edge; ///< These edges.
+  Common face; ///< That of the patch.
 
-  bool isOnCAD() const { return !isOpen && (!isSeveral || (isTied && !isAtBorder)); }
-
-  void add(std::int32_t other)
+  /// Where a mesh ends at the rim of a CAD face which it leaves out, facets of other faces alone
+  /// are round it, and the face goes on to another rim.
+  bool isOnCAD(const NurbsModel& model) const
   {
-    face = face == none || face == other ? other : other == none ? face : -1;
+    const bool isEnd = face.value >= 0 && endsThere(model, face.value);
+    const bool isBetween = edge.value >= 0 && sides == 3;
+    const bool goesOn = sides > 0 && (isAmid || isEnd || isBetween);
+    return !isOpen && (!isWide || (!isAtBorder && (isTied || goesOn)));
   }
+
   void add(const Surroundings& other)
   {
-    isSeveral = isSeveral || other.isSeveral;
-    isOpen = isOpen || other.isOpen;
-    isAtBorder = isAtBorder || other.isAtBorder;
-    isTied = isTied || other.isTied;
-    add(other.face);
+    isWide |= other.isWide;
+    isOpen |= other.isOpen;
+    isAtBorder |= other.isAtBorder;
+    isTied |= other.isTied;
+    isAmid |= other.isAmid;
+    sides |= other.sides;
+    edge.add(other.edge);
+    face.add(other.face);
   }
 
   friend bool operator==(const Surroundings& a, const Surroundings& b)
   {
-    return a.isSeveral == b.isSeveral && a.isOpen == b.isOpen && a.isAtBorder == b.isAtBorder &&
-           a.isTied == b.isTied && a.face == b.face;
+    const auto all = [](const Surroundings& s)
+    {
+      return std::tuple(
+        s.isWide, s.isOpen, s.isAtBorder, s.isTied, s.isAmid, s.sides, s.edge.value, s.face.value);
+    };
+    return all(a) == all(b);
   }
 };
 
@@ -83,13 +137,18 @@ Surroundings seenFrom(const FacetRecord& facet, const FacetRecord& other, const 
   if (between == edgesOfEnds.end())
   {
     seen.isTied = fitsEitherWay(other.normal, facet.normal);
-    seen.face = other.face;
+    seen.isAmid = 1;
+    seen.face.value = other.face;
     return seen;
   }
   const auto& faces = model.edges[*between].faces;
-  seen.isTied = 1;
   seen.isAtBorder = faces.size() == 1;
-  seen.face = faces.size() == 2 ? faces[0] + faces[1] - other.face : -1;
+  if (faces.size() == 2)
+  {
+    seen.sides = other.face == faces[0] ? 1 : 2;
+    seen.edge.value = *between;
+    seen.face.value = faces[0] + faces[1] - other.face;
+  }
   return seen;
 }
 
@@ -124,8 +183,8 @@ std::vector<Surroundings> findSurroundings(RankExchange& exchange,
           patch.add(seenFrom(records[facet], other, model, onBoth));
         }
       }
-      patch.isSeveral = patch.isSeveral || count > 1;
-      patch.isOpen = patch.isOpen || ofEdges[edge].size() == 1;
+      patch.isWide |= count > 1 || boundary.facets[facet].corners() == 4;
+      patch.isOpen |= ofEdges[edge].size() == 1;
     });
   bool changes = true;
   while (exchange.any(changes))
@@ -172,13 +231,14 @@ bool joinOddFacets(RankExchange& exchange, const Mesh& mesh, const DistributedBo
     const auto isCommon = [&](std::int32_t face)
     { return std::binary_search(faces.begin(), faces.end(), face); };
     const Surroundings& patch = ofPatches[i];
-    std::int32_t face = patch.face;
+    std::int32_t face = patch.face.value;
     if (!isCommon(face) && !neighbours.empty())
     {
       face = faceOfNeighbours(record, neighbours);
     }
     face = isCommon(face) ? face : -1;
-    record.onCAD = patch.isOnCAD() || (record.ear >= 0 && face >= 0);
+    const bool isEar = record.ear >= 0 && (patch.isTied || !patch.isWide);
+    record.onCAD = patch.isOnCAD(model.nurbs()) || (isEar && face >= 0);
     record.face = record.onCAD ? face : -1;
   }
   return true;

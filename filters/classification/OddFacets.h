@@ -12,11 +12,13 @@ namespace cadrefine
 
 /// Finds the odd facets (FacetRecord::odd) of a coarse mesh that are on the CAD, and their faces:
 /// they come in patches, joined at their edges, and
-///   1. a patch that only facets on the CAD surround is on it, unless a CAD edge that bounds one
-///      face alone is between them, or it is of several facets and turned by more than 60 degrees
-///      from all that surround it, on whose faces it would be: so ends a mesh in the midst of a
-///      pipe of the CAD;
-///   2. an ear (BoundaryProjector::earOf) beside a facet on the CAD is on the CAD.
+///   1. a triangle that only facets on the CAD surround is on it; so is a patch, but where a mesh
+///      ends in the midst of a pipe of the CAD, turned by more than 60 degrees from all that
+///      surround it, which are on the faces it would be on; or at a rim of a pipe, as it is beside
+///      a CAD edge that bounds one face alone, or beyond it are faces that go on to another rim;
+///   2. an ear (BoundaryProjector::earOf) beside a facet on the CAD is on the CAD, in a patch if
+///   that
+///      turns by less than 60 degrees from one.
 /// The face of a patch is what lies beyond the CAD edges between it and its surroundings, or, where
 /// there is no such edge, theirs; of an ear or a patch for which they differ the face of the
 /// neighbour from which it turns least, of an ear, or of all neighbours; if all corners lie on it.

@@ -11,6 +11,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace
 {
 
@@ -59,19 +61,40 @@ TEST(CoarseParts, followARoundEndFromAFlatOne)
   }
 }
 
-/// What ends in the midst of a pipe of the CAD has corners on that alone, too.
-TEST(CoarseParts, keepEndsInTheMidstOfAFaceFlat)
+/// A regular prism with corners on a cylinder of radius 1, refined once on this CAD: the ends,
+/// whose corners are on the CAD too, stay in their planes.
+void expectFlatEnds(const TopoDS_Shape& cad, Mesh prism, double z, int corners)
 {
   const TemporaryFolder folder;
-  const FilterRun filters(writeInto(folder, cylinder(1, 8), ".brep"));
-  Mesh prism = prismMesh(1, 4, 6, 3);
+  const FilterRun filters(writeInto(folder, cad, ".brep"));
   for (Point3& point : prism.points)
   {
-    point[2] += 2;
+    point[2] += z;
   }
   const auto mesh = filters.refineUniformly(filters.project(toGrid(prism)));
   expectAllOnCAD(mesh, 0.1);
-  EXPECT_NEAR(measureOf(toMesh(mesh)), 12, 1e-12); // over a regular polygon of twelve corners
+  const double area = corners * std::sin(3.14159265358979323846 / corners); // of twice the corners
+  EXPECT_NEAR(measureOf(toMesh(mesh)), 4 * area, 1e-12);
+}
+
+TEST(CoarseParts, keepEndsInTheMidstOfAFaceFlat)
+{
+  expectFlatEnds(cylinder(1, 8), prismMesh(1, 4, 6, 3), 2, 6);
+}
+
+/// Where the CAD goes on with another face.
+TEST(CoarseParts, keepEndsBetweenTwoFacesFlat)
+{
+  expectFlatEnds(longCylinder(1, 4), prismMesh(1, 4, 6, 3), 0, 6);
+}
+
+/// Of one facet.
+TEST(CoarseParts, keepQuadrilateralEndsFlat)
+{
+  Mesh prism = prismMesh(1, 4, 4, 1);
+  prism.tetrahedra.clear();
+  prism.hexahedra = { { 0, 1, 2, 3, 4, 5, 6, 7 } };
+  expectFlatEnds(cylinder(1, 8), prism, 2, 4);
 }
 
 } // namespace

@@ -66,6 +66,12 @@ TopoDS_Shape roundedCylinder(double radius, double height)
     .Shape();
 }
 
+TopoDS_Shape longCylinder(double radius, double height)
+{
+  const TopoDS_Shape half = cylinder(radius, height);
+  return BRepAlgoAPI_Fuse(half, moved(half, { 0, 0, height })).Shape();
+}
+
 TopoDS_Shape halfPipe(double radius, double height)
 {
   return BRepBuilderAPI_MakeFace(gp_Cylinder(gp_Ax3(), radius), 0, M_PI, 0, height).Shape();

@@ -27,6 +27,8 @@ TopoDS_Shape pipe(double innerRadius, double outerRadius, double height);
 /// The part of data/solid_mesh.py: a box with a hole through it and a round cavity.
 /// A cylinder from z = 0 that a hemisphere ends on top.
 TopoDS_Shape roundedCylinder(double radius, double height);
+/// A cylinder of twice this height, its side of two faces.
+TopoDS_Shape longCylinder(double radius, double height);
 /// The lateral face of half a cylinder, where y is positive.
 TopoDS_Shape halfPipe(double radius, double height);
 TopoDS_Shape partWithCavity();
