@@ -27,8 +27,9 @@ bool endsThere(const NurbsModel& model, std::int32_t face)
   const auto isJoined = [&](std::int32_t edge)
   {
     const NurbsEdge& curve = model.edges[edge];
-    return std::count(vertices.begin(), vertices.end(), curve.firstVertex) > 0 ||
-           std::count(vertices.begin(), vertices.end(), curve.lastVertex) > 0;
+    const auto isKnown = [&](std::int32_t vertex)
+    { return vertex >= 0 && std::count(vertices.begin(), vertices.end(), vertex) > 0; };
+    return isKnown(curve.firstVertex) || isKnown(curve.lastVertex);
   };
   for (auto next = left.begin(); next != left.end();
        next = std::find_if(left.begin(), left.end(), isJoined))
@@ -61,9 +62,9 @@ struct Surroundings
   unsigned char isAtBorder = 0; ///< A CAD edge that bounds one face alone is beside it.
   unsigned char isTied = 0;     ///< A facet from which it turns by less than 60 degrees is.
   unsigned char isAmid = 0;     ///< A facet without a CAD edge between is.
-  unsigned char sides =
-    0;         ///< Of CAD edges between two faces: 1, 2: facets on the first, the second.
-  Common edge; ///< These edges.
+  /// Of CAD edges between two faces, `edge`: 1, 2: facets on the first, the second are.
+  unsigned char sides = 0;
+  Common edge;
   Common face; ///< That of the patch.
 
   /// Where a mesh ends at the rim of a CAD face which it leaves out, facets of other faces alone
@@ -197,9 +198,14 @@ std::vector<Surroundings> findSurroundings(RankExchange& exchange,
         a.add(b);
         return a;
       });
-    const auto before = ofPatches;
-    forEdges([&](Index edge, Index, Surroundings& patch) { patch.add(atEdges[edge]); });
-    changes = ofPatches != before;
+    changes = false;
+    forEdges(
+      [&](Index edge, Index, Surroundings& patch)
+      {
+        const Surroundings before = patch;
+        patch.add(atEdges[edge]);
+        changes = changes || !(patch == before);
+      });
   }
   return ofPatches;
 }
