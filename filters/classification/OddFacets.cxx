@@ -67,14 +67,14 @@ struct Surroundings
   Common edge;
   Common face; ///< That of the patch.
 
-  /// Where a mesh ends at the rim of a CAD face which it leaves out, facets of other faces alone
-  /// are round it, and the face goes on to another rim.
+  /// Not where a mesh ends at the rim of a CAD face which it leaves out: there facets of other
+  /// faces alone are round the patch, and the face goes on to another rim.
   bool isOnCAD(const NurbsModel& model) const
   {
     const bool isEnd = face.value >= 0 && endsThere(model, face.value);
     const bool isBetween = edge.value >= 0 && sides == 3;
-    const bool goesOn = sides > 0 && (isAmid || isEnd || isBetween);
-    return !isOpen && (!isWide || (!isAtBorder && (isTied || goesOn)));
+    const bool isBeyond = sides > 0 && (isAmid || isEnd || isBetween);
+    return !isOpen && (!isWide || (!isAtBorder && (isTied || isBeyond)));
   }
 
   void add(const Surroundings& other)

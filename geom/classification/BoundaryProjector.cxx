@@ -169,14 +169,13 @@ std::int32_t BoundaryProjector::commonCrease(const std::array<Point3, 2>& points
     return onCAD.size() == 2 && onCAD[0].face >= 0 && onCAD[0].face == onCAD[1].face &&
            (onCAD[0].ear == edge || onCAD[1].ear == edge);
   };
+  const bool areTwoFaces =
+    onCAD.size() == 2 && onCAD[0].face >= 0 && onCAD[1].face >= 0 && onCAD[0].face != onCAD[1].face;
+  const auto between = areTwoFaces ? edgesBetween(model_.nurbs(), onCAD[0].face, onCAD[1].face)
+                                   : std::vector<std::int32_t>{};
   // However far that bows.
   const auto isBetween = [&](std::int32_t edge)
-  {
-    const auto& faces = model_.nurbs().edges[edge].faces;
-    return onCAD.size() == 2 && onCAD[0].face != onCAD[1].face &&
-           std::binary_search(faces.begin(), faces.end(), onCAD[0].face) &&
-           std::binary_search(faces.begin(), faces.end(), onCAD[1].face);
-  };
+  { return std::binary_search(between.begin(), between.end(), edge); };
   const Point3 middle = 0.5 * (points[0] + points[1]);
   const double limit = ClassificationTolerances::creaseDistance * distance(points[0], points[1]);
   std::int32_t best = -1;

@@ -22,7 +22,7 @@ struct FacetRecord
   unsigned char free = 0;  ///< It is not, because the user's region leaves it out.
   std::int32_t face = -1;  ///< CAD face that a triangle on the CAD stands for; -1: not known.
   std::int32_t ear = -1;   ///< CAD edge that all corners of a triangle lie on; -1: none.
-  unsigned char odd = 0; ///< All corners of a triangle lie on the CAD, but its normal fits no face.
+  unsigned char odd = 0;   ///< All corners of a facet lie on the CAD, but its normal fits no face.
 };
 
 /// The facets on the CAD beside an edge, or none where a facet beside it was left out by the user.

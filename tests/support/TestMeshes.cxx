@@ -413,16 +413,15 @@ Mesh prismMesh(double radius, double height, int corners, int layers)
   {
     for (int c = 1; c + 1 < corners; ++c)
     {
-      const std::array<Index, 3> low{ level * corners, level * corners + c,
-        level * corners + c + 1 };
-      const auto& [a, b, d] = low;
+      const Index a = level * corners;
+      const Index b = a + c;
+      const Index d = b + 1;
       mesh.tetrahedra.push_back({ a, b, d, d + corners });
       mesh.tetrahedra.push_back({ a, b, d + corners, b + corners });
       mesh.tetrahedra.push_back({ a, b + corners, d + corners, a + corners });
     }
   }
-  mesh.ids.resize(mesh.points.size());
-  std::iota(mesh.ids.begin(), mesh.ids.end(), 0);
+  mesh.ids = consecutiveIds(mesh.points.size());
   return mesh;
 }
 

@@ -35,10 +35,10 @@ cadrefine::Mesh crowdedBallMesh(double radius);
 cadrefine::Mesh sphereMesh(double radius, double offset);
 /// Solid torus round the z axis: `around` sections of `corners` corners and a centre each.
 cadrefine::Mesh torusMesh(double majorRadius, double minorRadius, int around, int corners);
-/// Triangles between a polygon with `corners` corners and its centre, in the plane z = 0.
 /// A prism over a regular polygon with corners on a circle round the z axis, its caps without inner
 /// vertices; in so many layers.
 cadrefine::Mesh prismMesh(double radius, double height, int corners, int layers);
+/// Triangles between a polygon with `corners` corners and its centre, in the plane z = 0.
 cadrefine::Mesh discMesh(double radius, double offset, int corners);
 /// That disc, its first triangles, in a ring of three times its size; the segments between the two
 /// are listed.

@@ -24,13 +24,13 @@ TopoDS_Shape box(double x, double y, double z);
 TopoDS_Shape cylinder(double radius, double height);
 /// What lies between two cylinders round the z axis, from z = 0 to `height`.
 TopoDS_Shape pipe(double innerRadius, double outerRadius, double height);
-/// The part of data/solid_mesh.py: a box with a hole through it and a round cavity.
 /// A cylinder from z = 0 that a hemisphere ends on top.
 TopoDS_Shape roundedCylinder(double radius, double height);
 /// A cylinder of twice this height, its side of two faces.
 TopoDS_Shape longCylinder(double radius, double height);
 /// The lateral face of half a cylinder, where y is positive.
 TopoDS_Shape halfPipe(double radius, double height);
+/// The part of data/solid_mesh.py: a box with a hole through it and a round cavity.
 TopoDS_Shape partWithCavity();
 /// Circle in the plane z = 0 round the origin: an edge without a face.
 TopoDS_Shape circle(double radius);
