@@ -14,7 +14,7 @@ namespace
 
 bool operator==(const EdgeClass& a, const EdgeClass& b)
 {
-  return std::tie(a.kind, a.edge) == std::tie(b.kind, b.edge);
+  return std::tie(a.kind, a.entity) == std::tie(b.kind, b.entity);
 }
 
 bool operator==(const ClassifiedFacet& a, const ClassifiedFacet& b)

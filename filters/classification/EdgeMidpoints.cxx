@@ -20,7 +20,7 @@ namespace
 /// the maximum: a rank without a facet at the edge has 0.
 std::int64_t encode(const EdgeClass& edgeClass)
 {
-  return 1 + edgeClass.kind + 4 * static_cast<std::int64_t>(edgeClass.edge + 1);
+  return 1 + edgeClass.kind + 4 * static_cast<std::int64_t>(edgeClass.entity + 1);
 }
 
 BoundaryEdge edgeOf(const EdgeClass& edgeClass, const std::array<Index, 2>& ends, const Mesh& mesh,

@@ -92,8 +92,8 @@ std::vector<Meeting> findMeetings(
 bool isSmooth(const EdgeClass& edgeClass, const CADModel& model)
 {
   return edgeClass.kind == EdgeClass::Smooth ||
-         (edgeClass.kind == EdgeClass::OnEdge && edgeClass.edge >= 0 &&
-           !model.nurbs().edges[edgeClass.edge].sharp);
+         (edgeClass.kind == EdgeClass::OnEdge && edgeClass.entity >= 0 &&
+           !model.nurbs().edges[edgeClass.entity].sharp);
 }
 
 std::vector<double> neighbourAngles(RankExchange& exchange, const DistributedMesh& mesh,

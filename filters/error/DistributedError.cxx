@@ -105,11 +105,8 @@ ClassifiedSurface surfaceOf(RankExchange& exchange, const Mesh& mesh,
     SurfaceFacet& facet = surface.facets.emplace_back();
     std::transform(of.begin(), of.end(), facet.corners.begin(), numbered);
     facet.edges = boundary.facetEdges[f];
-    if (of.corners() == 4)
-    {
-      facet.face = classified.classes.facets[f].face;
-      facet.quad = quads++;
-    }
+    facet.face = classified.classes.facets[f].face;
+    facet.quad = of.corners() == 4 ? quads++ : -1;
   }
   const auto findPlace = [&](std::size_t p)
   {

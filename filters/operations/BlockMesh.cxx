@@ -205,7 +205,7 @@ Index BlockMesh::lineOf(const EdgeClass& edgeClass, const std::array<Index, 2>& 
   {
     return -1;
   }
-  return edgeClass.edge < 0 ? lineOf(ends) : boundary_.projector.lines()[edgeClass.edge];
+  return edgeClass.entity < 0 ? lineOf(ends) : boundary_.projector.lines()[edgeClass.entity];
 }
 
 /// The line of CAD edges that both ends are on; -1 where there is none, or more than one.

@@ -40,6 +40,11 @@ std::array<Vector3, 8> directionsAcross(const Vector3& vector)
     difference };
 }
 
+bool isOnFace(const EdgeClass& edgeClass)
+{
+  return edgeClass.kind == EdgeClass::Smooth && edgeClass.entity >= 0;
+}
+
 /// That of the facet, but for quadrilaterals, which need not be flat.
 Vector3 normalAtCorner(const ClassifiedFacet& facet, int k, const Vector3& ofFacet)
 {
@@ -230,9 +235,12 @@ EdgeClass BoundaryProjector::classify(const std::array<Point3, 2>& points,
     return {};
   }
   const bool endsOnEdges = entities[0].dimension <= 1 && entities[1].dimension <= 1;
+  const bool hasOneFace = std::all_of(onCAD.begin(), onCAD.end(),
+    [&](const FacetRecord& facet) { return facet.face == onCAD[0].face; });
+  const EdgeClass onFace{ EdgeClass::Smooth, hasOneFace ? onCAD[0].face : -1 };
   if (kind_ == BoundaryKind::Segments || !endsOnEdges)
   {
-    return { EdgeClass::Smooth, -1 };
+    return onFace;
   }
   const auto pairs = meshEdges(points, onCAD);
   const bool angle = std::any_of(pairs.begin(), pairs.end(), hasAngle);
@@ -243,7 +251,7 @@ EdgeClass BoundaryProjector::classify(const std::array<Point3, 2>& points,
     return { EdgeClass::OnEdge, crease };
   }
   const std::int32_t smooth = commonSmoothEdge(points, entities, onCAD);
-  return { smooth >= 0 ? EdgeClass::OnEdge : EdgeClass::Smooth, smooth };
+  return smooth >= 0 ? EdgeClass{ EdgeClass::OnEdge, smooth } : onFace;
 }
 
 ClosestPoint BoundaryProjector::projectOnEdge(std::int32_t edge, const Point3& point) const
@@ -259,54 +267,48 @@ ClosestPoint BoundaryProjector::projectOnEdge(std::int32_t edge, const Point3& p
   return edges_.nearestCrease(point, std::numeric_limits<double>::infinity());
 }
 
+std::vector<std::int32_t> BoundaryProjector::entitiesOf(
+  const EdgeClass& edgeClass, const std::array<EntityId, 2>& entities) const
+{
+  const std::int8_t dimension = kind_ == BoundaryKind::Triangles ? 2 : 1;
+  return isOnFace(edgeClass) ? std::vector<std::int32_t>{ edgeClass.entity }
+                             : commonEntities(model_.nurbs(), entities[0], entities[1], dimension);
+}
+
 /// On an entity that both ends share: it cannot jump to the other side of something thin.
 ClosestPoint BoundaryProjector::nearestOnShared(
-  const std::array<EntityId, 2>& entities, const Point3& point) const
+  const EdgeClass& edgeClass, const std::array<EntityId, 2>& entities, const Point3& point) const
 {
   const std::int8_t dimension = kind_ == BoundaryKind::Triangles ? 2 : 1;
   ClosestPoint best;
-  const auto tryOn = [&](EntityId entity)
+  for (const std::int32_t entity : entitiesOf(edgeClass, entities))
   {
-    const ClosestPoint where = nearestOn(entity, point);
+    const ClosestPoint where = nearestOn({ dimension, entity }, point);
     if (where.entity.dimension == dimension && isBetter(where, best))
     {
       best = where;
-    }
-  };
-  if (entities[0] == entities[1] && entities[0].dimension == dimension)
-  {
-    tryOn(entities[0]); // as most are
-  }
-  else
-  {
-    for (const std::int32_t entity :
-      commonEntities(model_.nurbs(), entities[0], entities[1], dimension))
-    {
-      tryOn({ dimension, entity });
     }
   }
   return best;
 }
 
-ClosestPoint BoundaryProjector::projectSmoothly(
-  const std::array<EntityId, 2>& entities, const Point3& point) const
-{
-  const ClosestPoint shared = nearestOnShared(entities, point);
-  return shared.entity ? shared : nearest(point, std::numeric_limits<double>::infinity());
-}
-
 ClosestPoint BoundaryProjector::projectMidpoint(const BoundaryEdge& edge) const
 {
   const auto& [a, b] = edge.points;
-  const ClosestPoint where = project(edge.edgeClass, 0.5 * (a + b), edge.entities);
-  if (!where.entity ||
-      std::min(distance(where.point, a), distance(where.point, b)) > atEnd * distance(a, b))
+  const EdgeClass& edgeClass = edge.edgeClass;
+  const ClosestPoint where = project(edgeClass, 0.5 * (a + b), edge.entities);
+  const bool isAtEnd =
+    std::min(distance(where.point, a), distance(where.point, b)) <= atEnd * distance(a, b);
+  const bool isOff = isOnFace(edgeClass) && where.entity != EntityId{ 2, edgeClass.entity };
+  if (!where.entity || (!isAtEnd && !isOff))
   {
     return where;
   }
-  const ClosestPoint between =
-    edge.edgeClass.edge >= 0 ? betweenOnEdge(edge) : betweenOnFaces(edge);
-  return between.entity ? between : where;
+  const ClosestPoint between = edgeClass.kind == EdgeClass::OnEdge && edgeClass.entity >= 0
+                                 ? betweenOnEdge(edge)
+                                 : betweenOnFaces(edge);
+  return between.entity && (isAtEnd || between.distance <= asNear * where.distance) ? between
+                                                                                    : where;
 }
 
 /// Of the place of a point on a CAD edge its parameter; at an end of the edge that of the end, and
@@ -336,7 +338,7 @@ std::vector<double> BoundaryProjector::parametersOn(std::int32_t edge, const Poi
 ClosestPoint BoundaryProjector::betweenOnEdge(const BoundaryEdge& edge) const
 {
   const auto& [a, b] = edge.points;
-  const EntityId onEdge{ 1, edge.edgeClass.edge };
+  const EntityId onEdge{ 1, edge.edgeClass.entity };
   std::array<double, 2> range{ 0, std::numeric_limits<double>::infinity() };
   for (const double ofA : parametersOn(onEdge.index, a))
   {
@@ -378,14 +380,14 @@ ClosestPoint BoundaryProjector::betweenOnFaces(const BoundaryEdge& edge) const
   const Point3& a = std::min(edge.points[0], edge.points[1]);
   const Point3& b = std::max(edge.points[0], edge.points[1]);
   const Point3 middle = 0.5 * (a + b);
-  const auto faces = commonEntities(model_.nurbs(), edge.entities[0], edge.entities[1], 2);
+  const bool haveFace = !entitiesOf(edge.edgeClass, edge.entities).empty();
   double least = std::numeric_limits<double>::infinity();
   ClosestPoint best;
   for (const Vector3& direction : directionsAcross(b - a))
   {
     const Point3 beside = middle + 0.5 * distance(a, b) * direction;
-    ClosestPoint where =
-      faces.empty() ? nearest(beside, 2 * distance(a, b)) : nearestOnShared(edge.entities, beside);
+    ClosestPoint where = haveFace ? nearestOnShared(edge.edgeClass, edge.entities, beside)
+                                  : nearest(beside, 2 * distance(a, b));
     where.distance = distance(where.point, middle);
     const double off =
       where.distance + std::abs(distance(where.point, a) - distance(where.point, b));
@@ -404,7 +406,7 @@ ClosestPoint BoundaryProjector::offCrease(const BoundaryEdge& edge, const Closes
   {
     return where;
   }
-  const auto faces = commonEntities(model_.nurbs(), edge.entities[0], edge.entities[1], 2);
+  const auto faces = entitiesOf(edge.edgeClass, edge.entities);
   if (where.entity.dimension == 2 &&
       (faces.empty() || std::binary_search(faces.begin(), faces.end(), where.entity.index)))
   {
@@ -433,7 +435,7 @@ ClosestPoint BoundaryProjector::offCrease(const BoundaryEdge& edge, const Closes
   for (double part = 1; isSharp && part >= leastPartInside; part *= 0.5)
   {
     ClosestPoint inside =
-      nearestOnShared(edge.entities, border.point + part * (border.point - middle));
+      nearestOnShared(edge.edgeClass, edge.entities, border.point + part * (border.point - middle));
     if (inside.entity)
     {
       inside.distance = distance(middle, inside.point);
@@ -451,9 +453,12 @@ ClosestPoint BoundaryProjector::project(
   switch (edgeClass.kind)
   {
     case EdgeClass::OnEdge:
-      return projectOnEdge(edgeClass.edge, point);
+      return projectOnEdge(edgeClass.entity, point);
     case EdgeClass::Smooth:
-      return projectSmoothly(entities, point);
+    {
+      const ClosestPoint shared = nearestOnShared(edgeClass, entities, point);
+      return shared.entity ? shared : nearest(point, std::numeric_limits<double>::infinity());
+    }
     default:
       return {};
   }

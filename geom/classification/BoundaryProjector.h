@@ -37,15 +37,15 @@ struct EdgeClass
   enum Kind : std::int32_t
   {
     Straight = 0, ///< In the middle of the edge: the edge does not lie on the CAD.
-    Smooth = 1,   ///< On the faces (of a planar mesh: edges) that the ends lie on.
-    OnEdge = 2    ///< On CAD edge `edge`, or on the nearest crease where that is -1.
+    Smooth = 1,   ///< On CAD face `entity`, or on those (of a planar mesh: edges) of both ends.
+    OnEdge = 2    ///< On CAD edge `entity`, or on the nearest crease.
   };
   Kind kind = Straight;
-  std::int32_t edge = -1;
+  std::int32_t entity = -1; ///< -1: not known.
 };
 
 /// An edge whose midpoint is to be placed. The middle of a quadrilateral is that of an edge between
-/// the middles of two of its edges, with its CAD face for the entity of both ends.
+/// the middles of two of its edges.
 struct BoundaryEdge
 {
   EdgeClass edgeClass;
@@ -92,17 +92,20 @@ public:
 
   /// The point of the CAD for the midpoint of an edge; with no entity for Straight. The same for
   /// both directions of the edge. Where an end of the edge is nearest, as under a bow of the CAD
-  /// that is as high as it is wide, a point between the ends, as far from one as from the other.
+  /// that is as high as it is wide, a point between the ends, as far from one as from the other;
+  /// the same on the face of the edge where another one is nearest, but by less than a fifth, as to
+  /// a diameter under a dome.
   ClosestPoint projectMidpoint(const BoundaryEdge& edge) const;
   /// The same for another point that stands for the edge, such as one of a curved edge.
   ClosestPoint project(
     const EdgeClass& edgeClass, const Point3& point, const std::array<EntityId, 2>& entities) const;
-  /// A place for the midpoint of an edge that is projected to `where`, in the faces that both ends
-  /// share: not on another one that is nearer to a chord which leaves its face, and not on a crease
-  /// that the edge is not on, where it would meet the vertices of the crease's own mesh edges. As
-  /// far inside the crease as the midpoint is outside, or less where the face is narrower; where it
-  /// leaves its border across the chord, as a dome its rim, at a point that is about as near. Work:
-  /// none where `where` is on such a face; else a projection a face, and up to twelve more.
+  /// A place for the midpoint of an edge that is projected to `where`, in its face, or in those
+  /// that both ends share: not on another one that is nearer to a chord which leaves its face, and
+  /// not on a crease that the edge is not on, where it would meet the vertices of the crease's own
+  /// mesh edges. As far inside the crease as the midpoint is outside, or less where the face is
+  /// narrower; where it leaves its border across the chord, as a dome its rim, at a point that is
+  /// about as near. Work: none where `where` is on such a face; else a projection a face, and up to
+  /// twelve more.
   ClosestPoint offCrease(const BoundaryEdge& edge, const ClosestPoint& where) const;
 
   /// CAD vertices that want a mesh vertex of their own: see findCorners.
@@ -128,8 +131,11 @@ private:
   ClosestPoint betweenOnEdge(const BoundaryEdge& edge) const;
   ClosestPoint betweenOnFaces(const BoundaryEdge& edge) const;
   ClosestPoint projectOnEdge(std::int32_t edge, const Point3& point) const;
-  ClosestPoint nearestOnShared(const std::array<EntityId, 2>& entities, const Point3& point) const;
-  ClosestPoint projectSmoothly(const std::array<EntityId, 2>& entities, const Point3& point) const;
+  /// The face of a smooth edge, or else those (of a planar mesh: edges) that both ends share.
+  std::vector<std::int32_t> entitiesOf(
+    const EdgeClass& edgeClass, const std::array<EntityId, 2>& entities) const;
+  ClosestPoint nearestOnShared(
+    const EdgeClass& edgeClass, const std::array<EntityId, 2>& entities, const Point3& point) const;
 
   const CADModel& model_;
   BoundaryKind kind_;

@@ -59,13 +59,11 @@ double volumeBetween(const std::array<Sample, 4>& s)
          2;
 }
 
-const PartEdge innerEdge{ { EdgeClass::Smooth, -1 }, false };
-
 class CurvedFacetError
 {
 public:
   CurvedFacetError(const BoundaryProjector& projector, const CurvedErrorFacet& facet)
-    : projector_(projector), facet_(facet),
+    : projector_(projector), facet_(facet), innerEdge_{ { EdgeClass::Smooth, facet.face }, false },
       count_(projector.kind() == BoundaryKind::Segments ? 2 : facet.straight.corners.corners)
   {
     constexpr Point2 ofSquare[4] = { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } };
@@ -197,37 +195,26 @@ private:
   {
     if constexpr (Corners == 4)
     {
-      const Sample centre = middleOf(c);
+      const Sample centre = between(c[0], c[2], innerEdge_);
       for (int k = 0; k < 4; ++k)
       {
         const int previous = (k + 3) % 4;
         addPart<4>({ c[k], m[k], centre, m[previous] },
-          { edges[k], innerEdge, innerEdge, edges[previous] }, depth);
+          { edges[k], innerEdge_, innerEdge_, edges[previous] }, depth);
       }
     }
     else
     {
-      addPart<3>({ c[0], m[0], m[2] }, { edges[0], innerEdge, edges[2] }, depth);
-      addPart<3>({ m[0], c[1], m[1] }, { edges[0], edges[1], innerEdge }, depth);
-      addPart<3>({ m[2], m[1], c[2] }, { innerEdge, edges[1], edges[2] }, depth);
-      addPart<3>(m, { innerEdge, innerEdge, innerEdge }, depth);
+      addPart<3>({ c[0], m[0], m[2] }, { edges[0], innerEdge_, edges[2] }, depth);
+      addPart<3>({ m[0], c[1], m[1] }, { edges[0], edges[1], innerEdge_ }, depth);
+      addPart<3>({ m[2], m[1], c[2] }, { innerEdge_, edges[1], edges[2] }, depth);
+      addPart<3>(m, { innerEdge_, innerEdge_, innerEdge_ }, depth);
     }
-  }
-
-  /// Of a quadrilateral.
-  Sample middleOf(const std::array<Sample, 4>& c)
-  {
-    Sample a = c[0];
-    Sample b = c[2];
-    if (facet_.face >= 0)
-    {
-      a.entity = b.entity = { 2, facet_.face };
-    }
-    return between(a, b, innerEdge);
   }
 
   const BoundaryProjector& projector_;
   const CurvedErrorFacet& facet_;
+  PartEdge innerEdge_;
   int count_;                 ///< Of corners.
   CurvedTriangle triangle_{}; ///< Of a segment 0, 1 and 3.
   CurvedQuadrilateral quadrilateral_{};

@@ -15,7 +15,7 @@ struct CurvedErrorFacet
   std::array<Point3, 4> nodes;      ///< The mid node of each edge.
   std::array<EntityId, 4> entities; ///< Of the mid nodes.
   std::array<bool, 4> offCAD{}; ///< Mid nodes that are classified, but have not reached the CAD.
-  std::int32_t face = -1;       ///< Of a quadrilateral its CAD face, or -1.
+  std::int32_t face = -1;       ///< Its CAD face; -1: not known.
 };
 
 /// The area or volume between the curved facet and the CAD. The facet's parameters are halved (in

@@ -184,7 +184,7 @@ ClassifiedSurface subdivide(
       {
         const int previous = (k + 3) % 4;
         const Index m = firstMiddle + edges[k];
-        children.edges.push_back({ { m, centre }, { EdgeClass::Smooth, -1 } });
+        children.edges.push_back({ { m, centre }, { EdgeClass::Smooth, face } });
         children.facets.push_back({ { corners[k], m, centre, firstMiddle + edges[previous] },
           { halfAt(surface, edges[k], corners[k]), inner + k, inner + previous,
             halfAt(surface, edges[previous], corners[k]) },
@@ -197,14 +197,15 @@ ClassifiedSurface subdivide(
       const int previous = (k + 2) % 3;
       const Index m = firstMiddle + edges[k];
       const Index n = firstMiddle + edges[previous];
-      children.edges.push_back({ { m, n }, { EdgeClass::Smooth, -1 } });
-      children.facets.push_back(
-        { { corners[k], m, n }, { halfAt(surface, edges[k], corners[k]), inner + k,
-                                  halfAt(surface, edges[previous], corners[k]) } });
+      children.edges.push_back({ { m, n }, { EdgeClass::Smooth, face } });
+      children.facets.push_back({ { corners[k], m, n },
+        { halfAt(surface, edges[k], corners[k]), inner + k,
+          halfAt(surface, edges[previous], corners[k]) },
+        face });
     }
     children.facets.push_back(
       { { firstMiddle + edges[0], firstMiddle + edges[1], firstMiddle + edges[2] },
-        { inner + 1, inner + 2, inner } });
+        { inner + 1, inner + 2, inner }, face });
   }
   return children;
 }
@@ -308,10 +309,9 @@ std::vector<BoundaryEdge> ClassifiedSurface::allEdges() const
 BoundaryEdge middleOfQuad(
   const std::array<Point3, 4>& points, const std::array<EntityId, 4>& entities, std::int32_t face)
 {
-  const EntityId onFace{ 2, face };
-  return { { EdgeClass::Smooth, -1 },
+  return { { EdgeClass::Smooth, face },
     { 0.5 * (points[0] + points[1]), 0.5 * (points[2] + points[3]) },
-    { face >= 0 ? onFace : entities[0], face >= 0 ? onFace : entities[2] } };
+    { entities[0], entities[2] } };
 }
 
 double extrapolatedMeasure(const FacetError& error)

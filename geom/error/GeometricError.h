@@ -45,7 +45,7 @@ struct SurfaceFacet
 {
   std::array<Index, 4> corners{};
   std::array<Index, 4> edges{};
-  std::int32_t face = -1; ///< Of a quadrilateral its CAD face, or -1.
+  std::int32_t face = -1; ///< Its CAD face; -1: not known.
   Index quad = -1;        ///< Its number among the quadrilaterals; -1: it is none.
 };
 

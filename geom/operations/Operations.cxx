@@ -282,13 +282,13 @@ void collapse(const SimplexStore<Corners>& store, Index from, Index to, std::vec
 void joinClasses(const EditableMesh& mesh, Cavity& cavity)
 {
   const auto isOnAnother = [&](Index old, const EdgeClass& edgeClass)
-  { return mesh.segments()[old].edgeClass.edge != edgeClass.edge; };
+  { return mesh.segments()[old].edgeClass.entity != edgeClass.entity; };
   for (auto& segment : cavity.newSegments)
   {
     if (std::any_of(cavity.segments.begin(), cavity.segments.end(),
           [&](Index old) { return isOnAnother(old, segment.edgeClass); }))
     {
-      segment.edgeClass.edge = -1;
+      segment.edgeClass.entity = -1;
     }
   }
 }

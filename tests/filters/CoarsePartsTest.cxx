@@ -44,20 +44,26 @@ TEST(CoarseParts, reachTheCADUnderUniformRefinement)
   }
 }
 
+class RoundEnds : public testing::TestWithParam<int>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(Corners, RoundEnds, testing::Values(4, 5, 6, 8));
+
 /// The end of a cylinder is a hemisphere, that of its mesh flat, with vertices on the rim alone:
-/// none of its normals fits.
-TEST(CoarseParts, followARoundEndFromAFlatOne)
+/// none of its normals fits. Edges of an even number are as near to the cylinder as to the dome.
+TEST_P(RoundEnds, areFollowedFromFlatOnes)
 {
   const TemporaryFolder folder;
   const FilterRun filters(writeInto(folder, roundedCylinder(1, 4), ".brep"));
-  FilterRun::Data mesh = filters.project(toGrid(prismMesh(1, 4, 6, 3)));
+  FilterRun::Data mesh = filters.project(toGrid(prismMesh(1, 4, GetParam(), 3)));
   for (int level = 0; level < 3; ++level)
   {
-    mesh = filters.refineUniformly(mesh);
-    expectAllOnCAD(mesh, 0.1);
     const double lacking = (4 + 2.0 / 3) * 3.14159265358979323846 - measureOf(toMesh(mesh));
     EXPECT_LT(
-      std::abs(lacking), 1.05 * fieldValue(filters.measure(mesh, 3), "GlobalGeometricError"));
+      std::abs(lacking), 1.1 * fieldValue(filters.measure(mesh, 3), "GlobalGeometricError"));
+    mesh = filters.refineUniformly(mesh);
+    expectAllOnCAD(mesh, 0.1);
   }
 }
 

@@ -77,8 +77,8 @@ TEST_F(BoxProjector, putsMeshEdgesAlongSharpEdgesOntoThem)
   const std::array<Point3, 2> points{ { { 0.1, 0, 1 }, { 0.6, 0, 1 } } };
   const EdgeClass edgeClass = projector.classify(points, entitiesAt(points), facets);
   ASSERT_EQ(edgeClass.kind, EdgeClass::OnEdge);
-  EXPECT_EQ((EntityId{ 1, edgeClass.edge }), entitiesAt(points)[0]);
-  EXPECT_EQ(match.edge, edgeClass.edge);
+  EXPECT_EQ((EntityId{ 1, edgeClass.entity }), entitiesAt(points)[0]);
+  EXPECT_EQ(match.edge, edgeClass.entity);
   const ClosestPoint where = projector.projectMidpoint({ edgeClass, points, entitiesAt(points) });
   EXPECT_EQ(where.entity.dimension, 1);
   EXPECT_NEAR(distance(where.point, { 0.35, 0, 1 }), 0, 1e-12);
@@ -117,7 +117,7 @@ TEST_F(BoxProjector, takesEveryPairOfFacetsForACrease)
   for (int turn = 0; turn < 3; ++turn)
   {
     EXPECT_EQ(edges.findCrease(meshEdges(points, facets)).edge, edge);
-    EXPECT_EQ(projector.classify(points, entitiesAt(points), facets).edge, edge);
+    EXPECT_EQ(projector.classify(points, entitiesAt(points), facets).entity, edge);
     std::rotate(facets.begin(), facets.begin() + 1, facets.end());
   }
 }
@@ -132,7 +132,7 @@ TEST_F(BoxProjector, knowsACornersEdgesApart)
   const EdgeClass edgeClass = projector.classify(points, entities, facets);
   const ClosestPoint where = projector.projectMidpoint({ edgeClass, points, entities });
   EXPECT_EQ(edgeClass.kind, EdgeClass::OnEdge);
-  EXPECT_EQ(edgeClass.edge, where.entity.index);
+  EXPECT_EQ(edgeClass.entity, where.entity.index);
   EXPECT_NEAR(distance(where.point, { 0.5, 0, 1 }), 0, 1e-12);
 }
 
@@ -197,7 +197,7 @@ TEST_F(ThinSheet, keepsMidpointsOnTheirCrease)
     facetWithNormal({ 0, 0, 1 }) };
   const EdgeClass edgeClass = projector.classify(points, { rim, rim }, facets);
   ASSERT_EQ(edgeClass.kind, EdgeClass::OnEdge);
-  EXPECT_EQ(edgeClass.edge, rim.index);
+  EXPECT_EQ(edgeClass.entity, rim.index);
   const ClosestPoint where = projector.projectMidpoint({ edgeClass, points, { rim, rim } });
   EXPECT_NEAR(distance(where.point, at(1.01, 70, 1)), 0, 1e-9);
 }
