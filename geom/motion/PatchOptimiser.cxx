@@ -2,6 +2,7 @@
 
 #include <cadrefine/base/IndicesWhere.h>
 #include <cadrefine/base/MixedBits.h>
+#include <cadrefine/classification/ClassificationTolerances.h>
 #include <cadrefine/mesh/Quality.h>
 
 #include <algorithm>
@@ -85,6 +86,7 @@ PatchOptimiser::PatchOptimiser(
   order_ = indicesWhere(patch.free.size(), [&](std::size_t v) { return patch.free[v] != 0; });
   std::sort(order_.begin(), order_.end(), [&](Index a, Index b) { return turns_[a] > turns_[b]; });
   findLevels();
+  findBoundaries();
 }
 
 /// Calls visit(corner) for the corners of all cells at the vertex, itself and repetitions included.
@@ -280,6 +282,148 @@ Point3 PatchOptimiser::onItsEntity(Index vertex, const Point3& point) const
   return where.entity == entity ? where.point : patch_.mesh.points[vertex];
 }
 
+/// The facets of the boundary at a vertex all of whose cells are known are those that one cell has
+/// alone. In the plane they have one other corner.
+PatchOptimiser::Boundary PatchOptimiser::boundaryAt(Index vertex) const
+{
+  const auto& mesh = patch_.mesh;
+  const bool areCells = mesh.dimension == 2 && patch_.plane == Vector3{};
+  std::vector<std::array<Index, 2>> others;
+  const auto add = [&](Index a, Index b)
+  {
+    if (a != vertex && b != vertex)
+    {
+      others.push_back({ std::min(a, b), std::max(a, b) });
+    }
+  };
+  for (std::size_t s = firstOfStar_[vertex]; s < firstOfStar_[vertex + 1]; ++s)
+  {
+    const Index c = stars_[s];
+    if (mesh.dimension == 3)
+    {
+      const auto& cell = mesh.tetrahedra[c];
+      for (const auto& [a, b] : tetrahedronEdges)
+      {
+        add(cell[a], cell[b]);
+      }
+    }
+    else
+    {
+      const auto& cell = mesh.triangles[c];
+      for (int k = 0; k < 3; ++k)
+      {
+        if (areCells)
+        {
+          add(cell[k], cell[(k + 1) % 3]);
+        }
+        else
+        {
+          add(cell[k], cell[k]);
+        }
+      }
+    }
+  }
+  std::sort(others.begin(), others.end());
+  Boundary boundary;
+  for (auto pair = others.begin(); pair != others.end();)
+  {
+    const auto next = std::find_if(pair, others.end(), [&](const auto& o) { return o != *pair; });
+    if (areCells || next - pair == 1)
+    {
+      boundary.facets.push_back(*pair);
+      boundary.neighbours.insert(boundary.neighbours.end(), pair->begin(), pair->end());
+    }
+    pair = next;
+  }
+  std::sort(boundary.neighbours.begin(), boundary.neighbours.end());
+  boundary.neighbours.erase(
+    std::unique(boundary.neighbours.begin(), boundary.neighbours.end()), boundary.neighbours.end());
+  return boundary;
+}
+
+/// Of free vertices on the CAD.
+void PatchOptimiser::findBoundaries()
+{
+  const auto sliding = indicesWhere(patch_.free.size(),
+    [&](std::size_t v) { return patch_.free[v] && patch_.complete[v] && patch_.entities[v]; });
+  if (sliding.empty())
+  {
+    return;
+  }
+  boundaries_.resize(patch_.free.size());
+  std::vector<double> away(patch_.free.size(), 0);
+  std::vector<unsigned char> isAsked(patch_.free.size(), 0);
+  for (const Index vertex : sliding)
+  {
+    boundaries_[vertex] = boundaryAt(vertex);
+    isAsked[vertex] = 1;
+    for (const Index neighbour : boundaries_[vertex].neighbours)
+    {
+      isAsked[neighbour] = 1;
+    }
+  }
+  const auto asked = indicesWhere(isAsked.size(), [&](std::size_t v) { return isAsked[v] != 0; });
+  forEachIndex(parallelFor_, asked.size(), coarseGrain,
+    [&](std::size_t i) { away[asked[i]] = distanceFromCAD(patch_.start[asked[i]]); });
+  const double tie = ClassificationTolerances::tie * projector_->model().size();
+  for (const Index vertex : sliding)
+  {
+    Boundary& boundary = boundaries_[vertex];
+    boundary.limit = away[vertex];
+    for (const Index neighbour : boundary.neighbours)
+    {
+      boundary.limit = std::max(boundary.limit, away[neighbour]);
+    }
+    boundary.limit += tie;
+  }
+}
+
+double PatchOptimiser::distanceFromCAD(const Point3& point) const
+{
+  return projector_->nearest(point, std::numeric_limits<double>::infinity()).distance;
+}
+
+/// The middles of the facets of the boundary at a vertex, and of their edges there, with the vertex
+/// at `point`.
+std::vector<Point3> PatchOptimiser::middlesRound(Index vertex, const Point3& point) const
+{
+  const auto& points = patch_.mesh.points;
+  std::vector<Point3> middles;
+  for (const Index other : boundaries_[vertex].neighbours)
+  {
+    middles.push_back(0.5 * (point + points[other]));
+  }
+  for (const auto& [a, b] : boundaries_[vertex].facets)
+  {
+    if (a != b)
+    {
+      middles.push_back((1.0 / 3) * (point + points[a] + points[b]));
+    }
+  }
+  return middles;
+}
+
+bool PatchOptimiser::staysAsClose(Index vertex, const Point3& next) const
+{
+  const auto middles = middlesRound(vertex, next);
+  const double limit = boundaries_[vertex].limit;
+  if (std::all_of(middles.begin(), middles.end(),
+        [&](const Point3& middle) { return projector_->nearest(middle, limit).entity; }))
+  {
+    return true;
+  }
+  const auto farthest = [&](const std::vector<Point3>& points)
+  {
+    double result = 0;
+    for (const Point3& point : points)
+    {
+      result = std::max(result, distanceFromCAD(point));
+    }
+    return result;
+  };
+  return farthest(middles) <= farthest(middlesRound(vertex, patch_.mesh.points[vertex]));
+}
+
 /// The step is halved until it gains something; where it does at once, it is doubled while it gains
 /// more: next to a singularity like s^-2, Newton's steps are a third of the way.
 void PatchOptimiser::improve(Index vertex)
@@ -309,7 +453,7 @@ void PatchOptimiser::improve(Index vertex)
   {
     const Point3 next = onItsEntity(vertex, point + length * step);
     const double value = energy.at(next);
-    if (!(value < lowest))
+    if (!(value < lowest) || (entity && !staysAsClose(vertex, next)))
     {
       return false;
     }

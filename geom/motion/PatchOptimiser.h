@@ -40,10 +40,14 @@ Directions directionsOn(const BoundaryProjector& projector, EntityId entity, con
 /// and many vertices may take their turn at once, on several threads.
 ///
 /// A vertex on a CAD face or edge moves in its tangents there and is put back onto the entity; it
-/// stays where that is not possible (at a pole, or where it would leave the entity for its border).
+/// stays where that is not possible (at a pole, or where it would leave the entity for its border),
+/// and where a facet of the boundary there would come to lie farther from the CAD than any does
+/// now, and than the corners of the facets there did at the start: after a bisection, than their
+/// parents.
 ///
 /// No step raises the energy that it is for. Work of a sweep: linear in the number of cells, some
-/// 10 microseconds a vertex, and up to 8 projections for each vertex on the CAD.
+/// 10 microseconds a vertex, and up to 8 projections for each vertex on the CAD, with two for each
+/// facet there.
 class PatchOptimiser
 {
 public:
@@ -64,6 +68,14 @@ public:
   void place(Index vertex, const Point3& point);
 
 private:
+  /// The facets of the mesh's boundary at a vertex.
+  struct Boundary
+  {
+    std::vector<std::array<Index, 2>> facets; ///< The other corners of each.
+    std::vector<Index> neighbours;            ///< All of these.
+    double limit = 0;                         ///< May lie so far from the CAD.
+  };
+
   double measure(const std::array<Index, 4>& cell) const;
   double measure(const std::array<Index, 3>& cell) const;
   Vector3 normalAt(const std::array<Index, 3>& triangle) const;
@@ -76,6 +88,11 @@ private:
   bool mustWait(Index vertex) const;
   ShapeEnergy energyAt(Index vertex) const;
   Point3 onItsEntity(Index vertex, const Point3& point) const;
+  Boundary boundaryAt(Index vertex) const;
+  void findBoundaries();
+  double distanceFromCAD(const Point3& point) const;
+  std::vector<Point3> middlesRound(Index vertex, const Point3& point) const;
+  bool staysAsClose(Index vertex, const Point3& next) const;
   void improve(Index vertex);
 
   Patch& patch_;
@@ -84,6 +101,7 @@ private:
   std::vector<double> sizes_; ///< Measure of the equilateral cell of each cell's size in `start`.
   std::vector<std::size_t> firstOfStar_; ///< Cells round vertex v: from firstOfStar_[v] on.
   std::vector<Index> stars_;
+  std::vector<Boundary> boundaries_; ///< Of free vertices on the CAD.
   std::vector<Index> order_;         ///< The free vertices, level by level.
   std::vector<std::size_t> levels_;  ///< Where each level begins, and the last ends.
   std::vector<std::uint64_t> turns_; ///< Of each vertex: the larger, the earlier.

@@ -222,6 +222,37 @@ TEST(Sliding, keepsToTheCurve)
   EXPECT_GT(lowestQuality(patch.mesh), 1.1 * before);
 }
 
+/// The vertex in the middle is pulled aside: others would crowd on the far side of the circle.
+TEST(Sliding, keepsChordsAsCloseToTheCurve)
+{
+  constexpr int corners = 9;
+  const auto model = cadtest::modelOf(cadtest::circle(2), ".igs");
+  const BoundaryProjector projector(*model, BoundaryKind::Segments);
+  Mesh mesh = cadtest::discMesh(2, 0, corners);
+  for (int c = 0; c < corners; ++c)
+  {
+    const double angle = 2 * 3.14159265358979323846 * (c + 0.15 * (c * c % 5 - 2)) / corners;
+    mesh.points[c] = { 2 * std::cos(angle), 2 * std::sin(angle), 0 };
+  }
+  mesh.points[corners] = { 1.2, 0, 0 };
+  Patch patch = patchOf(mesh);
+  patch.free.assign(corners + 1, 1);
+  patch.free[corners] = 0;
+  patch.entities.assign(corners + 1, EntityId{ 1, 0 });
+  const auto longestChord = [&](const std::vector<Point3>& points)
+  {
+    double longest = 0;
+    for (int c = 0; c < corners; ++c)
+    {
+      longest = std::max(longest, distance(points[c], points[(c + 1) % corners]));
+    }
+    return longest;
+  };
+  optimise(patch, 20, &projector);
+  EXPECT_NE(patch.mesh.points, mesh.points);
+  EXPECT_LE(longestChord(patch.mesh.points), longestChord(mesh.points) + 1e-9);
+}
+
 TEST(Sliding, keepsToTheSurface)
 {
   const auto model = cadtest::modelOf(cadtest::sphere(2));
