@@ -383,45 +383,33 @@ double PatchOptimiser::distanceFromCAD(const Point3& point) const
   return projector_->nearest(point, std::numeric_limits<double>::infinity()).distance;
 }
 
-/// The middles of the facets of the boundary at a vertex, and of their edges there, with the vertex
-/// at `point`.
-std::vector<Point3> PatchOptimiser::middlesRound(Index vertex, const Point3& point) const
-{
-  const auto& points = patch_.mesh.points;
-  std::vector<Point3> middles;
-  for (const Index other : boundaries_[vertex].neighbours)
-  {
-    middles.push_back(0.5 * (point + points[other]));
-  }
-  for (const auto& [a, b] : boundaries_[vertex].facets)
-  {
-    if (a != b)
-    {
-      middles.push_back((1.0 / 3) * (point + points[a] + points[b]));
-    }
-  }
-  return middles;
-}
-
 bool PatchOptimiser::staysAsClose(Index vertex, const Point3& next) const
 {
-  const auto middles = middlesRound(vertex, next);
-  const double limit = boundaries_[vertex].limit;
-  if (std::all_of(middles.begin(), middles.end(),
-        [&](const Point3& middle) { return projector_->nearest(middle, limit).entity; }))
-  {
-    return true;
-  }
-  const auto farthest = [&](const std::vector<Point3>& points)
+  const auto& points = patch_.mesh.points;
+  const auto& [facets, neighbours, limit] = boundaries_[vertex];
+  const auto longest = [&, &others = neighbours](const Point3& from)
   {
     double result = 0;
-    for (const Point3& point : points)
+    for (const Index other : others)
     {
-      result = std::max(result, distanceFromCAD(point));
+      result = std::max(result, distance(from, points[other]));
     }
     return result;
   };
-  return farthest(middles) <= farthest(middlesRound(vertex, patch_.mesh.points[vertex]));
+  if (longest(next) <= longest(points[vertex]))
+  {
+    return true;
+  }
+  const auto isClose = [&, limit = limit](const Point3& middle)
+  { return static_cast<bool>(projector_->nearest(middle, limit).entity); };
+  return std::all_of(neighbours.begin(), neighbours.end(),
+           [&](Index other) { return isClose(0.5 * (next + points[other])); }) &&
+         std::all_of(facets.begin(), facets.end(),
+           [&](const auto& others)
+           {
+             const auto& [i, j] = others;
+             return i == j || isClose((1.0 / 3) * (next + points[i] + points[j]));
+           });
 }
 
 /// The step is halved until it gains something; where it does at once, it is doubled while it gains
