@@ -312,14 +312,7 @@ PatchOptimiser::Boundary PatchOptimiser::boundaryAt(Index vertex) const
       const auto& cell = mesh.triangles[c];
       for (int k = 0; k < 3; ++k)
       {
-        if (areCells)
-        {
-          add(cell[k], cell[(k + 1) % 3]);
-        }
-        else
-        {
-          add(cell[k], cell[k]);
-        }
+        add(cell[k], cell[areCells ? (k + 1) % 3 : k]);
       }
     }
   }
@@ -363,8 +356,10 @@ void PatchOptimiser::findBoundaries()
     }
   }
   const auto asked = indicesWhere(isAsked.size(), [&](std::size_t v) { return isAsked[v] != 0; });
+  constexpr double unlimited = std::numeric_limits<double>::infinity();
   forEachIndex(parallelFor_, asked.size(), coarseGrain,
-    [&](std::size_t i) { away[asked[i]] = distanceFromCAD(patch_.start[asked[i]]); });
+    [&](std::size_t i)
+    { away[asked[i]] = projector_->nearest(patch_.start[asked[i]], unlimited).distance; });
   const double tie = ClassificationTolerances::tie * projector_->model().size();
   for (const Index vertex : sliding)
   {
@@ -376,11 +371,6 @@ void PatchOptimiser::findBoundaries()
     }
     boundary.limit += tie;
   }
-}
-
-double PatchOptimiser::distanceFromCAD(const Point3& point) const
-{
-  return projector_->nearest(point, std::numeric_limits<double>::infinity()).distance;
 }
 
 bool PatchOptimiser::staysAsClose(Index vertex, const Point3& next) const

@@ -90,7 +90,6 @@ private:
   Point3 onItsEntity(Index vertex, const Point3& point) const;
   Boundary boundaryAt(Index vertex) const;
   void findBoundaries();
-  double distanceFromCAD(const Point3& point) const;
   bool staysAsClose(Index vertex, const Point3& next) const;
   void improve(Index vertex);
 

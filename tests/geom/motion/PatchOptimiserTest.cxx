@@ -195,18 +195,25 @@ TEST_P(MakingWay, waitsForVerticesOfOthers)
   EXPECT_EQ(part.mesh.points, whole.mesh.points);
 }
 
-/// Corners of a polygon on a circle: they slide along it, but for the CAD vertex.
-TEST(Sliding, keepsToTheCurve)
+/// A disc of radius 2, its corners at uneven distances.
+Mesh unevenDisc(int corners)
 {
-  constexpr int corners = 9;
-  const auto model = cadtest::modelOf(cadtest::circle(2), ".igs");
-  const BoundaryProjector projector(*model, BoundaryKind::Segments);
   Mesh mesh = cadtest::discMesh(2, 0, corners);
   for (int c = 0; c < corners; ++c)
   {
     const double angle = 2 * 3.14159265358979323846 * (c + 0.15 * (c * c % 5 - 2)) / corners;
     mesh.points[c] = { 2 * std::cos(angle), 2 * std::sin(angle), 0 };
   }
+  return mesh;
+}
+
+/// Corners of a polygon on a circle: they slide along it, but for the CAD vertex.
+TEST(Sliding, keepsToTheCurve)
+{
+  constexpr int corners = 9;
+  const auto model = cadtest::modelOf(cadtest::circle(2), ".igs");
+  const BoundaryProjector projector(*model, BoundaryKind::Segments);
+  Mesh mesh = unevenDisc(corners);
   Patch patch = patchOf(mesh);
   patch.free.assign(corners + 1, 1);
   patch.entities.assign(corners + 1, EntityId{ 1, 0 });
@@ -228,12 +235,7 @@ TEST(Sliding, keepsChordsAsCloseToTheCurve)
   constexpr int corners = 9;
   const auto model = cadtest::modelOf(cadtest::circle(2), ".igs");
   const BoundaryProjector projector(*model, BoundaryKind::Segments);
-  Mesh mesh = cadtest::discMesh(2, 0, corners);
-  for (int c = 0; c < corners; ++c)
-  {
-    const double angle = 2 * 3.14159265358979323846 * (c + 0.15 * (c * c % 5 - 2)) / corners;
-    mesh.points[c] = { 2 * std::cos(angle), 2 * std::sin(angle), 0 };
-  }
+  Mesh mesh = unevenDisc(corners);
   mesh.points[corners] = { 1.2, 0, 0 };
   Patch patch = patchOf(mesh);
   patch.free.assign(corners + 1, 1);
