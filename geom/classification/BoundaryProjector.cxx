@@ -235,9 +235,8 @@ EdgeClass BoundaryProjector::classify(const std::array<Point3, 2>& points,
     return {};
   }
   const bool endsOnEdges = entities[0].dimension <= 1 && entities[1].dimension <= 1;
-  const bool hasOneFace = std::all_of(onCAD.begin(), onCAD.end(),
-    [&](const FacetRecord& facet) { return facet.face == onCAD[0].face; });
-  const EdgeClass onFace{ EdgeClass::Smooth, hasOneFace ? onCAD[0].face : -1 };
+  const bool isInFace = onCAD.size() == 2 && onCAD[0].face == onCAD[1].face;
+  const EdgeClass onFace{ EdgeClass::Smooth, isInFace ? onCAD[0].face : -1 };
   if (kind_ == BoundaryKind::Segments || !endsOnEdges)
   {
     return onFace;
@@ -275,6 +274,23 @@ std::vector<std::int32_t> BoundaryProjector::entitiesOf(
                              : commonEntities(model_.nurbs(), entities[0], entities[1], dimension);
 }
 
+/// On the entity, or where it meets itself smoothly: at its seam, its pole.
+bool BoundaryProjector::isWithin(EntityId entity, EntityId where) const
+{
+  const NurbsModel& nurbs = model_.nurbs();
+  if (where.dimension >= entity.dimension)
+  {
+    return where == entity;
+  }
+  if (entitiesAround(nurbs, where, entity.dimension) != std::vector{ entity.index })
+  {
+    return false;
+  }
+  const auto edges = entitiesAround(nurbs, where, 1);
+  return entity.dimension == 1 || std::none_of(edges.begin(), edges.end(),
+                                    [&](std::int32_t edge) { return nurbs.edges[edge].sharp; });
+}
+
 /// On an entity that both ends share: it cannot jump to the other side of something thin.
 ClosestPoint BoundaryProjector::nearestOnShared(
   const EdgeClass& edgeClass, const std::array<EntityId, 2>& entities, const Point3& point) const
@@ -284,7 +300,7 @@ ClosestPoint BoundaryProjector::nearestOnShared(
   for (const std::int32_t entity : entitiesOf(edgeClass, entities))
   {
     const ClosestPoint where = nearestOn({ dimension, entity }, point);
-    if (where.entity.dimension == dimension && isBetter(where, best))
+    if (isWithin({ dimension, entity }, where.entity) && isBetter(where, best))
     {
       best = where;
     }
@@ -292,23 +308,49 @@ ClosestPoint BoundaryProjector::nearestOnShared(
   return best;
 }
 
+/// Beyond a smooth border of a face the surface goes on; so does a line beyond the end of an edge,
+/// unless both ends of the mesh edge are on that.
+bool BoundaryProjector::hasLeft(
+  EntityId entity, const BoundaryEdge& edge, const ClosestPoint& where) const
+{
+  if (isWithin(entity, where.entity))
+  {
+    return false;
+  }
+  if (entity.dimension == 1)
+  {
+    const auto common = commonEntities(model_.nurbs(), edge.entities[0], edge.entities[1], 1);
+    return std::binary_search(common.begin(), common.end(), entity.index);
+  }
+  if (where.entity.dimension < 2)
+  {
+    return true;
+  }
+  const ClosestPoint border = nearestOn(entity, 0.5 * (edge.points[0] + edge.points[1]));
+  return border.entity.dimension != 1 || model_.nurbs().edges[border.entity.index].sharp;
+}
+
 ClosestPoint BoundaryProjector::projectMidpoint(const BoundaryEdge& edge) const
 {
   const auto& [a, b] = edge.points;
   const EdgeClass& edgeClass = edge.edgeClass;
   const ClosestPoint where = project(edgeClass, 0.5 * (a + b), edge.entities);
-  const bool isAtEnd =
-    std::min(distance(where.point, a), distance(where.point, b)) <= atEnd * distance(a, b);
-  const bool isOff = isOnFace(edgeClass) && where.entity != EntityId{ 2, edgeClass.entity };
-  if (!where.entity || (!isAtEnd && !isOff))
+  if (!where.entity)
   {
     return where;
   }
-  const ClosestPoint between = edgeClass.kind == EdgeClass::OnEdge && edgeClass.entity >= 0
-                                 ? betweenOnEdge(edge)
-                                 : betweenOnFaces(edge);
-  return between.entity && (isAtEnd || between.distance <= asNear * where.distance) ? between
-                                                                                    : where;
+  const bool isAtEnd =
+    std::min(distance(where.point, a), distance(where.point, b)) <= atEnd * distance(a, b);
+  const bool isOnEdge = edgeClass.kind == EdgeClass::OnEdge && edgeClass.entity >= 0;
+  const EntityId entity{ static_cast<std::int8_t>(isOnEdge ? 1 : 2), edgeClass.entity };
+  if (!isAtEnd && (edgeClass.entity < 0 || !hasLeft(entity, edge, where)))
+  {
+    return where;
+  }
+  const ClosestPoint between =
+    isOnEdge ? betweenOnEdge(edge) : betweenOnFaces(edge, where.distance);
+  const bool isTaken = isAtEnd || isOnEdge || between.distance <= asNear * where.distance;
+  return between.entity && isTaken ? between : where;
 }
 
 /// Of the place of a point on a CAD edge its parameter; at an end of the edge that of the end, and
@@ -373,9 +415,9 @@ ClosestPoint BoundaryProjector::betweenOnEdge(const BoundaryEdge& edge) const
   return where;
 }
 
-/// Of the places on faces of eight points round the middle, as far off as the ends are, the one
-/// that is nearest to the middle and as far from one end as from the other: these two added.
-ClosestPoint BoundaryProjector::betweenOnFaces(const BoundaryEdge& edge) const
+/// Of the places on faces of eight points round the middle, so far away from it, the one that is
+/// nearest to the middle and as far from one end as from the other: these two added.
+ClosestPoint BoundaryProjector::betweenOnFaces(const BoundaryEdge& edge, double away) const
 {
   const Point3& a = std::min(edge.points[0], edge.points[1]);
   const Point3& b = std::max(edge.points[0], edge.points[1]);
@@ -385,9 +427,9 @@ ClosestPoint BoundaryProjector::betweenOnFaces(const BoundaryEdge& edge) const
   ClosestPoint best;
   for (const Vector3& direction : directionsAcross(b - a))
   {
-    const Point3 beside = middle + 0.5 * distance(a, b) * direction;
-    ClosestPoint where = haveFace ? nearestOnShared(edge.edgeClass, edge.entities, beside)
-                                  : nearest(beside, 2 * distance(a, b));
+    const Point3 beside = middle + away * direction;
+    ClosestPoint where =
+      haveFace ? nearestOnShared(edge.edgeClass, edge.entities, beside) : nearest(beside, 4 * away);
     where.distance = distance(where.point, middle);
     const double off =
       where.distance + std::abs(distance(where.point, a) - distance(where.point, b));
@@ -442,9 +484,7 @@ ClosestPoint BoundaryProjector::offCrease(const BoundaryEdge& edge, const Closes
       return inside;
     }
   }
-  // The face leaves its border across the chord, as a dome its rim.
-  const ClosestPoint between = betweenOnFaces(edge);
-  return between.entity && between.distance <= asNear * border.distance ? between : border;
+  return border;
 }
 
 ClosestPoint BoundaryProjector::project(

@@ -92,9 +92,10 @@ public:
 
   /// The point of the CAD for the midpoint of an edge; with no entity for Straight. The same for
   /// both directions of the edge. Where an end of the edge is nearest, as under a bow of the CAD
-  /// that is as high as it is wide, a point between the ends, as far from one as from the other;
-  /// the same on the face of the edge where another one is nearest, but by less than a fifth, as to
-  /// a diameter under a dome.
+  /// that is as high as it is wide, a point between the ends, as far from one as from the other.
+  /// The same on the CAD edge that both ends are on where another one is nearest, as to a diameter,
+  /// and on the face of the edge where another one is nearest, but by less than a fifth, as to a
+  /// diameter under a dome.
   ClosestPoint projectMidpoint(const BoundaryEdge& edge) const;
   /// The same for another point that stands for the edge, such as one of a curved edge.
   ClosestPoint project(
@@ -128,8 +129,10 @@ private:
   /// Whether the crease is part of a line of creases that the entity, an edge or a vertex, is on.
   bool isOnLineOf(std::int32_t crease, EntityId entity) const;
   std::vector<double> parametersOn(std::int32_t edge, const Point3& point) const;
+  bool isWithin(EntityId entity, EntityId where) const;
+  bool hasLeft(EntityId entity, const BoundaryEdge& edge, const ClosestPoint& where) const;
   ClosestPoint betweenOnEdge(const BoundaryEdge& edge) const;
-  ClosestPoint betweenOnFaces(const BoundaryEdge& edge) const;
+  ClosestPoint betweenOnFaces(const BoundaryEdge& edge, double away) const;
   ClosestPoint projectOnEdge(std::int32_t edge, const Point3& point) const;
   /// The face of a smooth edge, or else those (of a planar mesh: edges) that both ends share.
   std::vector<std::int32_t> entitiesOf(

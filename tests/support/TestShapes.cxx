@@ -8,6 +8,7 @@
 #include <BRepAlgoAPI_Fuse.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepBuilderAPI_Transform.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCone.hxx>
@@ -24,6 +25,7 @@
 #include <gp_Ax2.hxx>
 #include <gp_Ax3.hxx>
 #include <gp_Circ.hxx>
+#include <gp_Cone.hxx>
 #include <gp_Cylinder.hxx>
 #include <gp_Pln.hxx>
 #include <gp_Trsf.hxx>
@@ -75,6 +77,23 @@ TopoDS_Shape longCylinder(double radius, double height)
 TopoDS_Shape halfPipe(double radius, double height)
 {
   return BRepBuilderAPI_MakeFace(gp_Cylinder(gp_Ax3(), radius), 0, M_PI, 0, height).Shape();
+}
+
+TopoDS_Shape halfCone(double radius, double upperRadius, double height)
+{
+  const double angle = std::atan2(upperRadius - radius, height);
+  return BRepBuilderAPI_MakeFace(
+    gp_Cone(gp_Ax3(), angle, radius), 0, M_PI, 0, height / std::cos(angle))
+    .Shape();
+}
+
+TopoDS_Shape discOfTwoArcs(double radius, double turn)
+{
+  const gp_Circ circle(gp_Ax2(), radius);
+  return BRepBuilderAPI_MakeFace(
+    BRepBuilderAPI_MakeWire(BRepBuilderAPI_MakeEdge(circle, turn, M_PI - turn),
+      BRepBuilderAPI_MakeEdge(circle, M_PI - turn, 2 * M_PI + turn)))
+    .Shape();
 }
 
 TopoDS_Shape partWithCavity()

@@ -30,6 +30,11 @@ TopoDS_Shape roundedCylinder(double radius, double height);
 TopoDS_Shape longCylinder(double radius, double height);
 /// The lateral face of half a cylinder, where y is positive.
 TopoDS_Shape halfPipe(double radius, double height);
+/// The same of a cone with these radii at z = 0 and at the height.
+TopoDS_Shape halfCone(double radius, double upperRadius, double height);
+/// In the plane z = 0 round the origin; of its two edges one goes from the angle `turn` to pi -
+/// turn, where y is positive.
+TopoDS_Shape discOfTwoArcs(double radius, double turn);
 /// The part of data/solid_mesh.py: a box with a hole through it and a round cavity.
 TopoDS_Shape partWithCavity();
 /// Circle in the plane z = 0 round the origin: an edge without a face.

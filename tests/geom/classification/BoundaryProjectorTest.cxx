@@ -228,6 +228,50 @@ TEST(HalfPipe, hasTheMiddleOfADiameterAtTheTopOfTheBow)
   }
 }
 
+/// Of two arcs of one circle the other one may be nearer to the middle of a chord.
+TEST(Disc, hasTheMiddleOfAChordOnItsOwnArc)
+{
+  for (const double turn : { 0.0, 0.2, -0.2 })
+  {
+    const auto model = cadtest::modelOf(cadtest::discOfTwoArcs(1, turn));
+    const BoundaryProjector projector(*model, BoundaryKind::Triangles);
+    const double x = std::cos(turn);
+    const double y = std::sin(turn);
+    const std::array<Point3, 2> points{ { { x, y, 0 }, { -x, y, 0 } } };
+    const std::array<EntityId, 2> entities{ projector.nearest(points[0], unlimited).entity,
+      projector.nearest(points[1], unlimited).entity };
+    ASSERT_EQ(entities[0].dimension, 0);
+    for (const double side : { -1.0, 1.0 })
+    {
+      const EntityId arc = projector.nearest({ 0, 2 * side, 0 }, unlimited).entity;
+      ASSERT_EQ(arc.dimension, 1);
+      const ClosestPoint where =
+        projector.projectMidpoint({ { EdgeClass::OnEdge, arc.index }, points, entities });
+      EXPECT_EQ(where.entity, arc);
+      const bool isDiameter = turn == 0; // all places of the arc are as near
+      EXPECT_NEAR(distance(where.point, { 0, side, 0 }), 0, isDiameter ? 1 : 1e-9);
+    }
+  }
+}
+
+/// Of a chord from one rim to the other across a bow that gets narrower, a rim is nearer.
+TEST(HalfCone, keepsTheMiddleOfAChordOffItsRims)
+{
+  const auto model = cadtest::modelOf(cadtest::halfCone(0.28, 0.186, 1.89));
+  const BoundaryProjector projector(*model, BoundaryKind::Triangles);
+  const std::array<Point3, 2> points{ { { 0.28, 0, 0 }, { -0.186, 0, 1.89 } } };
+  const EntityId face = projector.nearest({ 0, 0.3, 1 }, unlimited).entity;
+  ASSERT_EQ(face.dimension, 2);
+  const std::array<EntityId, 2> entities{ projector.nearest(points[0], unlimited).entity,
+    projector.nearest(points[1], unlimited).entity };
+  ASSERT_NE(projector.nearest(0.5 * (points[0] + points[1]), unlimited).entity, face);
+  const BoundaryEdge edge{ { EdgeClass::Smooth, face.index }, points, entities };
+  const ClosestPoint where = projector.projectMidpoint(edge);
+  EXPECT_EQ(where.entity, face);
+  EXPECT_GT(where.point[1], 0.1);
+  EXPECT_NEAR(distance(where.point, points[0]) / distance(where.point, points[1]), 1, 0.1);
+}
+
 /// From the inner rim of a ring to its outer one, through the hole.
 TEST(Ring, keepsTheMiddleOfAChordThatCrossesTheHole)
 {
