@@ -349,8 +349,8 @@ ClosestPoint BoundaryProjector::projectMidpoint(const BoundaryEdge& edge) const
   }
   const ClosestPoint between =
     isOnEdge ? betweenOnEdge(edge) : betweenOnFaces(edge, where.distance);
-  const bool isTaken = isAtEnd || isOnEdge || between.distance <= asNear * where.distance;
-  return between.entity && isTaken ? between : where;
+  const double limit = isOnEdge ? distance(a, b) : asNear * where.distance;
+  return between.entity && (isAtEnd || between.distance <= limit) ? between : where;
 }
 
 /// Of the place of a point on a CAD edge its parameter; at an end of the edge that of the end, and

@@ -254,6 +254,22 @@ TEST(Disc, hasTheMiddleOfAChordOnItsOwnArc)
   }
 }
 
+/// Where the arc goes the long way round, the edge cannot be meant to be on it.
+TEST(Disc, leavesTheMiddleOfAShortChordWhereItIsNearest)
+{
+  const double turn = 1.4;
+  const auto model = cadtest::modelOf(cadtest::discOfTwoArcs(1, turn));
+  const BoundaryProjector projector(*model, BoundaryKind::Triangles);
+  const std::array<Point3, 2> points{ { { std::cos(turn), std::sin(turn), 0 },
+    { -std::cos(turn), std::sin(turn), 0 } } };
+  const std::array<EntityId, 2> entities{ projector.nearest(points[0], unlimited).entity,
+    projector.nearest(points[1], unlimited).entity };
+  const EntityId around = projector.nearest({ 0, -2, 0 }, unlimited).entity;
+  const ClosestPoint where =
+    projector.projectMidpoint({ { EdgeClass::OnEdge, around.index }, points, entities });
+  EXPECT_NEAR(distance(where.point, { 0, 1, 0 }), 0, 1e-9);
+}
+
 /// Of a chord from one rim to the other across a bow that gets narrower, a rim is nearer.
 TEST(HalfCone, keepsTheMiddleOfAChordOffItsRims)
 {
