@@ -312,7 +312,14 @@ PatchOptimiser::Boundary PatchOptimiser::boundaryAt(Index vertex) const
       const auto& cell = mesh.triangles[c];
       for (int k = 0; k < 3; ++k)
       {
-        add(cell[k], cell[areCells ? (k + 1) % 3 : k]);
+        if (areCells)
+        {
+          add(cell[k], cell[(k + 1) % 3]);
+        }
+        else
+        {
+          add(cell[k], cell[k]);
+        }
       }
     }
   }
@@ -356,10 +363,8 @@ void PatchOptimiser::findBoundaries()
     }
   }
   const auto asked = indicesWhere(isAsked.size(), [&](std::size_t v) { return isAsked[v] != 0; });
-  constexpr double unlimited = std::numeric_limits<double>::infinity();
   forEachIndex(parallelFor_, asked.size(), coarseGrain,
-    [&](std::size_t i)
-    { away[asked[i]] = projector_->nearest(patch_.start[asked[i]], unlimited).distance; });
+    [&](std::size_t i) { away[asked[i]] = distanceFromCAD(patch_.start[asked[i]]); });
   const double tie = ClassificationTolerances::tie * projector_->model().size();
   for (const Index vertex : sliding)
   {
@@ -373,33 +378,63 @@ void PatchOptimiser::findBoundaries()
   }
 }
 
-bool PatchOptimiser::staysAsClose(Index vertex, const Point3& next) const
+double PatchOptimiser::distanceFromCAD(const Point3& point) const
+{
+  return projector_->nearest(point, std::numeric_limits<double>::infinity()).distance;
+}
+
+/// The middles of the facets of the boundary at a vertex, and of their edges there, with the vertex
+/// at `point`.
+std::vector<Point3> PatchOptimiser::middlesRound(Index vertex, const Point3& point) const
 {
   const auto& points = patch_.mesh.points;
-  const auto& [facets, neighbours, limit] = boundaries_[vertex];
-  const auto longest = [&, &others = neighbours](const Point3& from)
+  std::vector<Point3> middles;
+  for (const Index other : boundaries_[vertex].neighbours)
+  {
+    middles.push_back(0.5 * (point + points[other]));
+  }
+  for (const auto& [a, b] : boundaries_[vertex].facets)
+  {
+    if (a != b)
+    {
+      middles.push_back((1.0 / 3) * (point + points[a] + points[b]));
+    }
+  }
+  return middles;
+}
+
+bool PatchOptimiser::staysAsClose(Index vertex, const Point3& next) const
+{
+  const Point3& now = patch_.mesh.points[vertex];
+  const auto longest = [&](const Point3& from)
   {
     double result = 0;
-    for (const Index other : others)
+    for (const Index other : boundaries_[vertex].neighbours)
     {
-      result = std::max(result, distance(from, points[other]));
+      result = std::max(result, distance(from, patch_.mesh.points[other]));
     }
     return result;
   };
-  if (longest(next) <= longest(points[vertex]))
+  if (longest(next) <= longest(now))
   {
     return true;
   }
-  const auto isClose = [&, limit = limit](const Point3& middle)
-  { return static_cast<bool>(projector_->nearest(middle, limit).entity); };
-  return std::all_of(neighbours.begin(), neighbours.end(),
-           [&](Index other) { return isClose(0.5 * (next + points[other])); }) &&
-         std::all_of(facets.begin(), facets.end(),
-           [&](const auto& others)
-           {
-             const auto& [i, j] = others;
-             return i == j || isClose((1.0 / 3) * (next + points[i] + points[j]));
-           });
+  const auto middles = middlesRound(vertex, next);
+  const auto areWithin = [&](double limit)
+  {
+    return std::all_of(middles.begin(), middles.end(),
+      [&](const Point3& middle) { return projector_->nearest(middle, limit).entity; });
+  };
+  if (areWithin(boundaries_[vertex].limit))
+  {
+    return true;
+  }
+  double farthest = 0;
+  for (const Point3& middle : middlesRound(vertex, now))
+  {
+    farthest = std::max(farthest, distanceFromCAD(middle));
+  }
+  return areWithin(farthest);
 }
 
 /// The step is halved until it gains something; where it does at once, it is doubled while it gains

@@ -41,13 +41,13 @@ Directions directionsOn(const BoundaryProjector& projector, EntityId entity, con
 ///
 /// A vertex on a CAD face or edge moves in its tangents there and is put back onto the entity; it
 /// stays where that is not possible (at a pole, or where it would leave the entity for its border),
-/// and where an edge of the boundary would get longer than all there are now, and a facet would
-/// come to lie farther from the CAD than the corners of these did at the start: after a bisection,
-/// than their parents.
+/// and where an edge of the boundary there would be longer than all are now, and a facet farther
+/// from the CAD than any is now, and than the corners of these were at the start: after a
+/// bisection, than their parents.
 ///
 /// No step raises the energy that it is for. Work of a sweep: linear in the number of cells, some
-/// 10 microseconds a vertex, and up to 8 projections for each vertex on the CAD, with two for each
-/// facet there where an edge gets longer.
+/// 10 microseconds a vertex, and up to 8 projections for each vertex on the CAD, with up to six for
+/// each facet there where an edge would get longer.
 class PatchOptimiser
 {
 public:
@@ -90,6 +90,8 @@ private:
   Point3 onItsEntity(Index vertex, const Point3& point) const;
   Boundary boundaryAt(Index vertex) const;
   void findBoundaries();
+  double distanceFromCAD(const Point3& point) const;
+  std::vector<Point3> middlesRound(Index vertex, const Point3& point) const;
   bool staysAsClose(Index vertex, const Point3& next) const;
   void improve(Index vertex);
 
