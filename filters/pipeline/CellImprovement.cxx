@@ -31,11 +31,11 @@ constexpr int maximumRounds = 6;
 constexpr int ringsOfCells = 3;
 /// Cells below this are operated on in the neighbourhood of those below the user's limit.
 constexpr double aim = 0.3;
-/// Cells are cut so many times at most, as long as so much is left of what was bad.
+/// Cells are cut so many times at most, as long as no more than so much is left of what was bad,
+/// for so many new cells at most for each bad one that is gone.
 constexpr int maximumCuts = 8;
 constexpr double worthwhile = 0.75;
-/// A least mean ratio that is no smaller part of that before a step is as good.
-constexpr double asGood = 0.9;
+constexpr std::int64_t newCellsForOne = 200;
 
 class CellImprovement
 {
@@ -65,11 +65,11 @@ public:
     for (int cut = 0; cut < maximumCuts && mayCut(left); ++cut)
     {
       const Backup before(state_);
-      if (!cutBad(left))
+      Left now = left;
+      for (int k = 0; k < 2 && !now.isWorthwhile(left) && cutBad(now); ++k)
       {
-        return;
+        now = operateInRounds();
       }
-      const Left now = operateInRounds();
       if (!now.isWorthwhile(left))
       {
         before.restore(state_);
@@ -85,14 +85,15 @@ private:
   {
     std::int64_t verticesOff = 0;
     std::int64_t badCells = 0;
+    std::int64_t cells = 0; ///< All there are.
 
     std::int64_t count() const { return verticesOff + badCells; }
     /// Whether it is so much less than before that it is worth the new cells.
     bool isWorthwhile(const Left& before) const
     {
       return verticesOff < before.verticesOff ||
-             (verticesOff == before.verticesOff &&
-               static_cast<double>(badCells) < worthwhile * static_cast<double>(before.badCells));
+             (verticesOff == before.verticesOff && badCells < before.badCells &&
+               cells - before.cells <= newCellsForOne * (before.badCells - badCells));
     }
   };
 
@@ -129,18 +130,22 @@ private:
     std::size_t stages_;
   };
 
+  /// As long as that brings something. While vertices are off, one round that brings nothing may be
+  /// followed by one that does, as it smooths in the other way.
   Left operateInRounds()
   {
-    std::int64_t before = std::numeric_limits<std::int64_t>::max();
+    std::int64_t least = std::numeric_limits<std::int64_t>::max();
+    int idle = 0;
     for (int round = 0;; ++round)
     {
       const Bad bad = findBad();
       const std::int64_t count = bad.left.count();
-      if (count == 0 || count >= before || round == maximumRounds)
+      idle = count < least ? 0 : idle + 1;
+      least = std::min(least, count);
+      if (count == 0 || idle > (bad.left.verticesOff > 0 ? 1 : 0) || round == maximumRounds)
       {
         return bad.left;
       }
-      before = count;
       exchange_.progress().say(static_cast<double>(round) / maximumRounds,
         "improving cells, round " + std::to_string(round + 1) + " of at most " +
           std::to_string(maximumRounds));
@@ -152,18 +157,12 @@ private:
     }
   }
 
-  /// Whether cells may be cut: where vertices are off the CAD, or where a step has made the worst
-  /// cell worse. What the CAD's own angles give stays. Beside other cells than simplices these
-  /// would be cut too.
+  /// Whether cells may be cut. Beside other cells than simplices these would be cut too.
   bool mayCut(const Left& left)
   {
-    if (mesh().dimension != 3 || options_.inRegion || left.count() == 0 ||
-        exchange_.any(mesh().hasOtherThanSimplices()))
-    {
-      return false;
-    }
-    return left.verticesOff > 0 ||
-           qualityOf(exchange_, state_).minimum() < asGood * options_.qualityBefore;
+    return mesh().dimension == 3 && !options_.inRegion &&
+           (left.verticesOff > 0 || (options_.cutsBadCells && left.badCells > 0)) &&
+           !exchange_.any(mesh().hasOtherThanSimplices());
   }
 
   /// Whether edges of the boundary off the CAD would be cut. Collective.
@@ -236,9 +235,11 @@ private:
     }
     const std::vector<Index> cells = badCells(points);
     flagVertices(mesh(), cells, flags);
-    const auto counts =
-      exchange_.sum(std::vector<std::int64_t>{ owned, static_cast<std::int64_t>(cells.size()) });
-    return { std::move(flags), { counts[0], counts[1] } };
+    const auto all = visitCells(mesh(),
+      [](const auto& cellsOfMesh) { return static_cast<std::int64_t>(cellsOfMesh.size()); });
+    const auto counts = exchange_.sum(
+      std::vector<std::int64_t>{ owned, static_cast<std::int64_t>(cells.size()), all });
+    return { std::move(flags), { counts[0], counts[1], counts[2] } };
   }
 
   /// Whether the mean ratio is below the minimum: with tetrahedra, of which there are most, by the

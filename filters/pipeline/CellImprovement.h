@@ -18,20 +18,17 @@ struct CellImprovementOptions
   std::function<bool(const Point3&)> inRegion = {};
   std::int64_t largestBlock = 8192; ///< Cells of a block.
   SurfaceLimits surface = {};       ///< What may become of the boundary.
-  /// Least mean ratio before the step that the mesh comes from: no cells are cut where it is as
-  /// good as that.
-  double qualityBefore = 1;
+  bool cutsBadCells = true;         ///< Also where no vertex is off the CAD.
 };
 
 /// Rounds of operations (see operateOnBlocks) on the cells round vertices that are off the CAD and
 /// round cells with a mean ratio below a minimum, each followed by another try to move vertices
 /// onto the CAD (see moveOntoCAD), until nothing is left or nothing is gained. Tetrahedra that are
 /// still bad, and those at vertices that are off, are then bisected, and the rounds begin again, as
-/// long as that helps (of bad cells alone only where the step has made the worst one worse). Of a
-/// mesh that is classified; triangles in space whose CAD has no faces stay as they are. Cells,
-/// listed triangles and lines are told apart by their tags (see isTag). Collective. Work: that of
-/// qualityOf; where something is found, a look at every cell, and in rounds that of redistribute,
-/// findBoundary, improveCells of a block and moveOntoCAD.
+/// long as that helps. Of a mesh that is classified; triangles in space whose CAD has no faces stay
+/// as they are. Cells, listed triangles and lines are told apart by their tags (see isTag).
+/// Collective. Work: that of qualityOf; where something is found, a look at every cell, and in
+/// rounds that of redistribute, findBoundary, improveCells of a block and moveOntoCAD.
 void improveCells(
   const PipelineContext& context, MeshState& state, const CellImprovementOptions& options);
 

@@ -61,7 +61,7 @@ private:
     }
     state_.arrays.ofVertices->RemoveArray(goesArray);
     improveCells(
-      context_, state_, { options_.minimumQuality, {}, options_.largestBlock, { 0, true }, 0 });
+      context_, state_, { options_.minimumQuality, {}, options_.largestBlock, { 0, true }, false });
     const std::int64_t gone = before - countMesh(exchange_, state_.mesh).vertices;
     gone_ += gone;
     return gone > 0;

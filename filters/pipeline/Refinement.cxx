@@ -283,7 +283,6 @@ private:
   {
     const bool withOperations = options_.projectNewVertices && options_.minimumQuality;
     plan.withOperations = withOperations;
-    const double qualityBefore = withOperations ? qualityOf(exchange_, state_).minimum() : 1;
     if (state_.classification)
     {
       boundary(); // so that its time is that of the projection
@@ -294,7 +293,6 @@ private:
       const auto stopwatch = watch("seconds local operations");
       CellImprovementOptions improvement{ *options_.minimumQuality };
       improvement.surface.keepsError = options_.keepsError;
-      improvement.qualityBefore = qualityBefore;
       improveCells(context_, state_, improvement);
     }
   }
