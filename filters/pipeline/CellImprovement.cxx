@@ -31,11 +31,11 @@ constexpr int maximumRounds = 6;
 constexpr int ringsOfCells = 3;
 /// Cells below this are operated on in the neighbourhood of those below the user's limit.
 constexpr double aim = 0.3;
-/// Cells are cut so many times at most, as long as no more than so much is left of what was bad,
-/// for so many new cells at most for each bad one that is gone.
+/// Cells are cut so many times at most, for so many new cells for each bad one that is gone, or for
+/// one new cell in so many.
 constexpr int maximumCuts = 8;
-constexpr double worthwhile = 0.75;
 constexpr std::int64_t newCellsForOne = 200;
+constexpr std::int64_t cellsForOneNew = 100;
 
 class CellImprovement
 {
@@ -66,7 +66,7 @@ public:
     {
       const Backup before(state_);
       Left now = left;
-      for (int k = 0; k < 2 && !now.isWorthwhile(left) && cutBad(now); ++k)
+      for (int k = 0; k < 2 && !now.isWorthwhile(left) && mayCut(now) && cutBad(now); ++k)
       {
         now = operateInRounds();
       }
@@ -93,7 +93,8 @@ private:
     {
       return verticesOff < before.verticesOff ||
              (verticesOff == before.verticesOff && badCells < before.badCells &&
-               cells - before.cells <= newCellsForOne * (before.badCells - badCells));
+               cells - before.cells <= std::max(newCellsForOne * (before.badCells - badCells),
+                                         before.cells / cellsForOneNew));
     }
   };
 
