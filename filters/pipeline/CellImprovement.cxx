@@ -66,13 +66,17 @@ public:
     {
       const Backup before(state_);
       Left now = left;
-      for (int k = 0; k < 2 && !now.isWorthwhile(left) && mayCut(now) && cutBad(now); ++k)
+      int tries = 0;
+      for (; tries < 2 && !now.isWorthwhile(left) && mayCut(now) && cutBad(now); ++tries)
       {
         now = operateInRounds();
       }
       if (!now.isWorthwhile(left))
       {
-        before.restore(state_);
+        if (tries > 0)
+        {
+          before.restore(state_);
+        }
         return;
       }
       left = now;

@@ -274,23 +274,6 @@ std::vector<std::int32_t> BoundaryProjector::entitiesOf(
                              : commonEntities(model_.nurbs(), entities[0], entities[1], dimension);
 }
 
-/// On the entity, or where it meets itself smoothly: at its seam, its pole.
-bool BoundaryProjector::isWithin(EntityId entity, EntityId where) const
-{
-  const NurbsModel& nurbs = model_.nurbs();
-  if (where.dimension >= entity.dimension)
-  {
-    return where == entity;
-  }
-  if (entitiesAround(nurbs, where, entity.dimension) != std::vector{ entity.index })
-  {
-    return false;
-  }
-  const auto edges = entitiesAround(nurbs, where, 1);
-  return entity.dimension == 1 || std::none_of(edges.begin(), edges.end(),
-                                    [&](std::int32_t edge) { return nurbs.edges[edge].sharp; });
-}
-
 /// On an entity that both ends share: it cannot jump to the other side of something thin.
 ClosestPoint BoundaryProjector::nearestOnShared(
   const EdgeClass& edgeClass, const std::array<EntityId, 2>& entities, const Point3& point) const
@@ -300,7 +283,7 @@ ClosestPoint BoundaryProjector::nearestOnShared(
   for (const std::int32_t entity : entitiesOf(edgeClass, entities))
   {
     const ClosestPoint where = nearestOn({ dimension, entity }, point);
-    if (isWithin({ dimension, entity }, where.entity) && isBetter(where, best))
+    if (isWithin(model_.nurbs(), { dimension, entity }, where.entity) && isBetter(where, best))
     {
       best = where;
     }
@@ -313,7 +296,7 @@ ClosestPoint BoundaryProjector::nearestOnShared(
 bool BoundaryProjector::hasLeft(
   EntityId entity, const BoundaryEdge& edge, const ClosestPoint& where) const
 {
-  if (isWithin(entity, where.entity))
+  if (isWithin(model_.nurbs(), entity, where.entity))
   {
     return false;
   }
@@ -465,16 +448,16 @@ ClosestPoint BoundaryProjector::offCrease(const BoundaryEdge& edge, const Closes
   {
     return border;
   }
-  const bool isSharp = model_.nurbs().edges[border.entity.index].sharp;
-  if (!isSharp && where.entity.dimension == 2)
+  if (!model_.nurbs().edges[border.entity.index].sharp)
   {
     // Beyond a smooth edge the surface goes on.
     const auto beside = entitiesAround(model_.nurbs(), border.entity, 2);
-    const bool isBeside = std::binary_search(beside.begin(), beside.end(), where.entity.index);
+    const bool isBeside = where.entity.dimension == 2 &&
+                          std::binary_search(beside.begin(), beside.end(), where.entity.index);
     return isBeside ? where : border;
   }
   // As far inside as the middle is outside; where the face is narrower than that, less.
-  for (double part = 1; isSharp && part >= leastPartInside; part *= 0.5)
+  for (double part = 1; part >= leastPartInside; part *= 0.5)
   {
     ClosestPoint inside =
       nearestOnShared(edge.edgeClass, edge.entities, border.point + part * (border.point - middle));

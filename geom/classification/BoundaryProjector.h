@@ -104,9 +104,8 @@ public:
   /// that both ends share: not on another one that is nearer to a chord which leaves its face, and
   /// not on a crease that the edge is not on, where it would meet the vertices of the crease's own
   /// mesh edges. As far inside the crease as the midpoint is outside, or less where the face is
-  /// narrower; where it leaves its border across the chord, as a dome its rim, at a point that is
-  /// about as near. Work: none where `where` is on such a face; else a projection a face, and up to
-  /// twelve more.
+  /// narrower. Work: none where `where` is on such a face; else a projection a face, and up to four
+  /// more.
   ClosestPoint offCrease(const BoundaryEdge& edge, const ClosestPoint& where) const;
 
   /// CAD vertices that want a mesh vertex of their own: see findCorners.
@@ -129,7 +128,6 @@ private:
   /// Whether the crease is part of a line of creases that the entity, an edge or a vertex, is on.
   bool isOnLineOf(std::int32_t crease, EntityId entity) const;
   std::vector<double> parametersOn(std::int32_t edge, const Point3& point) const;
-  bool isWithin(EntityId entity, EntityId where) const;
   bool hasLeft(EntityId entity, const BoundaryEdge& edge, const ClosestPoint& where) const;
   ClosestPoint betweenOnEdge(const BoundaryEdge& edge) const;
   ClosestPoint betweenOnFaces(const BoundaryEdge& edge, double away) const;

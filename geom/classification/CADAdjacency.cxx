@@ -116,6 +116,21 @@ std::vector<std::int32_t> entitiesAround(const NurbsModel& model, EntityId entit
   return faces;
 }
 
+bool isWithin(const NurbsModel& model, EntityId entity, EntityId where)
+{
+  if (where.dimension >= entity.dimension)
+  {
+    return where == entity;
+  }
+  if (entitiesAround(model, where, entity.dimension) != std::vector{ entity.index })
+  {
+    return false;
+  }
+  const auto edges = entitiesAround(model, where, 1);
+  return entity.dimension == 1 || std::none_of(edges.begin(), edges.end(),
+                                    [&](std::int32_t edge) { return model.edges[edge].sharp; });
+}
+
 std::vector<std::int32_t> commonEntities(
   const NurbsModel& model, EntityId a, EntityId b, int dimension)
 {

@@ -17,6 +17,10 @@ bool fitsEitherWay(const Vector3& a, const Vector3& b);
 /// Entities of `dimension` (1 or 2) whose closure holds `entity`, ascending.
 std::vector<std::int32_t> entitiesAround(const NurbsModel& model, EntityId entity, int dimension);
 
+/// Whether `where` is the entity, a face or an edge, or part of its closure where it meets itself
+/// and no other: a vertex of a closed edge, the seam or a pole of a face that is smooth there.
+bool isWithin(const NurbsModel& model, EntityId entity, EntityId where);
+
 /// Entities of `dimension` (1 or 2) whose closure holds both, ascending.
 std::vector<std::int32_t> commonEntities(
   const NurbsModel& model, EntityId a, EntityId b, int dimension);

@@ -312,14 +312,7 @@ PatchOptimiser::Boundary PatchOptimiser::boundaryAt(Index vertex) const
       const auto& cell = mesh.triangles[c];
       for (int k = 0; k < 3; ++k)
       {
-        if (areCells)
-        {
-          add(cell[k], cell[(k + 1) % 3]);
-        }
-        else
-        {
-          add(cell[k], cell[k]);
-        }
+        add(cell[k], cell[areCells ? (k + 1) % 3 : k]);
       }
     }
   }

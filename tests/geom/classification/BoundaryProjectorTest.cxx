@@ -25,6 +25,13 @@ FacetRecord facetWithNormal(const Vector3& normal)
   return { normalized(normal), 1, 1, 0, -1 };
 }
 
+std::array<EntityId, 2> entitiesAt(
+  const BoundaryProjector& projector, const std::array<Point3, 2>& points)
+{
+  return { projector.nearest(points[0], unlimited).entity,
+    projector.nearest(points[1], unlimited).entity };
+}
+
 ClassifiedFacet facetAt(const BoundaryProjector& projector, const std::array<Point3, 3>& points)
 {
   ClassifiedFacet facet{ { points[0], points[1], points[2] }, {} };
@@ -45,8 +52,7 @@ protected:
 
   std::array<EntityId, 2> entitiesAt(const std::array<Point3, 2>& points) const
   {
-    return { projector.nearest(points[0], unlimited).entity,
-      projector.nearest(points[1], unlimited).entity };
+    return ::entitiesAt(projector, points);
   }
 };
 
@@ -210,11 +216,7 @@ TEST(HalfPipe, hasTheMiddleOfADiameterAtTheTopOfTheBow)
   for (const double z : { 0.0, 0.7, 2.0 })
   {
     const std::array<Point3, 2> points{ { { 1, 0, z }, { -1, 0, z } } };
-    std::array<EntityId, 2> entities;
-    for (int k = 0; k < 2; ++k)
-    {
-      entities[k] = projector.nearest(points[k], unlimited).entity;
-    }
+    const auto entities = entitiesAt(projector, points);
     const std::int32_t rim = projector.nearest({ 0, 1, z }, unlimited).entity.index;
     const EdgeClass edgeClass =
       z == 0.7 ? EdgeClass{ EdgeClass::Smooth, -1 } : EdgeClass{ EdgeClass::OnEdge, rim };
@@ -238,8 +240,7 @@ TEST(Disc, hasTheMiddleOfAChordOnItsOwnArc)
     const double x = std::cos(turn);
     const double y = std::sin(turn);
     const std::array<Point3, 2> points{ { { x, y, 0 }, { -x, y, 0 } } };
-    const std::array<EntityId, 2> entities{ projector.nearest(points[0], unlimited).entity,
-      projector.nearest(points[1], unlimited).entity };
+    const auto entities = entitiesAt(projector, points);
     ASSERT_EQ(entities[0].dimension, 0);
     for (const double side : { -1.0, 1.0 })
     {
@@ -262,8 +263,7 @@ TEST(Disc, leavesTheMiddleOfAShortChordWhereItIsNearest)
   const BoundaryProjector projector(*model, BoundaryKind::Triangles);
   const std::array<Point3, 2> points{ { { std::cos(turn), std::sin(turn), 0 },
     { -std::cos(turn), std::sin(turn), 0 } } };
-  const std::array<EntityId, 2> entities{ projector.nearest(points[0], unlimited).entity,
-    projector.nearest(points[1], unlimited).entity };
+  const auto entities = entitiesAt(projector, points);
   const EntityId around = projector.nearest({ 0, -2, 0 }, unlimited).entity;
   const ClosestPoint where =
     projector.projectMidpoint({ { EdgeClass::OnEdge, around.index }, points, entities });
@@ -278,8 +278,7 @@ TEST(HalfCone, keepsTheMiddleOfAChordOffItsRims)
   const std::array<Point3, 2> points{ { { 0.28, 0, 0 }, { -0.186, 0, 1.89 } } };
   const EntityId face = projector.nearest({ 0, 0.3, 1 }, unlimited).entity;
   ASSERT_EQ(face.dimension, 2);
-  const std::array<EntityId, 2> entities{ projector.nearest(points[0], unlimited).entity,
-    projector.nearest(points[1], unlimited).entity };
+  const auto entities = entitiesAt(projector, points);
   ASSERT_NE(projector.nearest(0.5 * (points[0] + points[1]), unlimited).entity, face);
   const BoundaryEdge edge{ { EdgeClass::Smooth, face.index }, points, entities };
   const ClosestPoint where = projector.projectMidpoint(edge);
@@ -320,8 +319,7 @@ TEST(Ring, takesTheMiddleOfAChordFromAnotherFaceToItsOwn)
   const auto model = cadtest::modelOf(cadtest::pipe(1, 1.5, 1));
   const BoundaryProjector projector(*model, BoundaryKind::Triangles);
   const std::array<Point3, 2> points{ { { 0, 1, 1 }, { -1.5, 0, 1 } } };
-  const std::array<EntityId, 2> entities{ projector.nearest(points[0], unlimited).entity,
-    projector.nearest(points[1], unlimited).entity };
+  const auto entities = entitiesAt(projector, points);
   const BoundaryEdge edge{ { EdgeClass::Smooth, -1 }, points, entities };
   const ClosestPoint wall = projector.nearest({ -0.7, 0.7, 0.5 }, unlimited);
   const EntityId ring = projector.nearest({ 0, 1.25, 1 }, unlimited).entity;
