@@ -36,6 +36,10 @@ constexpr double aim = 0.3;
 constexpr int maximumCuts = 8;
 constexpr std::int64_t newCellsForOne = 200;
 constexpr std::int64_t cellsForOneNew = 100;
+/// Where no vertex is off the CAD, there are so many times as many cells at most, and nothing is
+/// cut if more than one cell in so many is bad.
+constexpr std::int64_t largestGrowth = 2;
+constexpr std::int64_t cellsForOneBad = 5;
 
 class CellImprovement
 {
@@ -62,16 +66,17 @@ public:
       }
     }
     Left left = operateInRounds();
+    const std::int64_t mostCells = largestGrowth * left.cells;
     for (int cut = 0; cut < maximumCuts && mayCut(left); ++cut)
     {
       const Backup before(state_);
       Left now = left;
       int tries = 0;
-      for (; tries < 2 && !now.isWorthwhile(left) && mayCut(now) && cutBad(now); ++tries)
+      for (; tries < 2 && !now.isWorthwhile(left, mostCells) && mayCut(now) && cutBad(now); ++tries)
       {
         now = operateInRounds();
       }
-      if (!now.isWorthwhile(left))
+      if (!now.isWorthwhile(left, mostCells))
       {
         if (tries > 0)
         {
@@ -92,11 +97,14 @@ private:
     std::int64_t cells = 0; ///< All there are.
 
     std::int64_t count() const { return verticesOff + badCells; }
+    /// Else the minimum is more than the mesh can have: cutting would go on in all of it.
+    bool areFewBad() const { return badCells > 0 && badCells <= cells / cellsForOneBad; }
     /// Whether it is so much less than before that it is worth the new cells.
-    bool isWorthwhile(const Left& before) const
+    bool isWorthwhile(const Left& before, std::int64_t mostCells) const
     {
       return verticesOff < before.verticesOff ||
              (verticesOff == before.verticesOff && badCells < before.badCells &&
+               cells <= mostCells &&
                cells - before.cells <= std::max(newCellsForOne * (before.badCells - badCells),
                                          before.cells / cellsForOneNew));
     }
@@ -166,7 +174,7 @@ private:
   bool mayCut(const Left& left)
   {
     return mesh().dimension == 3 && !options_.inRegion &&
-           (left.verticesOff > 0 || (options_.cutsBadCells && left.badCells > 0)) &&
+           (left.verticesOff > 0 || (options_.cutsBadCells && left.areFewBad())) &&
            !exchange_.any(mesh().hasOtherThanSimplices());
   }
 

@@ -7,6 +7,7 @@
 #include "TestMeshes.h"
 #include "TestShapes.h"
 
+#include <vtkProjectOntoCAD.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <gtest/gtest.h>
@@ -42,6 +43,18 @@ TEST(CoarseParts, reachTheCADUnderUniformRefinement)
     EXPECT_NEAR(fieldValue(mesh, "GlobalCells"), 8 * cells, cells);
     EXPECT_TRUE(hasNoHangingVertex(toMesh(mesh)));
   }
+}
+
+/// A minimum that most cells cannot have.
+TEST(CoarseParts, areNotCutAllOver)
+{
+  const FilterRun filters(crankArm);
+  const auto mesh = readGrid(CADREFINE_TRUTH "/crank_arm_coarse.vtu");
+  const auto projected = filters.run<vtkProjectOntoCAD>(
+    mesh, [](vtkProjectOntoCAD* filter) { filter->SetMinimumQuality(0.5); });
+  EXPECT_LT(
+    fieldValue(projected, "GlobalCells"), 2.0 * static_cast<double>(mesh->GetNumberOfCells()));
+  EXPECT_EQ(fieldValue(projected, "InvalidCells"), 0);
 }
 
 /// In a thin wall vertices slide along it to make way, but not across the hole in it: the wall of
