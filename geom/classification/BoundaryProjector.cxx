@@ -5,6 +5,7 @@
 #include <cadrefine/mesh/Quality.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -13,7 +14,8 @@ namespace cadrefine
 namespace
 {
 
-constexpr double leastPartInside = 1.0 / 8;
+/// How far inside its face a place is looked for, to the middle's distance from the border.
+constexpr std::array partsInside{ 1.0, 1.0 / 2, 1.0 / 4, 1.0 / 8 };
 /// A place on a face is taken instead of one on its border that is so many times nearer.
 constexpr double asNear = 1.25;
 /// Of a mesh edge's length: a place so near to one of its ends is not that of its middle.
@@ -457,7 +459,7 @@ ClosestPoint BoundaryProjector::offCrease(const BoundaryEdge& edge, const Closes
     return isBeside ? where : border;
   }
   // As far inside as the middle is outside; where the face is narrower than that, less.
-  for (double part = 1; part >= leastPartInside; part *= 0.5)
+  for (const double part : partsInside)
   {
     ClosestPoint inside =
       nearestOnShared(edge.edgeClass, edge.entities, border.point + part * (border.point - middle));
