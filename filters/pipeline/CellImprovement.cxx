@@ -36,10 +36,11 @@ constexpr double aim = 0.3;
 constexpr int maximumCuts = 8;
 constexpr std::int64_t newCellsForOne = 200;
 constexpr std::int64_t cellsForOneNew = 100;
-/// Where no vertex is off the CAD, there are so many times as many cells at most, and nothing is
-/// cut if more than one cell in so many is bad.
+/// Where no vertex is off the CAD, there are so many times as many cells at most, or so many, and
+/// nothing is cut if more than one cell in so many is bad.
 constexpr std::int64_t largestGrowth = 2;
-constexpr std::int64_t cellsForOneBad = 5;
+constexpr std::int64_t fewCells = 1500;
+constexpr std::int64_t cellsForOneBad = 3;
 
 class CellImprovement
 {
@@ -66,7 +67,7 @@ public:
       }
     }
     Left left = operateInRounds();
-    const std::int64_t mostCells = largestGrowth * left.cells;
+    const std::int64_t mostCells = std::max(largestGrowth * left.cells, fewCells);
     for (int cut = 0; cut < maximumCuts && mayCut(left); ++cut)
     {
       const Backup before(state_);
