@@ -62,6 +62,12 @@ void visitTree(const SearchStructure& structure, BoundingBoxTree::Root root, con
     });
 }
 
+/// Of the model's size. Distances from points beyond the first differ by rounding alone, so that a
+/// search would look at all of the model; the nearest place is then that from a point at the second
+/// in the same direction, but for an eighth of the size over it.
+constexpr double tooFar = 1e8;
+constexpr double asFar = 1e7;
+
 bool isFinite(const Point3& q)
 {
   return std::isfinite(q[0]) && std::isfinite(q[1]) && std::isfinite(q[2]);
@@ -73,6 +79,9 @@ struct ClosestPointSearch::Implementation
 {
   explicit Implementation(const NurbsModel& model) : structure(model) {}
 
+  template<class Visit>
+  ClosestPoint answerTo(const Point3& point, double maximumDistance, const Visit& visit) const;
+  Point3 nearer(const Point3& point) const;
   ClosestPoint answer(const Point3& q, LeafQuery& query) const;
   ClosestPoint onPatch(const Point3& q, const Candidate& candidate) const;
   ClosestPoint onBorder(const Point3& q, const Candidate& candidate) const;
@@ -160,6 +169,39 @@ ClosestPoint ClosestPointSearch::Implementation::answer(const Point3& q, LeafQue
   return result;
 }
 
+Point3 ClosestPointSearch::Implementation::nearer(const Point3& point) const
+{
+  const Vector3 away = point - structure.centre;
+  const double most = tooFar * structure.size;
+  if (std::abs(away[0]) <= most && std::abs(away[1]) <= most && std::abs(away[2]) <= most)
+  {
+    return point;
+  }
+  const double length = std::hypot(away[0], away[1], away[2]); // squares might overflow
+  return structure.centre + (asFar * structure.size / length) * away;
+}
+
+/// `visit(q, query)` visits the leaves that may hold the place that is nearest to q.
+template<class Visit>
+ClosestPoint ClosestPointSearch::Implementation::answerTo(
+  const Point3& point, double maximumDistance, const Visit& visit) const
+{
+  if (!isFinite(point))
+  {
+    return {};
+  }
+  const Point3 q = nearer(point);
+  LeafQuery query(structure, q, maximumDistance);
+  visit(q, query);
+  ClosestPoint result = answer(q, query);
+  if (result.entity && q != point)
+  {
+    result.distance = distance(result.point, point);
+    return result.distance <= maximumDistance ? result : ClosestPoint{};
+  }
+  return result;
+}
+
 void ClosestPointSearch::Implementation::visitEntity(
   EntityId id, const Point3& q, LeafQuery& query) const
 {
@@ -189,51 +231,50 @@ ClosestPointSearch::~ClosestPointSearch() = default;
 
 ClosestPoint ClosestPointSearch::nearest(const Point3& point, const SearchScope& scope) const
 {
-  if (!isFinite(point))
-  {
-    return {};
-  }
   const SearchStructure& structure = implementation_->structure;
-  LeafQuery query(structure, point, scope.maximumDistance);
-  visitTree(structure, structure.root, point, scope, query);
-  return implementation_->answer(point, query);
+  return implementation_->answerTo(point, scope.maximumDistance,
+    [&](const Point3& q, LeafQuery& query)
+    { visitTree(structure, structure.root, q, scope, query); });
 }
 
 ClosestPoint ClosestPointSearch::nearestOn(EntityId entity, const Point3& point) const
 {
-  const NurbsModel& model = implementation_->structure.model;
-  if (!isFinite(point) || !entity || entity.dimension > 2 || entity.index < 0 ||
-      entity.index >= model.count(entity.dimension))
+  const SearchStructure& structure = implementation_->structure;
+  if (!entity || entity.dimension > 2 || entity.index < 0 ||
+      entity.index >= structure.model.count(entity.dimension))
   {
     return {};
   }
-  const SearchStructure& structure = implementation_->structure;
-  LeafQuery query(structure, point, std::numeric_limits<double>::infinity());
-  switch (entity.dimension)
-  {
-    case 0:
-      implementation_->visitEntity(entity, point, query);
-      break;
-    case 1:
-      implementation_->visitEdge(entity.index, point, query);
-      break;
-    default:
-      visitTree(
-        structure, structure.entities[structure.entityNumber(entity)].closure, point, {}, query);
-  }
-  return implementation_->answer(point, query);
+  return implementation_->answerTo(point, std::numeric_limits<double>::infinity(),
+    [&](const Point3& q, LeafQuery& query)
+    {
+      switch (entity.dimension)
+      {
+        case 0:
+          implementation_->visitEntity(entity, q, query);
+          break;
+        case 1:
+          implementation_->visitEdge(entity.index, q, query);
+          break;
+        default:
+          visitTree(
+            structure, structure.entities[structure.entityNumber(entity)].closure, q, {}, query);
+      }
+    });
 }
 
 ClosestPoint ClosestPointSearch::nearestOnSurface(int face, const Point3& point) const
 {
-  if (!isFinite(point) || face < 0 || face >= implementation_->structure.model.count(2))
+  if (face < 0 || face >= implementation_->structure.model.count(2))
   {
     return {};
   }
-  LeafQuery query(implementation_->structure, point, std::numeric_limits<double>::infinity());
-  query.ignoreTrim();
-  implementation_->visitEntity({ 2, face }, point, query);
-  return implementation_->answer(point, query);
+  return implementation_->answerTo(point, std::numeric_limits<double>::infinity(),
+    [&](const Point3& q, LeafQuery& query)
+    {
+      query.ignoreTrim();
+      implementation_->visitEntity({ 2, face }, q, query);
+    });
 }
 
 double ClosestPointSearch::modelSize() const

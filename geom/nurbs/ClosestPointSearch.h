@@ -67,7 +67,8 @@ public:
   ClosestPointSearch& operator=(const ClosestPointSearch&) = delete;
 
   /// Nearest point of the trimmed model, which is the union of its faces with their borders, its
-  /// edges and its vertices: never farther than the true one by more than 1e-9 of the model's size.
+  /// edges and its vertices: never farther than the true one by more than 1e-9 of the model's size,
+  /// or, from more than 1e7 sizes away, where that is less than rounding, by 2e-8 of it.
   /// Of entities equally near, the smallest (dimension, index) wins: on the border of a face the
   /// answer is its edge, at the end of an edge its vertex. Where the border lies off its edge, the
   /// nearer of the two is the answer: the edge, or the face with parameters on its border and

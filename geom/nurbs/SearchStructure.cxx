@@ -286,8 +286,9 @@ private:
     {
       box.include(entry.box);
     }
+    structure_.centre = box.isEmpty() ? Point3{} : box.middle();
     structure_.size = box.diagonal();
-    structure_.tree = BoundingBoxTree(box.isEmpty() ? Point3{} : box.middle(), structure_.size);
+    structure_.tree = BoundingBoxTree(structure_.centre, structure_.size);
     for (SearchEntity& entity : structure_.entities)
     {
       Entries own = entriesOf(structure_.entityNumber(entity.id));

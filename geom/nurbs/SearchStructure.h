@@ -93,7 +93,8 @@ struct SearchStructure
   std::array<int, 3> firstEntity{};   ///< Number of the first entity of each dimension.
   BoundingBoxTree tree;
   BoundingBoxTree::Root root = BoundingBoxTree::none; ///< Tree over all leaves.
-  double size = 0;                                    ///< Diagonal of the bounding box.
+  Point3 centre{};                                    ///< Of the bounding box.
+  double size = 0;                                    ///< Its diagonal.
 };
 
 } // namespace cadrefine

@@ -34,6 +34,28 @@ TEST(ClosedForms, sphereFromEverywhere)
   }
 }
 
+/// From where all of it is equally far away, but for rounding.
+TEST(ClosedForms, sphereFromFarAway)
+{
+  const NurbsModel model = shapes::modelOf(shapes::sphere(2.0));
+  const ClosestPointSearch search(model);
+  shapes::Random random(1);
+  for (const double away : { 1e5, 1e8, 1e10, 1e12, 1e16, 1e20, 1e50, 1e100 })
+  {
+    SearchScope near;
+    near.maximumDistance = 0.5 * away;
+    for (int i = 0; i < 20; ++i)
+    {
+      const Vector3 direction = normalized(random.point(1.0));
+      const Point3 q = away * direction;
+      const ClosestPoint answer = search.nearest(q);
+      EXPECT_NEAR(dot(answer.point, direction), 2.0, 2e-8 * search.modelSize()) << away;
+      EXPECT_NEAR(answer.distance / (away - 2.0), 1, 1e-12) << away;
+      EXPECT_FALSE(search.nearest(q, near).entity) << away;
+    }
+  }
+}
+
 TEST(ClosedForms, centreOfSphere)
 {
   const NurbsModel model = shapes::modelOf(shapes::sphere(2.0));
