@@ -42,11 +42,64 @@ std::vector<SurfacePoint> newPoints(
   return points;
 }
 
+/// What is between a facet and its children on either side of it, by heights over the facet that
+/// are linear between their places. In a sum with signs the two cancel.
+class Sides
+{
+public:
+  /// Over a segment of this length.
+  void add(double length, double a, double b)
+  {
+    const double whole = length * (a + b) / 2;
+    const double atA = a * b < 0 ? length * a * (a / (a - b)) / 2 : 0;
+    add(atA);
+    add(whole - atA);
+  }
+
+  /// Over a triangle of this area.
+  void add(double area, double a, double b, double c)
+  {
+    if (b * c < 0) // so that, where one is alone on its side, that is the first
+    {
+      std::swap(a, a * b > 0 ? c : b);
+    }
+    const double whole = area * (a + b + c) / 3;
+    const double atA = a * b < 0 || a * c < 0 ? area * a * (a / (a - b)) * (a / (a - c)) / 3 : 0;
+    add(atA);
+    add(whole - atA);
+  }
+
+  double cancelled() const { return 2 * std::min(above_, below_); }
+
+private:
+  void add(double part) { (part > 0 ? above_ : below_) += std::abs(part); }
+
+  double above_ = 0;
+  double below_ = 0;
+};
+
 double areaBetween(const SurfacePoint& a, const SurfacePoint& b, const SurfacePoint& m)
 {
   return 0.5 * norm(twofoldAreaVector(a.point, b.point, b.place) +
                     twofoldAreaVector(a.point, b.place, m.point) +
                     twofoldAreaVector(a.point, m.point, a.place));
+}
+
+Sides sidesOf(const SurfacePoint& a, const SurfacePoint& b, const SurfacePoint& m)
+{
+  const std::array<Vector3, 3> ways{ a.place - a.point, m.point - 0.5 * (a.point + b.point),
+    b.place - b.point };
+  const Vector3 along = b.point - a.point;
+  std::array<Vector3, 3> across;
+  std::transform(ways.begin(), ways.end(), across.begin(),
+    [&, direction = normalized(along)](const Vector3& way)
+    { return way - dot(way, direction) * direction; });
+  const Vector3 up = normalized(*std::max_element(across.begin(), across.end(),
+    [](const Vector3& x, const Vector3& y) { return squaredNorm(x) < squaredNorm(y); }));
+  Sides sides;
+  sides.add(norm(along) / 2, dot(across[0], up), dot(across[1], up));
+  sides.add(norm(along) / 2, dot(across[1], up), dot(across[2], up));
+  return sides;
 }
 
 /// Six times the volume between the origin and a triangle, or a bilinear quadrilateral: the mean of
@@ -71,6 +124,47 @@ struct FacetPoints
   std::array<SurfacePoint, 4> m;
   Point3 middle{};
 };
+
+Sides sidesOf(const FacetPoints& facet)
+{
+  const auto& [corners, c, m, middle] = facet;
+  std::array<Point3, 4> points{};
+  std::transform(
+    c.begin(), c.end(), points.begin(), [](const SurfacePoint& corner) { return corner.point; });
+  const Vector3 up = normalized(twofoldAreaVector(points, corners));
+  const Point3 centre = centroidOf(points, corners);
+  std::array<Point3, 4> halves{};
+  std::array<double, 4> atCorners{};
+  std::array<double, 4> atHalves{};
+  for (int k = 0; k < corners; ++k)
+  {
+    halves[k] = 0.5 * (points[k] + points[(k + 1) % corners]);
+    atCorners[k] = dot(up, c[k].place - points[k]);
+    atHalves[k] = dot(up, m[k].point - halves[k]);
+  }
+  const auto areaOf = [](const Point3& x, const Point3& y, const Point3& z)
+  { return norm(twofoldAreaVector(x, y, z)) / 2; };
+  const double atCentre = dot(up, middle - centre);
+  Sides sides;
+  for (int k = 0; k < corners; ++k)
+  {
+    const int previous = (k + corners - 1) % corners;
+    if (corners == 3)
+    {
+      sides.add(areaOf(points[k], halves[k], halves[previous]), atCorners[k], atHalves[k],
+        atHalves[previous]);
+      continue;
+    }
+    sides.add(areaOf(points[k], halves[k], centre), atCorners[k], atHalves[k], atCentre);
+    sides.add(
+      areaOf(points[k], centre, halves[previous]), atCorners[k], atCentre, atHalves[previous]);
+  }
+  if (corners == 3)
+  {
+    sides.add(areaOf(halves[0], halves[1], halves[2]), atHalves[0], atHalves[1], atHalves[2]);
+  }
+  return sides;
+}
 
 /// The volume of the polyhedron between the facet and its children.
 double volumeBetween(const FacetPoints& facet)
@@ -124,9 +218,10 @@ FacetError errorOf(const ClassifiedSurface& surface, const std::vector<ClosestPo
     meet(e);
   }
   error.largestDistance = std::max(error.largestDistance, error.chordError);
-  error.measure =
-    surface.kind == BoundaryKind::Segments ? areaBetween(c[0], c[1], m[0]) : volumeBetween(points);
+  const bool isSegment = surface.kind == BoundaryKind::Segments;
+  error.measure = isSegment ? areaBetween(c[0], c[1], m[0]) : volumeBetween(points);
   error.lastLevel = error.measure;
+  error.cancelled = (isSegment ? sidesOf(c[0], c[1], m[0]) : sidesOf(points)).cancelled();
   return error;
 }
 
@@ -361,8 +456,11 @@ std::vector<FacetError> geometricErrors(const ClassifiedSurface& surface,
     }
     points.clear();
     edges.clear();
-    const auto ofPart = errorsOf(part, midpointsOfPart, depth, project);
-    errors.insert(errors.end(), ofPart.begin(), ofPart.end());
+    for (FacetError error : errorsOf(part, midpointsOfPart, depth, project))
+    {
+      error.measure += error.cancelled;
+      errors.push_back(error);
+    }
   }
   return errors;
 }

@@ -19,6 +19,8 @@ struct FacetError
   double chordError = 0;
   double largestDistance = 0; ///< The same over the edges of its children too.
   double lastLevel = 0;       ///< What the last level of the recursion has added to `measure`.
+  /// Part of `measure`: what signs lose where facet and CAD cross, and on saddles.
+  double cancelled = 0;
 };
 
 /// The measure at the end of all levels, if each adds a quarter of the one before, as on smooth
@@ -76,8 +78,10 @@ using ProjectMidpoints = std::function<std::vector<ClosestPoint>(std::vector<Bou
 /// three edge midpoints are projected by the class of their edge; the volume between the flat facet
 /// and its four children is that of a closed polyhedron (facet, children, and a triangle over each
 /// edge), by the divergence theorem; and so on on the four. Absolute values are added up over the
-/// levels. A quadrilateral is the bilinear surface between its corners, and its four children meet
-/// in the projection of its middle, onto its CAD face.
+/// levels. Where heights over the facet, linear between its corners and middles, have either sign
+/// (facets that cross the CAD, saddles), what cancels in its volume is added. A quadrilateral is
+/// the bilinear surface between its corners, and its four children meet in the projection of its
+/// middle, onto its CAD face.
 ///
 /// Where a corner has not reached the CAD, its place there stands for it among the children, and
 /// the sides of the polyhedron (in 2D the polygon over the edge) join the two.

@@ -262,6 +262,100 @@ TEST(PlaneError, isZero)
   EXPECT_LT(error.largestDistance, 1e-15);
 }
 
+/// Places on z = x^2 - y^2.
+std::vector<ClosestPoint> placesOnSaddle(const std::vector<BoundaryEdge>& edges)
+{
+  std::vector<ClosestPoint> places;
+  for (const BoundaryEdge& edge : edges)
+  {
+    const Point3 middle = 0.5 * (edge.points[0] + edge.points[1]);
+    ClosestPoint& place = places.emplace_back();
+    place.entity = { 2, 0 };
+    place.point = { middle[0], middle[1], middle[0] * middle[0] - middle[1] * middle[1] };
+    place.distance = distance(place.point, middle);
+  }
+  return places;
+}
+
+/// One facet, or a quadrilateral, whose corners are at these places on the CAD, or above them.
+ClassifiedSurface surfaceOfOne(
+  const std::vector<Point3>& places, const std::vector<double>& heights)
+{
+  ClassifiedSurface surface;
+  surface.kind = places.size() == 2 ? BoundaryKind::Segments : BoundaryKind::Triangles;
+  SurfaceFacet facet;
+  facet.quad = places.size() == 4 ? 0 : -1;
+  for (std::size_t k = 0; k < places.size(); ++k)
+  {
+    SurfacePoint corner;
+    corner.entity = { 2, 0 };
+    corner.point = places[k] + heights[k] * Point3{ 0, 0, 1 };
+    corner.place = places[k];
+    corner.placeEntity = corner.entity;
+    surface.points.push_back(corner);
+    facet.corners[k] = static_cast<Index>(k);
+    if (places.size() > 2 || k == 0)
+    {
+      const auto next = static_cast<Index>((k + 1) % places.size());
+      surface.edges.push_back({ { static_cast<Index>(k), next }, { EdgeClass::Smooth, -1 } });
+      facet.edges[k] = static_cast<Index>(k);
+    }
+  }
+  surface.facets.push_back(facet);
+  return surface;
+}
+
+double errorOnSaddle(const ClassifiedSurface& surface, int depth)
+{
+  return geometricErrors(surface, placesOnSaddle(surface.allEdges()), depth, 1, placesOnSaddle)[0]
+    .measure;
+}
+
+/// Over a triangle along both axes z = x^2 - y^2 is as much above the facet as below it: the
+/// difference is (x - y) (x + y - 1), of which the integral is 0, and that of its absolute value
+/// 1/24.
+TEST(SaddleError, countsBothSides)
+{
+  const ClassifiedSurface surface =
+    surfaceOfOne({ { 0, 0, 0 }, { 1, 0, 1 }, { 0, 1, -1 } }, { 0, 0, 0 });
+  for (int depth = 1; depth <= 5; ++depth)
+  {
+    EXPECT_NEAR(errorOnSaddle(surface, depth), 1.0 / 24, 1e-12) << depth;
+  }
+}
+
+/// A facet through the CAD z = 0, or a segment: on either side of the line where they cross.
+TEST(CrossingError, countsBothSides)
+{
+  const auto onPlane = [](const std::vector<BoundaryEdge>& edges)
+  {
+    std::vector<ClosestPoint> places;
+    for (const BoundaryEdge& edge : edges)
+    {
+      const Point3 middle = 0.5 * (edge.points[0] + edge.points[1]);
+      ClosestPoint& place = places.emplace_back();
+      place.entity = { 2, 0 };
+      place.point = { middle[0], middle[1], 0 };
+      place.distance = std::abs(middle[2]);
+    }
+    return places;
+  };
+  const auto error = [&](const std::vector<Point3>& places, const std::vector<double>& heights)
+  {
+    const ClassifiedSurface surface = surfaceOfOne(places, heights);
+    return geometricErrors(surface, onPlane(surface.allEdges()), 1, 1, onPlane)[0].measure;
+  };
+  // Two triangles with heights 1 and 1 at half of the length each.
+  EXPECT_NEAR(error({ { 0, 0, 0 }, { 2, 0, 0 } }, { 1, -1 }), 1, 1e-12);
+  EXPECT_NEAR(error({ { 0, 0, 0 }, { 2, 0, 0 } }, { 1, 1 }), 2, 1e-12);
+  // Heights 1, 1, -2: a pyramid of base 2 x (2/3 of each side) below, as much above.
+  const std::vector<Point3> triangle = { { 0, 0, 0 }, { 3, 0, 0 }, { 0, 3, 0 } };
+  EXPECT_NEAR(error(triangle, { 1, 1, 1 }), 4.5, 1e-12);
+  EXPECT_NEAR(error(triangle, { 1, 1, -2 }), 2 * (4.0 / 9) * 4.5 * 2 / 3, 1e-12);
+  const std::vector<Point3> square = { { 0, 0, 0 }, { 2, 0, 0 }, { 2, 2, 0 }, { 0, 2, 0 } };
+  EXPECT_NEAR(error(square, { 1, 1, -1, -1 }), 2, 1e-12);
+}
+
 /// An edge off the CAD stays straight: the facet's error does not follow it.
 TEST(StraightEdges, haveNoError)
 {
