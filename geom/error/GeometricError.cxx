@@ -44,7 +44,7 @@ std::vector<SurfacePoint> newPoints(
 
 /// What is between a facet and its children on either side of it, by heights over the facet that
 /// are linear between their places. In a sum with signs the two cancel.
-class Sides
+class BothSides
 {
 public:
   /// Over a segment of this length.
@@ -85,7 +85,7 @@ double areaBetween(const SurfacePoint& a, const SurfacePoint& b, const SurfacePo
                     twofoldAreaVector(a.point, m.point, a.place));
 }
 
-Sides sidesOf(const SurfacePoint& a, const SurfacePoint& b, const SurfacePoint& m)
+BothSides bothSidesOf(const SurfacePoint& a, const SurfacePoint& b, const SurfacePoint& m)
 {
   const std::array<Vector3, 3> ways{ a.place - a.point, m.point - 0.5 * (a.point + b.point),
     b.place - b.point };
@@ -96,7 +96,7 @@ Sides sidesOf(const SurfacePoint& a, const SurfacePoint& b, const SurfacePoint& 
     { return way - dot(way, direction) * direction; });
   const Vector3 up = normalized(*std::max_element(across.begin(), across.end(),
     [](const Vector3& x, const Vector3& y) { return squaredNorm(x) < squaredNorm(y); }));
-  Sides sides;
+  BothSides sides;
   sides.add(norm(along) / 2, dot(across[0], up), dot(across[1], up));
   sides.add(norm(along) / 2, dot(across[1], up), dot(across[2], up));
   return sides;
@@ -125,7 +125,7 @@ struct FacetPoints
   Point3 middle{};
 };
 
-Sides sidesOf(const FacetPoints& facet)
+BothSides bothSidesOf(const FacetPoints& facet)
 {
   const auto& [corners, c, m, middle] = facet;
   std::array<Point3, 4> points{};
@@ -145,7 +145,7 @@ Sides sidesOf(const FacetPoints& facet)
   const auto areaOf = [](const Point3& x, const Point3& y, const Point3& z)
   { return norm(twofoldAreaVector(x, y, z)) / 2; };
   const double atCentre = dot(up, middle - centre);
-  Sides sides;
+  BothSides sides;
   for (int k = 0; k < corners; ++k)
   {
     const int previous = (k + corners - 1) % corners;
@@ -153,11 +153,13 @@ Sides sidesOf(const FacetPoints& facet)
     {
       sides.add(areaOf(points[k], halves[k], halves[previous]), atCorners[k], atHalves[k],
         atHalves[previous]);
-      continue;
     }
-    sides.add(areaOf(points[k], halves[k], centre), atCorners[k], atHalves[k], atCentre);
-    sides.add(
-      areaOf(points[k], centre, halves[previous]), atCorners[k], atCentre, atHalves[previous]);
+    else
+    {
+      sides.add(areaOf(points[k], halves[k], centre), atCorners[k], atHalves[k], atCentre);
+      sides.add(
+        areaOf(points[k], centre, halves[previous]), atCorners[k], atCentre, atHalves[previous]);
+    }
   }
   if (corners == 3)
   {
@@ -221,7 +223,7 @@ FacetError errorOf(const ClassifiedSurface& surface, const std::vector<ClosestPo
   const bool isSegment = surface.kind == BoundaryKind::Segments;
   error.measure = isSegment ? areaBetween(c[0], c[1], m[0]) : volumeBetween(points);
   error.lastLevel = error.measure;
-  error.cancelled = (isSegment ? sidesOf(c[0], c[1], m[0]) : sidesOf(points)).cancelled();
+  error.cancelled = (isSegment ? bothSidesOf(c[0], c[1], m[0]) : bothSidesOf(points)).cancelled();
   return error;
 }
 
