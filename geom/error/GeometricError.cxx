@@ -116,7 +116,8 @@ double sixfoldVolumeOver(
                  sixfoldVolumeOver(origin, x, y, w) + sixfoldVolumeOver(origin, y, z, w));
 }
 
-/// The corners of a facet and the middles of its edges, and of a quadrilateral its own.
+/// The corners of a facet (of a segment two) and the middles of its edges, and of a quadrilateral
+/// its own.
 struct FacetPoints
 {
   int corners = 3;
@@ -190,17 +191,41 @@ double volumeBetween(const FacetPoints& facet)
   return std::abs(volume) / 6;
 }
 
+FacetPoints pointsOf(const ClassifiedSurface& surface, const std::vector<SurfacePoint>& middles,
+  const SurfaceFacet& facet)
+{
+  FacetPoints points;
+  points.corners = cornersOf(surface.kind, facet);
+  for (int k = 0; k < points.corners; ++k)
+  {
+    points.c[k] = surface.points[facet.corners[k]];
+  }
+  for (int k = 0; k < edgesOf(surface.kind, facet); ++k)
+  {
+    points.m[k] = middles[facet.edges[k]];
+  }
+  if (facet.quad >= 0)
+  {
+    points.middle = middles[surface.edges.size() + facet.quad].point;
+  }
+  return points;
+}
+
+double cancelledAt(const FacetPoints& facet)
+{
+  const auto& [corners, c, m, middle] = facet;
+  return (corners == 2 ? bothSidesOf(c[0], c[1], m[0]) : bothSidesOf(facet)).cancelled();
+}
+
 /// Of one level.
 FacetError errorOf(const ClassifiedSurface& surface, const std::vector<ClosestPoint>& midpoints,
   const std::vector<SurfacePoint>& middles, const SurfaceFacet& facet)
 {
   FacetError error;
-  FacetPoints points;
-  points.corners = cornersOf(surface.kind, facet);
-  auto& [corners, c, m, middle] = points;
+  const FacetPoints points = pointsOf(surface, middles, facet);
+  const auto& [corners, c, m, middle] = points;
   for (int k = 0; k < corners; ++k)
   {
-    c[k] = surface.points[facet.corners[k]];
     error.largestDistance = std::max(error.largestDistance, distance(c[k].point, c[k].place));
   }
   const auto meet = [&](std::size_t e)
@@ -210,20 +235,15 @@ FacetError errorOf(const ClassifiedSurface& surface, const std::vector<ClosestPo
   };
   for (int k = 0; k < edgesOf(surface.kind, facet); ++k)
   {
-    m[k] = middles[facet.edges[k]];
     meet(facet.edges[k]);
   }
   if (facet.quad >= 0)
   {
-    const std::size_t e = surface.edges.size() + facet.quad;
-    middle = middles[e].point;
-    meet(e);
+    meet(surface.edges.size() + facet.quad);
   }
   error.largestDistance = std::max(error.largestDistance, error.chordError);
-  const bool isSegment = surface.kind == BoundaryKind::Segments;
-  error.measure = isSegment ? areaBetween(c[0], c[1], m[0]) : volumeBetween(points);
+  error.measure = corners == 2 ? areaBetween(c[0], c[1], m[0]) : volumeBetween(points);
   error.lastLevel = error.measure;
-  error.cancelled = (isSegment ? bothSidesOf(c[0], c[1], m[0]) : bothSidesOf(points)).cancelled();
   return error;
 }
 
@@ -308,9 +328,9 @@ ClassifiedSurface subdivide(
 }
 
 std::vector<FacetError> errorsOf(const ClassifiedSurface& surface,
-  const std::vector<ClosestPoint>& midpoints, int depth, const ProjectMidpoints& project)
+  const std::vector<ClosestPoint>& midpoints, const std::vector<SurfacePoint>& middles, int depth,
+  const ProjectMidpoints& project)
 {
-  const auto middles = newPoints(surface, midpoints);
   std::vector<FacetError> errors;
   errors.reserve(surface.facets.size());
   for (const SurfaceFacet& facet : surface.facets)
@@ -322,7 +342,9 @@ std::vector<FacetError> errorsOf(const ClassifiedSurface& surface,
     return errors;
   }
   const ClassifiedSurface children = subdivide(surface, middles);
-  const auto ofChildren = errorsOf(children, project(children.allEdges()), depth - 1, project);
+  const auto ofEdges = project(children.allEdges());
+  const auto ofChildren =
+    errorsOf(children, ofEdges, newPoints(children, ofEdges), depth - 1, project);
   auto child = ofChildren.begin();
   for (FacetError& error : errors)
   {
@@ -458,10 +480,12 @@ std::vector<FacetError> geometricErrors(const ClassifiedSurface& surface,
     }
     points.clear();
     edges.clear();
-    for (FacetError error : errorsOf(part, midpointsOfPart, depth, project))
+    const auto middles = newPoints(part, midpointsOfPart);
+    const auto ofPart = errorsOf(part, midpointsOfPart, middles, depth, project);
+    for (std::size_t f = 0; f < ofPart.size(); ++f)
     {
-      error.measure += error.cancelled;
-      errors.push_back(error);
+      errors.push_back(ofPart[f]);
+      errors.back().measure += cancelledAt(pointsOf(part, middles, part.facets[f]));
     }
   }
   return errors;

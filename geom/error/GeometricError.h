@@ -19,8 +19,6 @@ struct FacetError
   double chordError = 0;
   double largestDistance = 0; ///< The same over the edges of its children too.
   double lastLevel = 0;       ///< What the last level of the recursion has added to `measure`.
-  /// Part of `measure`: what signs lose where facet and CAD cross, and on saddles.
-  double cancelled = 0;
 };
 
 /// The measure at the end of all levels, if each adds a quarter of the one before, as on smooth

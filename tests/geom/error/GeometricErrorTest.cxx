@@ -262,19 +262,22 @@ TEST(PlaneError, isZero)
   EXPECT_LT(error.largestDistance, 1e-15);
 }
 
-/// Places on z = x^2 - y^2.
-std::vector<ClosestPoint> placesOnSaddle(const std::vector<BoundaryEdge>& edges)
+/// Places on the CAD z = height(x, y).
+auto placesOn(double (*height)(double, double))
 {
-  std::vector<ClosestPoint> places;
-  for (const BoundaryEdge& edge : edges)
+  return [=](const std::vector<BoundaryEdge>& edges)
   {
-    const Point3 middle = 0.5 * (edge.points[0] + edge.points[1]);
-    ClosestPoint& place = places.emplace_back();
-    place.entity = { 2, 0 };
-    place.point = { middle[0], middle[1], middle[0] * middle[0] - middle[1] * middle[1] };
-    place.distance = distance(place.point, middle);
-  }
-  return places;
+    std::vector<ClosestPoint> places;
+    for (const BoundaryEdge& edge : edges)
+    {
+      const Point3 middle = 0.5 * (edge.points[0] + edge.points[1]);
+      ClosestPoint& place = places.emplace_back();
+      place.entity = { 2, 0 };
+      place.point = { middle[0], middle[1], height(middle[0], middle[1]) };
+      place.distance = distance(place.point, middle);
+    }
+    return places;
+  };
 }
 
 /// One facet, or a quadrilateral, whose corners are at these places on the CAD, or above them.
@@ -305,10 +308,10 @@ ClassifiedSurface surfaceOfOne(
   return surface;
 }
 
-double errorOnSaddle(const ClassifiedSurface& surface, int depth)
+double errorOn(double (*height)(double, double), const ClassifiedSurface& surface, int depth)
 {
-  return geometricErrors(surface, placesOnSaddle(surface.allEdges()), depth, 1, placesOnSaddle)[0]
-    .measure;
+  const auto project = placesOn(height);
+  return geometricErrors(surface, project(surface.allEdges()), depth, 1, project)[0].measure;
 }
 
 /// Over a triangle along both axes z = x^2 - y^2 is as much above the facet as below it: the
@@ -318,33 +321,18 @@ TEST(SaddleError, countsBothSides)
 {
   const ClassifiedSurface surface =
     surfaceOfOne({ { 0, 0, 0 }, { 1, 0, 1 }, { 0, 1, -1 } }, { 0, 0, 0 });
+  const auto saddle = [](double x, double y) { return x * x - y * y; };
   for (int depth = 1; depth <= 5; ++depth)
   {
-    EXPECT_NEAR(errorOnSaddle(surface, depth), 1.0 / 24, 1e-12) << depth;
+    EXPECT_NEAR(errorOn(saddle, surface, depth), 1.0 / 24, 1e-12) << depth;
   }
 }
 
 /// A facet through the CAD z = 0, or a segment: on either side of the line where they cross.
 TEST(CrossingError, countsBothSides)
 {
-  const auto onPlane = [](const std::vector<BoundaryEdge>& edges)
-  {
-    std::vector<ClosestPoint> places;
-    for (const BoundaryEdge& edge : edges)
-    {
-      const Point3 middle = 0.5 * (edge.points[0] + edge.points[1]);
-      ClosestPoint& place = places.emplace_back();
-      place.entity = { 2, 0 };
-      place.point = { middle[0], middle[1], 0 };
-      place.distance = std::abs(middle[2]);
-    }
-    return places;
-  };
-  const auto error = [&](const std::vector<Point3>& places, const std::vector<double>& heights)
-  {
-    const ClassifiedSurface surface = surfaceOfOne(places, heights);
-    return geometricErrors(surface, onPlane(surface.allEdges()), 1, 1, onPlane)[0].measure;
-  };
+  const auto error = [](const std::vector<Point3>& places, const std::vector<double>& heights)
+  { return errorOn([](double, double) { return 0.0; }, surfaceOfOne(places, heights), 1); };
   // Two triangles with heights 1 and 1 at half of the length each.
   EXPECT_NEAR(error({ { 0, 0, 0 }, { 2, 0, 0 } }, { 1, -1 }), 1, 1e-12);
   EXPECT_NEAR(error({ { 0, 0, 0 }, { 2, 0, 0 } }, { 1, 1 }), 2, 1e-12);
