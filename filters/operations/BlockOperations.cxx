@@ -337,6 +337,7 @@ OperationTrace operateOnBlocks(RankExchange& exchange, DistributedMesh& mesh,
       classification.distances[vertex] = distance(mesh.mesh().points[vertex], where.point);
     }
   }
+  trace.onBoundary = maker.onBoundary();
   trace.keptVertices = usedVertices(mesh.mesh());
   dropVertices(exchange, trace.keptVertices, mesh, classification);
   return trace;

@@ -65,9 +65,10 @@ struct OperationTask
 struct OperationTrace
 {
   RefinementTrace cells;
-  std::vector<Index> keptVertices;
-  std::int64_t operations = 0; ///< Over all ranks.
-  double seconds = 0;          ///< Of the task's work, on this rank, of all threads together.
+  std::vector<unsigned char> onBoundary; ///< Of new vertices.
+  std::vector<Index> keptVertices;       ///< Of the old and the new ones.
+  std::int64_t operations = 0;           ///< Over all ranks.
+  double seconds = 0; ///< Of the task's work, on this rank, of all threads together.
 };
 
 /// Works on the cells of each block (see improveCells), with the vertices that it shares with

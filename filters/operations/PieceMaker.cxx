@@ -100,6 +100,7 @@ void PieceMaker::add(const BlockMesh& block, const std::vector<AddedVertex>& add
     }
     parents_.push_back(ends);
     places_.push_back(vertex.where);
+    onBoundary_.push_back(vertex.onBoundary);
     blocks_.push_back(number);
   }
   const auto firstRow = static_cast<Index>(rows_.ofCells.size());

@@ -40,6 +40,7 @@ public:
 
   /// Of the new vertices, in the order of their numbers.
   const std::vector<ClosestPoint>& places() const { return places_; }
+  const std::vector<unsigned char>& onBoundary() const { return onBoundary_; }
   const std::vector<std::int64_t>& blocks() const { return blocks_; }
 
   /// With all vertices, also those that no cell has any more; no ids of new ones. Writes where
@@ -56,6 +57,7 @@ private:
   std::vector<Point3> points_;
   std::vector<std::array<Index, 2>> parents_;
   std::vector<ClosestPoint> places_;
+  std::vector<unsigned char> onBoundary_;
   std::vector<std::int64_t> blocks_;
   std::vector<Descendant<4>> tetrahedra_;
   std::vector<Descendant<3>> triangles_;

@@ -34,6 +34,7 @@ constexpr double aim = 0.3;
 /// Cells are cut so many times at most, for so many new cells for each bad one that is gone, or for
 /// one new cell in so many.
 constexpr int maximumCuts = 8;
+constexpr int mostTries = 2;
 constexpr std::int64_t newCellsForOne = 200;
 constexpr std::int64_t cellsForOneNew = 100;
 /// Where no vertex is off the CAD, there are so many times as many cells at most, or so many, and
@@ -68,24 +69,9 @@ public:
     }
     Left left = operateInRounds();
     const std::int64_t mostCells = std::max(largestGrowth * left.cells, fewCells);
-    for (int cut = 0; cut < maximumCuts && mayCut(left); ++cut)
+    for (int cut = 0; cut < maximumCuts && mayCut(left) && cutUntilWorthwhile(left, mostCells);
+         ++cut)
     {
-      const Backup before(state_);
-      Left now = left;
-      int tries = 0;
-      for (; tries < 2 && !now.isWorthwhile(left, mostCells) && mayCut(now) && cutBad(now); ++tries)
-      {
-        now = operateInRounds();
-      }
-      if (!now.isWorthwhile(left, mostCells))
-      {
-        if (tries > 0)
-        {
-          before.restore(state_);
-        }
-        return;
-      }
-      left = now;
     }
   }
 
@@ -98,6 +84,10 @@ private:
     std::int64_t cells = 0; ///< All there are.
 
     std::int64_t count() const { return verticesOff + badCells; }
+    bool operator==(const Left& other) const
+    {
+      return verticesOff == other.verticesOff && badCells == other.badCells && cells == other.cells;
+    }
     /// Else the minimum is more than the mesh can have: cutting would go on in all of it.
     bool areFewBad() const { return badCells > 0 && badCells <= cells / cellsForOneBad; }
     /// Whether it is so much less than before that it is worth the new cells.
@@ -171,6 +161,29 @@ private:
     }
   }
 
+  /// Cuts until less is left, worth the new cells; where that does not come, the mesh is as it was.
+  bool cutUntilWorthwhile(Left& left, std::int64_t mostCells)
+  {
+    const Backup before(state_);
+    Left now = left;
+    for (int tries = 0; tries < mostTries && mayCut(now); ++tries)
+    {
+      cutBad();
+      const Left last = std::exchange(now, operateInRounds());
+      if (now.isWorthwhile(left, mostCells))
+      {
+        left = now;
+        return true;
+      }
+      if (now == last)
+      {
+        break; // operations take back what is cut
+      }
+    }
+    before.restore(state_);
+    return false;
+  }
+
   /// Whether cells may be cut. Beside other cells than simplices these would be cut too.
   bool mayCut(const Left& left)
   {
@@ -179,22 +192,8 @@ private:
            !exchange_.any(mesh().hasOtherThanSimplices());
   }
 
-  /// Whether edges of the boundary off the CAD would be cut. Collective.
-  bool reachesWalls(const RefinementPlan& plan)
-  {
-    const auto codes = edgeCodes(exchange_, plan, boundaryOf(context_, state_));
-    bool reaches = false;
-    for (std::size_t e = 0; e < codes.size(); ++e)
-    {
-      reaches = reaches || (plan.marks[e] && codes[e] != 0 &&
-                             classOfCode(codes[e]).kind == EdgeClass::Straight);
-    }
-    return exchange_.any(reaches);
-  }
-
-  /// Bisects cells that are badly shaped and those at vertices off the CAD; for the former alone
-  /// not so that the boundary off the CAD gets new vertices. Returns whether that was done.
-  bool cutBad(const Left& left)
+  /// Bisects cells that are badly shaped and those at vertices off the CAD.
+  void cutBad()
   {
     exchange_.progress().say(1, "cutting cells that operations do not help");
     const auto& distances = state_.classification->distances;
@@ -210,13 +209,8 @@ private:
       marks[cell] = 1;
     }
     RefinementPlan plan = planLongestEdge(exchange_, state_.mesh, marks, nullptr, true);
-    if (left.verticesOff == 0 && reachesWalls(plan))
-    {
-      return false;
-    }
     plan.withOperations = true;
     cut(context_, state_, plan, NewVertices::MoveOntoCAD);
-    return true;
   }
 
   Mesh& mesh() { return state_.mesh.mesh(); }

@@ -54,16 +54,14 @@ ClassifiedBoundary boundaryAt(const PipelineContext& context, const MeshState& s
     context.exchange, state.mesh, context.model, *state.classification, state.cache, flags);
 }
 
-/// Those of the vertices that are left; new ones on the boundary are on the CAD.
-std::vector<unsigned char> flagsOfKept(const std::vector<unsigned char>& flags,
-  const std::vector<Index>& kept, const std::vector<EntityId>& entities)
+/// Those of the vertices that are left, of old and new ones.
+std::vector<unsigned char> flagsOfKept(const std::vector<unsigned char>& ofOld,
+  const std::vector<unsigned char>& ofNew, const std::vector<Index>& kept)
 {
+  const auto oldCount = static_cast<Index>(ofOld.size());
   std::vector<unsigned char> result(kept.size());
-  for (std::size_t i = 0; i < kept.size(); ++i)
-  {
-    const auto vertex = static_cast<std::size_t>(kept[i]);
-    result[i] = vertex < flags.size() ? flags[vertex] : static_cast<bool>(entities[i]);
-  }
+  std::transform(kept.begin(), kept.end(), result.begin(),
+    [&](Index vertex) { return vertex < oldCount ? ofOld[vertex] : ofNew[vertex - oldCount]; });
   return result;
 }
 
@@ -103,7 +101,7 @@ std::int64_t operate(const PipelineContext& context, MeshState& state,
   {
     return 0;
   }
-  state.onBoundary = flagsOfKept(onBoundary, trace.keptVertices, state.classification->entities);
+  state.onBoundary = flagsOfKept(onBoundary, trace.onBoundary, trace.keptVertices);
   meshHasChanged(state);
   const std::size_t done = state.mapping.stageCount();
   state.mapping.refine(std::move(trace.cells));

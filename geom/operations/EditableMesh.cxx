@@ -62,6 +62,29 @@ void SimplexStore<Corners>::remove(Index simplex)
 }
 
 template<std::size_t Corners>
+void SimplexStore<Corners>::takeBack(std::size_t size, const std::vector<Index>& removed)
+{
+  for (std::size_t s = size; s < simplices_.size(); ++s)
+  {
+    if (exists_[s])
+    {
+      remove(static_cast<Index>(s));
+    }
+  }
+  simplices_.erase(simplices_.begin() + static_cast<std::ptrdiff_t>(size), simplices_.end());
+  exists_.resize(size);
+  for (const Index simplex : removed)
+  {
+    exists_[simplex] = 1;
+    for (const Index vertex : simplices_[simplex].corners)
+    {
+      std::vector<Index>& list = at_[vertex]; // ascending
+      list.insert(std::lower_bound(list.begin(), list.end(), simplex), simplex);
+    }
+  }
+}
+
+template<std::size_t Corners>
 std::vector<Index> SimplexStore<Corners>::at(Index a, Index b) const
 {
   std::vector<Index> result;
@@ -338,6 +361,35 @@ void EditableMesh::replace(const Cavity& cavity)
   exchange(cells_, cavity.cells, cavity.newCells);
   exchange(facets_, cavity.facets, cavity.newFacets);
   exchange(segments_, cavity.segments, cavity.newSegments);
+}
+
+Cavity EditableMesh::takeBack(const Mark& mark, const std::vector<Cavity>& done)
+{
+  Cavity whole;
+  const auto gather = [&](auto& store, std::size_t size, auto removedOf, auto& removed, auto& added)
+  {
+    for (const Cavity& cavity : done)
+    {
+      const std::vector<Index>& list = cavity.*removedOf;
+      std::copy_if(list.begin(), list.end(), std::back_inserter(removed),
+        [&](Index simplex) { return static_cast<std::size_t>(simplex) < size; });
+    }
+    for (std::size_t s = size; s < store.size(); ++s)
+    {
+      if (store.exists(static_cast<Index>(s)))
+      {
+        added.push_back(store[static_cast<Index>(s)]);
+      }
+    }
+    store.takeBack(size, removed);
+  };
+  gather(cells_, mark.cells, &Cavity::cells, whole.cells, whole.newCells);
+  gather(facets_, mark.facets, &Cavity::facets, whole.facets, whole.newFacets);
+  gather(segments_, mark.segments, &Cavity::segments, whole.segments, whole.newSegments);
+  whole.sides.assign(kind_ == Kind::Solid ? 0 : whole.newFacets.size(), sideOf(whole.facets));
+  qualities_.resize(
+    std::min(qualities_.size(), kind_ == Kind::Solid ? cells_.size() : facets_.size()));
+  return whole;
 }
 
 } // namespace cadrefine

@@ -101,6 +101,8 @@ public:
 
   Index add(const Simplex& simplex);
   void remove(Index simplex);
+  /// Takes back what was done since there were `size`: those that came go, these that went come.
+  void takeBack(std::size_t size, const std::vector<Index>& removed);
   void addVertex() { at_.emplace_back(); }
 
   std::size_t size() const { return simplices_.size(); }
@@ -229,6 +231,17 @@ public:
 
   /// The numbers of the new cells are the last ones.
   void replace(const Cavity& cavity);
+
+  /// How many cells, facets and segments there have been so far.
+  struct Mark
+  {
+    std::size_t cells;
+    std::size_t facets;
+    std::size_t segments;
+  };
+  Mark mark() const { return { cells_.size(), facets_.size(), segments_.size() }; }
+  /// Takes back these replacements, all since the mark, and returns what they were together.
+  Cavity takeBack(const Mark& mark, const std::vector<Cavity>& done);
 
 private:
   Vector3 areaVector(const std::array<Index, 3>& facet) const;

@@ -6,6 +6,7 @@
 #include <cadrefine/operations/ParentCells.h>
 #include <cadrefine/operations/QualityCost.h>
 #include <cadrefine/operations/Relocation.h>
+#include <cadrefine/operations/SplitSwaps.h>
 #include <cadrefine/operations/TriangleOperations.h>
 
 #include <algorithm>
@@ -183,7 +184,11 @@ private:
       {
         considerMoveOnCAD(vertex);
       }
-      forEdges(corners, true, [&](Index a, Index b) { considerSplit(a, b); });
+      forEdges(corners, true, [&](Index a, Index b) { considerSplit(a, b, Dimension == 2); });
+    }
+    if (!best_.count && isBad && Dimension == 3)
+    {
+      forEdges(corners, true, [&](Index a, Index b) { considerSplit(a, b, true); });
     }
     return carryOut();
   }
@@ -495,7 +500,20 @@ private:
     return QualityCost::isGain(costOf(removedCells()), least);
   }
 
-  void considerSplit(Index a, Index b)
+  Cells<Dimension + 1> newCellsAtMiddle() const
+  {
+    Cells<Dimension + 1> corners;
+    for (const Cell& cell : newCells())
+    {
+      if (hasCorner(cell.corners, middle_))
+      {
+        corners.push_back(cell.corners);
+      }
+    }
+    return corners;
+  }
+
+  void considerSplit(Index a, Index b, bool withSwaps)
   {
     const EditableMesh::Vertex one = mesh_.vertex(a);
     const EditableMesh::Vertex other = mesh_.vertex(b);
@@ -503,15 +521,15 @@ private:
     {
       middle_ = mesh_.addVertex({});
     }
-    if (!proposeSplit(mesh_, a, b, middle_, cavity_) || !canGainBySplit())
+    if (!proposeSplit(mesh_, a, b, middle_, cavity_) || (!withSwaps && !canGainBySplit()))
     {
       return;
     }
     EditableMesh::Vertex vertex;
     vertex.point = 0.5 * (one.point + other.point);
     vertex.wanted = vertex.point;
-    AddedVertex added{ { a, b }, {} };
-    if (mesh_.touchesBoundary(cavity_))
+    AddedVertex added{ { a, b }, mesh_.touchesBoundary(cavity_), {} };
+    if (added.onBoundary && !(rule_ && rule_->isOffCAD(mesh_, a, b)))
     {
       added.where = rule_ ? rule_->placeOfMiddle(mesh_, a, b) : ClosestPoint{};
       if (!added.where.entity)
@@ -529,13 +547,14 @@ private:
     }
     const bool isOfOneLabel = std::all_of(newCells().begin(), newCells().end(),
       [&](const Cell& cell) { return cell.label == newCells().front().label; });
-    if (!mesh_.touchesBoundary(cavity_) && isOfOneLabel)
-    {
-      relocate(mesh_, middle_, cornersOf(newCells()));
-    }
-    if (Dimension == 2)
+    const bool mayMove = !added.onBoundary && isOfOneLabel;
+    if (withSwaps)
     {
       swapRoundMiddle(mesh_, middle_, cavity_);
+    }
+    if (mayMove)
+    {
+      relocate(mesh_, middle_, newCellsAtMiddle());
     }
     if (consider(true, &OperationCounts::splits))
     {

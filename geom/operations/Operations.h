@@ -45,7 +45,8 @@ bool proposeSplit(const EditableMesh& mesh, Index a, Index b, Index middle, Cavi
 struct AddedVertex
 {
   std::array<Index, 2> parents; ///< The ends of its edge.
-  ClosestPoint where;           ///< On the CAD; no entity: it is not there.
+  bool onBoundary = false;
+  ClosestPoint where; ///< On the CAD; no entity: it is not there.
 };
 
 /// How often each operation was done.

@@ -19,6 +19,9 @@ namespace
 /// Of the error before it is extrapolated, as where meshes are measured.
 constexpr int errorDepth = 2;
 
+/// Of distances from the CAD, in parts of them: on a fillet they are the same wherever a facet is.
+constexpr double distanceRounding = 1e-6;
+
 /// Of the turn of a facet's normal (40 degrees).
 const double turnCosine = ClassificationTolerances::cosineOfDegrees(40);
 
@@ -292,7 +295,8 @@ SurfaceRule::Fit SurfaceRule::fitAt(const EditableMesh& mesh, Index vertex) cons
 
 bool SurfaceRule::isAsGood(const Fit& fit, const Fit& before)
 {
-  return fit.distance <= before.distance && fit.cosine >= std::min(turnCosine, before.cosine);
+  return fit.distance <= (1 + distanceRounding) * before.distance &&
+         fit.cosine >= std::min(turnCosine, before.cosine);
 }
 
 /// Of the middles of these segments from the CAD, but for rounding, and of their ends from where
@@ -364,14 +368,27 @@ void SurfaceRule::widen(
   for (int k = 0; k < 3; ++k)
   {
     const int next = (k + 1) % 3;
-    const bool isOnFace = mesh.dimension() == 3 ||
-                          classOf(mesh, cavity, facet[k], facet[next]).kind == EdgeClass::Smooth;
+    const bool isOnFace = classOf(mesh, cavity, facet[k], facet[next]).kind == EdgeClass::Smooth;
     lookAt(0.5 * (p[k] + p[next]), isOnFace);
     if (mesh.dimension() == 2)
     {
       fit.distance = std::max(fit.distance, distance(mesh.vertex(facet[k]).point, p[k]));
     }
   }
+}
+
+bool SurfaceRule::isOffCAD(const EditableMesh& mesh, Index a, Index b) const
+{
+  const Index segment = mesh.segmentOf(a, b);
+  if (segment >= 0 && mesh.segments()[segment].edgeClass.kind != EdgeClass::Straight)
+  {
+    return false;
+  }
+  const std::vector<Index> facets = mesh.facets().at(a, b);
+  return mesh.kind() == EditableMesh::Kind::Solid
+           ? std::all_of(facets.begin(), facets.end(),
+               [&](Index facet) { return mesh.facets()[facet].label < 0; })
+           : segment >= 0 && mesh.plane() != Vector3{};
 }
 
 ClosestPoint SurfaceRule::placeOfMiddle(const EditableMesh& mesh, Index a, Index b) const

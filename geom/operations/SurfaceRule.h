@@ -41,8 +41,8 @@ public:
     /// Largest, of the middle of an edge or a centroid from the CAD; of a mesh of triangles also of
     /// a vertex from where it is wanted.
     double distance = 0;
-    /// Smallest, between a facet's normal and the CAD's at these points; of a mesh of triangles not
-    /// at middles of segments, where faces meet.
+    /// Smallest, between a facet's normal and the CAD's at these points, but for the middles of
+    /// segments, where faces meet.
     double cosine = 1;
   };
   /// Work: 4 projections a facet.
@@ -69,6 +69,9 @@ public:
   /// projections a facet.
   double errorGain(const EditableMesh& mesh, const Cavity& cavity) const;
 
+  /// Whether an edge is of the boundary off the CAD, or of something listed inside, alone: its
+  /// middle may be a vertex there.
+  bool isOffCAD(const EditableMesh& mesh, Index a, Index b) const;
   /// The place on the CAD of the middle of an edge of facets, between its ends where they are
   /// wanted; no entity where it cannot be told.
   ClosestPoint placeOfMiddle(const EditableMesh& mesh, Index a, Index b) const;

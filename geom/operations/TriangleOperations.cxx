@@ -70,60 +70,7 @@ bool mayBeBeyond(const EditableMesh& mesh, const Cavity& cavity)
            [&](const auto& facet) { return mayBeBeyond(mesh, facet); });
 }
 
-/// The facet beyond the edge opposite to a vertex that is not in the mesh yet, if the edge may be
-/// swapped; -1 otherwise.
-Index beyondEdge(const EditableMesh& mesh, const Cavity& cavity, Index a, Index b)
-{
-  if (mesh.segmentOf(a, b) >= 0 || mesh.areOnRim(a, b))
-  {
-    return -1;
-  }
-  const std::vector<Index> facets = mesh.facets().at(a, b);
-  const auto beyond = std::find_if(
-    facets.begin(), facets.end(), [&](Index facet) { return !contains(cavity.facets, facet); });
-  return beyond == facets.end() ? -1 : *beyond;
-}
-
-/// Swaps the edge of new facet f opposite to the vertex, if that gains.
-bool swapRoundMiddle(const EditableMesh& mesh, Index middle, Cavity& cavity, std::size_t f)
-{
-  const LabelledSimplex<3> facet = cavity.newFacets[f];
-  const auto k = std::find(facet.corners.begin(), facet.corners.end(), middle);
-  const Index a = facet.corners[(k - facet.corners.begin() + 1) % 3];
-  const Index b = facet.corners[(k - facet.corners.begin() + 2) % 3];
-  const Index beyond = beyondEdge(mesh, cavity, a, b);
-  const Index apex = beyond < 0 ? -1 : apexOf(mesh.facets()[beyond].corners, a, b);
-  const bool isThere = std::any_of(cavity.newFacets.begin(), cavity.newFacets.end(),
-    [&](const auto& other) { return hasCorner(other.corners, apex); });
-  if (beyond < 0 || isThere)
-  {
-    return false;
-  }
-  const std::array<Index, 3> first{ middle, a, apex };
-  const std::array<Index, 3> second{ middle, apex, b };
-  const double before =
-    std::min(mesh.quality(facet.corners), mesh.quality(mesh.facets()[beyond].corners));
-  if (std::min(mesh.quality(first), mesh.quality(second)) <= before)
-  {
-    return false;
-  }
-  cavity.facets.push_back(beyond);
-  cavity.newFacets[f] = { first, facet.label };
-  cavity.newFacets.push_back({ second, facet.label });
-  cavity.sides[f] = cavity.sides[f] + mesh.sideOf({ beyond });
-  cavity.sides.push_back(cavity.sides[f]);
-  return true;
-}
-
 } // namespace
-
-void swapRoundMiddle(const EditableMesh& mesh, Index middle, Cavity& cavity)
-{
-  for (std::size_t f = 0; f < cavity.newFacets.size();)
-  {
-    f += swapRoundMiddle(mesh, middle, cavity, f) ? 0 : 1;
-  }
-}
 
 bool proposeSwap(const EditableMesh& mesh, Index a, Index b, Cavity& cavity)
 {

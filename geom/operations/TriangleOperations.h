@@ -18,9 +18,4 @@ bool findSidesOfCollapse(const EditableMesh& mesh, Index from, Index to, Cavity&
 /// Of a cavity that a split has filled in.
 void findSidesOfSplit(const EditableMesh& mesh, Cavity& cavity);
 
-/// Swaps edges of the facets that a split with this vertex makes, which is where it is to be, with
-/// the facets beyond, as long as the worse of two gets better: where two CAD edges run beside each
-/// other, halving one alone makes worse cells.
-void swapRoundMiddle(const EditableMesh& mesh, Index middle, Cavity& cavity);
-
 } // namespace cadrefine

@@ -18,6 +18,7 @@ cadrefine_geom_test(method_tests
     operations/ImprovementTest.cxx
     operations/OperationsTest.cxx
     operations/QualityCostTest.cxx
+    operations/SplitSwapsTest.cxx
     operations/SurfaceRuleTest.cxx
     operations/TriangleImprovementTest.cxx
     operations/TriangleOperationsTest.cxx

@@ -4,6 +4,7 @@
 
 #include <cadrefine/mesh/Quality.h>
 #include <cadrefine/operations/Operations.h>
+#include <cadrefine/operations/SplitSwaps.h>
 #include <cadrefine/operations/TriangleOperations.h>
 
 #include <gtest/gtest.h>

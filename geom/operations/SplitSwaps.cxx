@@ -1,0 +1,73 @@
+#include <cadrefine/operations/SplitSwaps.h>
+
+#include <cadrefine/operations/Operations.h>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace cadrefine
+{
+namespace
+{
+
+/// The removal of an edge opposite to a vertex whose new cells are the best.
+template<int Dimension>
+bool findSwap(const EditableMesh& mesh, Index middle, Cavity& best)
+{
+  const SimplexStore<Dimension + 1>& cells = mesh.cellsOf<Dimension>();
+  double bestQuality = -std::numeric_limits<double>::infinity();
+  Cavity cavity;
+  const auto consider = [&](Index a, Index b)
+  {
+    if (!proposeEdgeRemoval(mesh, a, b, cavity))
+    {
+      return;
+    }
+    double worst = std::numeric_limits<double>::infinity();
+    for (const auto& cell : cavity.newCellsOf<Dimension>())
+    {
+      worst = std::min(worst, mesh.quality(cell.corners));
+    }
+    if (worst > bestQuality && worst > mesh.worst(cavity.cellsOf<Dimension>()) &&
+        mesh.isValid(cavity))
+    {
+      bestQuality = worst;
+      best = cavity;
+    }
+  };
+  for (const Index cell : cells.at(middle))
+  {
+    const auto& corners = cells[cell].corners;
+    for (std::size_t i = 0; i < corners.size(); ++i)
+    {
+      for (std::size_t j = i + 1; j < corners.size(); ++j)
+      {
+        if (corners[i] != middle && corners[j] != middle)
+        {
+          consider(corners[i], corners[j]);
+        }
+      }
+    }
+  }
+  return bestQuality > -std::numeric_limits<double>::infinity();
+}
+
+} // namespace
+
+void swapRoundMiddle(EditableMesh& mesh, Index middle, Cavity& cavity)
+{
+  const EditableMesh::Mark mark = mesh.mark();
+  std::vector<Cavity> done{ std::move(cavity) };
+  mesh.replace(done.back());
+  Cavity swap;
+  while (mesh.dimension() == 3 ? findSwap<3>(mesh, middle, swap) : findSwap<2>(mesh, middle, swap))
+  {
+    mesh.replace(swap);
+    done.push_back(std::move(swap));
+  }
+  cavity = mesh.takeBack(mark, done);
+}
+
+} // namespace cadrefine
