@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <iterator>
 #include <numeric>
+#include <sstream>
 #include <string>
 #include <utility>
 
@@ -133,12 +134,18 @@ void orderStacks(RankExchange& exchange, const Mesh& mesh, RefinementPlan& plan)
   stacks.writeTo(plan.table);
 }
 
-[[noreturn]] void complainOfBadCut(const DistributedMesh& mesh, Index cell)
+template<std::size_t Corners>
+[[noreturn]] void complainOfBadCut(
+  const DistributedMesh& mesh, Index cell, const std::array<Index, Corners>& corners)
 {
-  throw Error(
-    "the cell with the id " + std::to_string(mesh.converted.cellIds[mesh.mesh().dimension][cell]) +
-    " is too distorted to be cut into valid cells; improve the mesh there, or refine only "
-    "other cells");
+  std::ostringstream reason;
+  const Point3& place = mesh.mesh().points[corners[0]];
+  reason << "the cell with the id " << mesh.converted.cellIds[mesh.mesh().dimension][cell]
+         << ", with " << Corners << " vertices, at (" << place[0] << ", " << place[1] << ", "
+         << place[2]
+         << "), is too distorted to be cut into valid cells; improve the mesh there, or refine "
+            "only other cells";
+  throw Error(reason.str());
 }
 
 /// Marks all edges of cells that would be cut badly. Returns whether there are any. Throws Error
@@ -162,7 +169,7 @@ bool markBadlyCut(RankExchange& exchange, const DistributedMesh& mesh, Refinemen
             if (std::all_of(
                   edges.begin(), edges.end(), [&](Index edge) { return plan.marks[edge] != 0; }))
             {
-              complainOfBadCut(mesh, static_cast<Index>(first) + cell);
+              complainOfBadCut(mesh, static_cast<Index>(first) + cell, cells[cell]);
             }
             toMark.insert(toMark.end(), edges.begin(), edges.end());
           }

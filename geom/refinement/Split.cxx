@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 #include <type_traits>
 #include <utility>
 
@@ -223,6 +224,11 @@ void appendChildren(std::size_t children, std::vector<Index>& firsts)
   firsts.push_back(static_cast<Index>(total));
 }
 
+std::optional<int> partingDiagonalOf(const Mesh& mesh, const std::array<Index, 5>& pyramid)
+{
+  return partingDiagonal(cornersOf(pyramid, mesh.points));
+}
+
 /// Of simplices and cells of lower dimension.
 ChildRanges countPartsOfSimplices(const Mesh& mesh, const EdgeTable& table, const EdgeMarks& marks)
 {
@@ -313,9 +319,16 @@ ChildRanges countUniformChildren(const Mesh& mesh)
     visitShapes(mesh, 3,
       [&](auto shape, const auto& cells)
       {
-        for (std::size_t c = 0; c < cells.size(); ++c)
+        for (const auto& cell : cells)
         {
-          count.add(std::is_same_v<decltype(shape), shapes::Pyramid> ? 10 : 8);
+          if constexpr (std::is_same_v<decltype(shape), shapes::Pyramid>)
+          {
+            count.add(partingDiagonalOf(mesh, cell) ? childrenOfPartedPyramid : childrenOfPyramid);
+          }
+          else
+          {
+            count.add(8);
+          }
         }
       });
     firsts[3] = count.finish();
@@ -364,8 +377,8 @@ std::vector<Index> cellsCutBadly(const Mesh& mesh, const EdgeTable& table, const
     for (std::size_t c = 0; c < mesh.pyramids.size(); ++c)
     {
       splitPyramidUniformly(mesh.pyramids[c], midpointsOf(table.ofPyramids[c], midpoints.ofEdge),
-        midpointsOf(quads.ofPyramids[c], midpoints.ofQuad)[0], children.pyramids,
-        children.tetrahedra);
+        midpointsOf(quads.ofPyramids[c], midpoints.ofQuad)[0],
+        partingDiagonalOf(mesh, mesh.pyramids[c]), children.pyramids, children.tetrahedra);
       look(static_cast<Index>(mesh.tetrahedra.size() + c));
     }
   }
@@ -408,7 +421,8 @@ SplitMesh splitUniformly(const Mesh& mesh, const EdgeTable& table, const QuadTab
   for (std::size_t c = 0; c < mesh.pyramids.size(); ++c)
   {
     splitPyramidUniformly(mesh.pyramids[c], onEdges(table.ofPyramids[c]),
-      inQuads(quads.ofPyramids[c])[0], fine.pyramids, fine.tetrahedra);
+      inQuads(quads.ofPyramids[c])[0], partingDiagonalOf(mesh, mesh.pyramids[c]), fine.pyramids,
+      fine.tetrahedra);
     numbering.take();
   }
   reserveLong(fine.wedges, 8 * mesh.wedges.size());

@@ -1,5 +1,10 @@
 #include <cadrefine/refinement/UniformCutting.h>
 
+#include <cadrefine/mesh/CellState.h>
+#include <cadrefine/mesh/Orientation.h>
+#include <cadrefine/mesh/Quality.h>
+
+#include <algorithm>
 #include <utility>
 
 namespace cadrefine
@@ -75,15 +80,61 @@ void splitTetrahedronUniformly(const Mesh& mesh, const std::array<Index, 4>& v,
   }
 }
 
+std::optional<int> partingDiagonal(const std::array<Point3, 5>& corners)
+{
+  const Point3 base = centroidOf({ corners[0], corners[1], corners[2], corners[3] }, 4);
+  std::array<Point3, 4> inner;
+  std::transform(corners.begin(), corners.end() - 1, inner.begin(),
+    [&](const Point3& corner) { return 0.5 * (corner + corners[4]); });
+  const auto& [a, b, c, d] = inner;
+  if (stateAt(shapes::Pyramid{}, { a, d, c, b, base }).valid)
+  {
+    return std::nullopt;
+  }
+  // On a tie the one with the smallest end: the choice is that of the points alone.
+  const auto isBefore = [](const Point3& p, const Point3& q, const Point3& r, const Point3& s)
+  {
+    const double first = squaredNorm(q - p);
+    const double second = squaredNorm(s - r);
+    return first != second ? first < second : std::min(p, q) < std::min(r, s);
+  };
+  const int shorter = isBefore(a, c, b, d) ? 0 : 1;
+  for (const int k : { shorter, 1 - shorter })
+  {
+    const Point3& next = inner[k + 1];
+    const Point3& last = inner[(k + 3) % 4];
+    if (isPositive(inner[k], inner[k + 2], next, base) &&
+        isPositive(inner[k], last, inner[k + 2], base))
+    {
+      return k;
+    }
+  }
+  return std::nullopt;
+}
+
 void splitPyramidUniformly(const std::array<Index, 5>& v, const std::array<Index, 8>& m, Index base,
-  Cells<5>& pyramids, Cells<4>& tetrahedra)
+  std::optional<int> diagonal, Cells<5>& pyramids, Cells<4>& tetrahedra)
 {
   pyramids.push_back({ v[0], m[0], base, m[3], m[4] });
   pyramids.push_back({ m[0], v[1], m[1], base, m[5] });
   pyramids.push_back({ base, m[1], v[2], m[2], m[6] });
   pyramids.push_back({ m[3], base, m[2], v[3], m[7] });
-  pyramids.push_back({ m[4], m[5], m[6], m[7], v[4] });
-  pyramids.push_back({ m[4], m[7], m[6], m[5], base });
+  if (diagonal)
+  {
+    const Index from = m[4 + *diagonal];
+    const Index next = m[5 + *diagonal];
+    const Index to = m[6 + *diagonal];
+    const Index last = m[4 + (*diagonal + 3) % 4];
+    tetrahedra.push_back({ from, next, to, v[4] });
+    tetrahedra.push_back({ from, to, last, v[4] });
+    tetrahedra.push_back({ from, to, next, base });
+    tetrahedra.push_back({ from, last, to, base });
+  }
+  else
+  {
+    pyramids.push_back({ m[4], m[5], m[6], m[7], v[4] });
+    pyramids.push_back({ m[4], m[7], m[6], m[5], base });
+  }
   for (int k = 0; k < 4; ++k)
   {
     tetrahedra.push_back({ m[k], base, m[4 + k], m[4 + (k + 1) % 4] });

@@ -218,6 +218,39 @@ TEST_P(MixedSplit, uniformLevelsAreSound)
   }
 }
 
+/// Upside down over a base like a dart, one corner of which lies deeper than the others, a pyramid
+/// is inverted.
+TEST(PyramidSplit, partsWhatWouldBeInverted)
+{
+  Mesh mesh;
+  mesh.points = { { -0.617, 0.213, -0.474 }, { -0.262, 0.213, -0.474 }, { -0.431, 0, -0.519 },
+    { -0.615, -0.203, -0.478 }, { -0.493, 0.066, -0.583 } };
+  mesh.ids = { 0, 1, 2, 3, 4 };
+  const double volume = [&]
+  {
+    mesh.pyramids = { { 0, 1, 2, 3, 4 } };
+    return cadtest::measureOf(mesh);
+  }();
+  CellsByPlace expected;
+  for (int turn = 0; turn < 4; ++turn)
+  {
+    ASSERT_TRUE(cadtest::isValid(mesh));
+    const EdgeTable table = buildEdgeTable(mesh);
+    const EdgeMarks marks(table.edges.size(), 1);
+    EXPECT_TRUE(cellsCutBadly(mesh, table, buildQuadTable(table), marks, true).empty());
+    const SplitMesh split = uniformly(mesh);
+    EXPECT_EQ(split.mesh.pyramids.size(), 4u);
+    EXPECT_EQ(split.mesh.tetrahedra.size(), 8u);
+    EXPECT_EQ(split.firstChildren[3], (std::vector<Index>{ 0, 12 }));
+    EXPECT_TRUE(cadtest::isValid(split.mesh));
+    EXPECT_NEAR(cadtest::measureOf(split.mesh), volume, 1e-15);
+    expected = turn == 0 ? byPlace(split.mesh) : expected;
+    EXPECT_EQ(byPlace(split.mesh), expected) << "whichever corner is the first";
+    auto& [a, b, c, d, apex] = mesh.pyramids[0];
+    mesh.pyramids[0] = { b, c, d, a, apex };
+  }
+}
+
 /// Children, in the order in which they are named, fill their parents.
 TEST_P(MixedSplit, namesChildrenOfEachCell)
 {
