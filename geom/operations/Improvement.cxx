@@ -2,9 +2,9 @@
 
 #include <cadrefine/mesh/Quality.h>
 #include <cadrefine/operations/FailedAttempts.h>
+#include <cadrefine/operations/ImprovementRule.h>
 #include <cadrefine/operations/Operations.h>
 #include <cadrefine/operations/ParentCells.h>
-#include <cadrefine/operations/QualityCost.h>
 #include <cadrefine/operations/Relocation.h>
 #include <cadrefine/operations/SplitSwaps.h>
 #include <cadrefine/operations/TriangleOperations.h>
@@ -44,7 +44,7 @@ public:
   using Cell = LabelledSimplex<Dimension + 1>;
 
   Improver(EditableMesh& mesh, const SurfaceRule* rule, const ImprovementLimits& limits)
-    : mesh_(mesh), rule_(rule), limits_(limits), cost_(limits.floor)
+    : mesh_(mesh), rule_(rule), limits_(limits), judge_(mesh, rule, limits)
   {
   }
 
@@ -206,50 +206,6 @@ private:
     }
   }
 
-  double costOf(const std::vector<Index>& numbers) const
-  {
-    double cost = 0;
-    for (const Index number : numbers)
-    {
-      cost += cost_.of(mesh_.qualityOf(number));
-    }
-    return cost;
-  }
-
-  /// The least cost of a cell over the face of this one that is opposite to one of its vertices.
-  double leastCostOver(const Corners& corners, Index opposite) const
-  {
-    if constexpr (Dimension == 3)
-    {
-      const auto& face =
-        tetrahedronFaces[std::find(corners.begin(), corners.end(), opposite) - corners.begin()];
-      const auto at = [&](int k) -> const Point3& { return mesh_.vertex(corners[face[k]]).wanted; };
-      return cost_.of(largestMeanRatioOver(at(0), at(1), at(2)));
-    }
-    return 0;
-  }
-
-  /// The worst quality of some cells, and what they cost together.
-  struct State
-  {
-    double worst;
-    double cost;
-  };
-
-  /// Whether cells may be exchanged for others. Of triangles the worst one has to gain a hundredth
-  /// of what it lacks, or, if that is less, half of what it has: a narrow face of the CAD takes
-  /// many splits.
-  static bool gains(const State& before, const State& after)
-  {
-    if constexpr (Dimension == 3)
-    {
-      return after.worst >= before.worst && QualityCost::isGain(before.cost, after.cost);
-    }
-    const double least = 0.01 * (1 - before.worst);
-    return after.worst >
-           before.worst + (before.worst > 0 ? std::min(least, 0.5 * before.worst) : least);
-  }
-
   /// Whether the operation in the cavity is the best so far.
   bool consider(bool isPossible, Count count)
   {
@@ -257,53 +213,26 @@ private:
     {
       return false;
     }
-    const double worst = mesh_.worst(removedCells());
-    const double before = costOf(removedCells());
-    double newWorst = std::numeric_limits<double>::infinity();
-    double after = 0;
+    const GroupQuality before = judge_.qualityOf(removedCells());
+    GroupQuality after;
     for (const Cell& cell : newCells())
     {
-      newWorst = std::min(newWorst, mesh_.quality(cell.corners));
-      after += cost_.of(mesh_.quality(cell.corners));
-      if (newWorst <= best_.worst || !gains({ worst, before }, { newWorst, after }))
+      judge_.add(mesh_.quality(cell.corners), after);
+      if (after.worst <= best_.worst || !judge_.gains(before, after))
       {
         return false;
       }
     }
-    if (!mesh_.isValid(cavity_) || !keepsPresentQuality() || !keepsSurface())
+    if (!mesh_.isValid(cavity_) || !judge_.keepsPresentQuality(cavity_) ||
+        !judge_.keepsSurface(cavity_))
     {
       return false;
     }
     best_.cavity = cavity_;
-    best_.worst = newWorst;
+    best_.worst = after.worst;
     best_.count = count;
     best_.moved = -1;
     return true;
-  }
-
-  /// The worst of the cells where the vertices are, so far as that is bad: no operation may leave a
-  /// worse one, as vertices may never come to where they are wanted.
-  double worstPresent(const std::vector<Index>& cells) const
-  {
-    double worst = limits_.minimum;
-    for (const Index cell : cells)
-    {
-      worst = std::min(worst, mesh_.presentQuality(this->cells()[cell].corners));
-    }
-    return worst;
-  }
-
-  bool keepsPresentQuality() const
-  {
-    const double least = worstPresent(removedCells());
-    return std::all_of(newCells().begin(), newCells().end(),
-      [&](const Cell& cell) { return mesh_.presentQuality(cell.corners) >= least; });
-  }
-
-  bool keepsSurface() const
-  {
-    return !mesh_.touchesBoundary(cavity_) ||
-           (rule_ && rule_->accepts(mesh_, cavity_, limits_.surface));
   }
 
   /// Whether a vertex is inside the mesh: it may go anywhere.
@@ -380,29 +309,23 @@ private:
     }
     const std::vector<Index>& around = cells().at(vertex);
     const Cells<Dimension + 1> corners = cornersOf(copiesOf(around));
-    const double before = costOf(around);
-    double least = 0;
-    for (const Corners& cell : corners)
-    {
-      least += leastCostOver(cell, vertex);
-    }
-    if (!QualityCost::isGain(before, least))
+    const GroupQuality before = judge_.qualityOf(around);
+    if (!judge_.mayGain(before.cost, corners, vertex))
     {
       failed_.noteVertex(vertex);
       return;
     }
     const Point3 start = mesh_.vertex(vertex).point;
-    const double worst = mesh_.worst(around);
-    const double present = worstPresent(around);
+    const double present = judge_.worstPresent(around);
     const bool mayMove = move(corners);
-    const double newWorst = mesh_.worst(around);
-    if (!mayMove || !gains({ worst, before }, { newWorst, costOf(around) }))
+    const GroupQuality after = judge_.qualityOf(around);
+    if (!mayMove || !judge_.gains(before, after))
     {
       failed_.noteVertex(vertex);
     }
-    else if (newWorst > best_.worst && worstPresent(around) >= present)
+    else if (after.worst > best_.worst && judge_.worstPresent(around) >= present)
     {
-      best_.worst = newWorst;
+      best_.worst = after.worst;
       best_.count = &OperationCounts::moves;
       best_.moved = vertex;
       best_.place = mesh_.vertex(vertex).point;
@@ -469,18 +392,19 @@ private:
       return;
     }
     const std::vector<Index>& around = cells().at(from);
-    const double worst = mesh_.worst(around);
-    const double before = costOf(around);
-    double after = 0;
+    const GroupQuality before = judge_.qualityOf(around);
+    double cost = 0;
     for (const Index cell : around)
     {
       Corners corners = cells()[cell].corners;
       if (!hasCorner(corners, to))
       {
         std::replace(corners.begin(), corners.end(), from, to);
-        const double quality = mesh_.quality(corners);
-        after += cost_.of(quality);
-        if (quality <= best_.worst || !gains({ worst, before }, { quality, after }))
+        GroupQuality after;
+        after.cost = cost;
+        judge_.add(mesh_.quality(corners), after);
+        cost = after.cost;
+        if (after.worst <= best_.worst || !judge_.gains(before, after))
         {
           return;
         }
@@ -489,17 +413,7 @@ private:
     consider(proposeCollapse(mesh_, from, to, cavity_), &OperationCounts::collapses);
   }
 
-  /// Whether halves of the cells at an edge can be better, wherever its middle is.
-  bool canGainBySplit() const
-  {
-    double least = 0;
-    for (const Cell& half : newCells())
-    {
-      least += leastCostOver(half.corners, middle_);
-    }
-    return QualityCost::isGain(costOf(removedCells()), least);
-  }
-
+  /// The cells at the vertex of a split.
   Cells<Dimension + 1> newCellsAtMiddle() const
   {
     Cells<Dimension + 1> corners;
@@ -513,6 +427,7 @@ private:
     return corners;
   }
 
+  /// Without swaps where the faces that stay let halves of the cells be better.
   void considerSplit(Index a, Index b, bool withSwaps)
   {
     const EditableMesh::Vertex one = mesh_.vertex(a);
@@ -521,7 +436,9 @@ private:
     {
       middle_ = mesh_.addVertex({});
     }
-    if (!proposeSplit(mesh_, a, b, middle_, cavity_) || (!withSwaps && !canGainBySplit()))
+    if (!proposeSplit(mesh_, a, b, middle_, cavity_) ||
+        (!withSwaps &&
+          !judge_.mayGain(judge_.qualityOf(removedCells()).cost, newCellsAtMiddle(), middle_)))
     {
       return;
     }
@@ -566,7 +483,7 @@ private:
   EditableMesh& mesh_;
   const SurfaceRule* rule_;
   const ImprovementLimits limits_;
-  const QualityCost cost_;
+  const ImprovementRule<Dimension> judge_;
   Index middle_ = -1; ///< A vertex without cells.
   Cavity cavity_;
   Best best_;

@@ -2,19 +2,12 @@
 #pragma once
 
 #include <cadrefine/operations/EditableMesh.h>
+#include <cadrefine/operations/ImprovementRule.h>
 #include <cadrefine/operations/Operations.h>
 #include <cadrefine/operations/SurfaceRule.h>
 
 namespace cadrefine
 {
-
-/// Mean ratios of cells.
-struct ImprovementLimits
-{
-  double floor = 0.3;   ///< Cells below this, with their vertices where they are wanted, are tried.
-  double minimum = 0.1; ///< Edges of cells below this are split; below it none gets worse in place.
-  SurfaceLimits surface = {};
-};
 
 /// Operates on cells below a floor, the worst first. Of the removals of their edges and faces and
 /// the moves of their vertices inside the mesh, of triangles also along the CAD, it does the one
