@@ -296,7 +296,7 @@ SurfaceRule::Fit SurfaceRule::fitAt(const EditableMesh& mesh, Index vertex) cons
 bool SurfaceRule::isAsGood(const Fit& fit, const Fit& before)
 {
   return fit.distance <= (1 + distanceRounding) * before.distance &&
-         fit.cosine >= std::min(turnCosine, before.cosine);
+         fit.cosine >= std::min(ClassificationTolerances::fittingCosine, before.cosine);
 }
 
 /// Of the middles of these segments from the CAD, but for rounding, and of their ends from where

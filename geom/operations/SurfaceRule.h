@@ -50,14 +50,14 @@ public:
   /// Of the boundary at a vertex: facets, of a planar mesh segments, which have no normals.
   Fit fitAt(const EditableMesh& mesh, Index vertex) const;
   /// Whether a boundary that fits like this follows the CAD as well as it did before: no point is
-  /// farther away, and normals make no more than 40 degrees, or no more than before.
+  /// farther away, and normals make no more than 60 degrees, or no more than before.
   static bool isAsGood(const Fit& fit, const Fit& before);
 
   const BoundaryProjector& projector() const { return projector_; }
 
   /// Whether the new facets of a cavity follow the CAD as well as those before: each is classified
-  /// as on the CAD; its normal makes no more than 40 degrees with one of theirs, and with those of
-  /// the CAD at its centroid and the middles of its edges, unless theirs do; and none of these
+  /// as on the CAD; its normal makes no more than 40 degrees with one of theirs, and 60 with those
+  /// of the CAD at its centroid and the middles of its edges, unless theirs do; and none of these
   /// points is farther from the CAD than the limit, or than those of the facets before. Facets off
   /// the CAD stay, or stay in their planes. Of a planar mesh the same of the segments' directions
   /// and middles. Work: up to 4 projections a facet, 2 a segment, and that of errorGain.
