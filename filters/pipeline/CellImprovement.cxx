@@ -31,8 +31,8 @@ constexpr int maximumRounds = 6;
 constexpr int ringsOfCells = 3;
 /// Cells below this are operated on in the neighbourhood of those below the user's limit.
 constexpr double aim = 0.3;
-/// Cells are cut so many times at most, for so many new cells for each bad one that is gone, or for
-/// one new cell in so many.
+/// Cells are cut so many times at most, each time twice if once is not worth it, for so many new
+/// cells for each bad one that is gone, or for one new cell in so many.
 constexpr int maximumCuts = 8;
 constexpr int mostTries = 2;
 constexpr std::int64_t newCellsForOne = 200;

@@ -363,11 +363,17 @@ void EditableMesh::replace(const Cavity& cavity)
   exchange(segments_, cavity.segments, cavity.newSegments);
 }
 
-Cavity EditableMesh::takeBack(const Mark& mark, const std::vector<Cavity>& done)
+Cavity EditableMesh::takeBack(const std::vector<Cavity>& done)
 {
   Cavity whole;
-  const auto gather = [&](auto& store, std::size_t size, auto removedOf, auto& removed, auto& added)
+  const auto gather = [&](auto& store, auto removedOf, auto addedOf)
   {
+    std::size_t size = store.size(); // before
+    for (const Cavity& cavity : done)
+    {
+      size -= (cavity.*addedOf).size();
+    }
+    std::vector<Index>& removed = whole.*removedOf;
     for (const Cavity& cavity : done)
     {
       const std::vector<Index>& list = cavity.*removedOf;
@@ -378,14 +384,14 @@ Cavity EditableMesh::takeBack(const Mark& mark, const std::vector<Cavity>& done)
     {
       if (store.exists(static_cast<Index>(s)))
       {
-        added.push_back(store[static_cast<Index>(s)]);
+        (whole.*addedOf).push_back(store[static_cast<Index>(s)]);
       }
     }
     store.takeBack(size, removed);
   };
-  gather(cells_, mark.cells, &Cavity::cells, whole.cells, whole.newCells);
-  gather(facets_, mark.facets, &Cavity::facets, whole.facets, whole.newFacets);
-  gather(segments_, mark.segments, &Cavity::segments, whole.segments, whole.newSegments);
+  gather(cells_, &Cavity::cells, &Cavity::newCells);
+  gather(facets_, &Cavity::facets, &Cavity::newFacets);
+  gather(segments_, &Cavity::segments, &Cavity::newSegments);
   whole.sides.assign(kind_ == Kind::Solid ? 0 : whole.newFacets.size(), sideOf(whole.facets));
   qualities_.resize(
     std::min(qualities_.size(), kind_ == Kind::Solid ? cells_.size() : facets_.size()));

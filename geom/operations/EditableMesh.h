@@ -79,6 +79,18 @@ struct Cavity
     }
   }
   template<int Dimension>
+  std::vector<LabelledSimplex<Dimension + 1>>& newCellsOf()
+  {
+    if constexpr (Dimension == 3)
+    {
+      return newCells;
+    }
+    else
+    {
+      return newFacets;
+    }
+  }
+  template<int Dimension>
   const std::vector<LabelledSimplex<Dimension + 1>>& newCellsOf() const
   {
     if constexpr (Dimension == 3)
@@ -232,16 +244,8 @@ public:
   /// The numbers of the new cells are the last ones.
   void replace(const Cavity& cavity);
 
-  /// How many cells, facets and segments there have been so far.
-  struct Mark
-  {
-    std::size_t cells;
-    std::size_t facets;
-    std::size_t segments;
-  };
-  Mark mark() const { return { cells_.size(), facets_.size(), segments_.size() }; }
-  /// Takes back these replacements, all since the mark, and returns what they were together.
-  Cavity takeBack(const Mark& mark, const std::vector<Cavity>& done);
+  /// Takes back these replacements, the last ones, and returns what they were together.
+  Cavity takeBack(const std::vector<Cavity>& done);
 
 private:
   Vector3 areaVector(const std::array<Index, 3>& facet) const;

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace cadrefine
@@ -137,13 +138,13 @@ private:
     return copies;
   }
 
-  static Cells<Dimension + 1> cornersOf(const std::vector<Cell>& cells)
+  Cells<Dimension + 1> cornersOf(const std::vector<Index>& numbers) const
   {
     Cells<Dimension + 1> corners;
-    corners.reserve(cells.size());
-    for (const Cell& cell : cells)
+    corners.reserve(numbers.size());
+    for (const Index number : numbers)
     {
-      corners.push_back(cell.corners);
+      corners.push_back(cells()[number].corners);
     }
     return corners;
   }
@@ -308,7 +309,7 @@ private:
       return;
     }
     const std::vector<Index>& around = cells().at(vertex);
-    const Cells<Dimension + 1> corners = cornersOf(copiesOf(around));
+    const Cells<Dimension + 1> corners = cornersOf(around);
     const GroupQuality before = judge_.qualityOf(around);
     if (!judge_.mayGain(before.cost, corners, vertex))
     {
@@ -361,7 +362,7 @@ private:
   /// Gives the new cells the parents that they lie in.
   void replace(Cavity& cavity)
   {
-    for (Cell& cell : newCellsOf(cavity))
+    for (Cell& cell : cavity.newCellsOf<Dimension>())
     {
       if (cell.parent < 0)
       {
@@ -369,19 +370,7 @@ private:
       }
     }
     mesh_.replace(cavity);
-    failed_.noteChange(newCellsOf(cavity));
-  }
-
-  static std::vector<Cell>& newCellsOf(Cavity& cavity)
-  {
-    if constexpr (Dimension == 3)
-    {
-      return cavity.newCells;
-    }
-    else
-    {
-      return cavity.newFacets;
-    }
+    failed_.noteChange(cavity.newCellsOf<Dimension>());
   }
 
   /// What costs least comes first: whether cells get too bad, before what the corners tell.
@@ -393,17 +382,14 @@ private:
     }
     const std::vector<Index>& around = cells().at(from);
     const GroupQuality before = judge_.qualityOf(around);
-    double cost = 0;
+    GroupQuality after;
     for (const Index cell : around)
     {
       Corners corners = cells()[cell].corners;
       if (!hasCorner(corners, to))
       {
         std::replace(corners.begin(), corners.end(), from, to);
-        GroupQuality after;
-        after.cost = cost;
         judge_.add(mesh_.quality(corners), after);
-        cost = after.cost;
         if (after.worst <= best_.worst || !judge_.gains(before, after))
         {
           return;
@@ -430,8 +416,6 @@ private:
   /// Without swaps where the faces that stay let halves of the cells be better.
   void considerSplit(Index a, Index b, bool withSwaps)
   {
-    const EditableMesh::Vertex one = mesh_.vertex(a);
-    const EditableMesh::Vertex other = mesh_.vertex(b);
     if (middle_ < 0)
     {
       middle_ = mesh_.addVertex({});
@@ -442,21 +426,20 @@ private:
     {
       return;
     }
-    EditableMesh::Vertex vertex;
-    vertex.point = 0.5 * (one.point + other.point);
-    vertex.wanted = vertex.point;
     AddedVertex added{ { a, b }, mesh_.touchesBoundary(cavity_), {} };
-    if (added.onBoundary && !(rule_ && rule_->isOffCAD(mesh_, a, b)))
+    added.where.point = 0.5 * (mesh_.vertex(a).point + mesh_.vertex(b).point);
+    if (added.onBoundary)
     {
-      added.where = rule_ ? rule_->placeOfMiddle(mesh_, a, b) : ClosestPoint{};
-      if (!added.where.entity)
+      const auto place = rule_ ? rule_->placeOfMiddle(mesh_, a, b) : std::nullopt;
+      if (!place)
       {
         return;
       }
-      vertex.point = added.where.point;
-      vertex.wanted = added.where.point;
-      vertex.entity = added.where.entity;
+      added.where = *place;
     }
+    EditableMesh::Vertex vertex;
+    vertex.point = vertex.wanted = added.where.point;
+    vertex.entity = added.where.entity;
     mesh_.setVertex(middle_, vertex);
     if (!mesh_.isValid(cavity_))
     {

@@ -58,7 +58,6 @@ bool findSwap(const EditableMesh& mesh, Index middle, Cavity& best)
 
 void swapRoundMiddle(EditableMesh& mesh, Index middle, Cavity& cavity)
 {
-  const EditableMesh::Mark mark = mesh.mark();
   std::vector<Cavity> done{ std::move(cavity) };
   mesh.replace(done.back());
   Cavity swap;
@@ -67,7 +66,7 @@ void swapRoundMiddle(EditableMesh& mesh, Index middle, Cavity& cavity)
     mesh.replace(swap);
     done.push_back(std::move(swap));
   }
-  cavity = mesh.takeBack(mark, done);
+  cavity = mesh.takeBack(done);
 }
 
 } // namespace cadrefine

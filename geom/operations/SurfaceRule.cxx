@@ -391,18 +391,26 @@ bool SurfaceRule::isOffCAD(const EditableMesh& mesh, Index a, Index b) const
            : segment >= 0 && mesh.plane() != Vector3{};
 }
 
-ClosestPoint SurfaceRule::placeOfMiddle(const EditableMesh& mesh, Index a, Index b) const
+std::optional<ClosestPoint> SurfaceRule::placeOfMiddle(
+  const EditableMesh& mesh, Index a, Index b) const
 {
+  if (isOffCAD(mesh, a, b))
+  {
+    ClosestPoint halfway;
+    halfway.point = 0.5 * (mesh.vertex(a).point + mesh.vertex(b).point);
+    return halfway;
+  }
   const Index segment = mesh.segmentOf(a, b);
   const EdgeClass edgeClass =
     segment < 0 ? EdgeClass{ EdgeClass::Smooth, -1 } : mesh.segments()[segment].edgeClass;
   if (edgeClass.kind == EdgeClass::Straight)
   {
-    return {};
+    return std::nullopt;
   }
   const BoundaryEdge onCAD{ edgeClass, { mesh.vertex(a).wanted, mesh.vertex(b).wanted },
     { mesh.vertex(a).entity, mesh.vertex(b).entity } };
-  return projector_.offCrease(onCAD, projector_.projectMidpoint(onCAD));
+  const ClosestPoint where = projector_.offCrease(onCAD, projector_.projectMidpoint(onCAD));
+  return where.entity ? std::optional(where) : std::nullopt;
 }
 
 } // namespace cadrefine

@@ -69,14 +69,13 @@ public:
   /// projections a facet.
   double errorGain(const EditableMesh& mesh, const Cavity& cavity) const;
 
-  /// Whether an edge is of the boundary off the CAD, or of something listed inside, alone: its
-  /// middle may be a vertex there.
-  bool isOffCAD(const EditableMesh& mesh, Index a, Index b) const;
   /// The place on the CAD of the middle of an edge of facets, between its ends where they are
-  /// wanted; no entity where it cannot be told.
-  ClosestPoint placeOfMiddle(const EditableMesh& mesh, Index a, Index b) const;
+  /// wanted; of no entity, halfway between its ends, where it is of the boundary off the CAD, or of
+  /// something listed inside, alone; none where it cannot be told.
+  std::optional<ClosestPoint> placeOfMiddle(const EditableMesh& mesh, Index a, Index b) const;
 
 private:
+  bool isOffCAD(const EditableMesh& mesh, Index a, Index b) const;
   bool acceptsSegments(const EditableMesh& mesh, const Cavity& cavity, double distance) const;
   double farthestMiddle(const EditableMesh& mesh, const std::vector<Index>& segments) const;
   double distanceOfMiddle(const EditableMesh& mesh, const std::array<Index, 2>& segment) const;

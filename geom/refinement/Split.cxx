@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <optional>
 #include <type_traits>
 #include <utility>
 
@@ -224,11 +223,6 @@ void appendChildren(std::size_t children, std::vector<Index>& firsts)
   firsts.push_back(static_cast<Index>(total));
 }
 
-std::optional<int> partingDiagonalOf(const Mesh& mesh, const std::array<Index, 5>& pyramid)
-{
-  return partingDiagonal(cornersOf(pyramid, mesh.points));
-}
-
 /// Of simplices and cells of lower dimension.
 ChildRanges countPartsOfSimplices(const Mesh& mesh, const EdgeTable& table, const EdgeMarks& marks)
 {
@@ -323,7 +317,7 @@ ChildRanges countUniformChildren(const Mesh& mesh)
         {
           if constexpr (std::is_same_v<decltype(shape), shapes::Pyramid>)
           {
-            count.add(partingDiagonalOf(mesh, cell) ? childrenOfPartedPyramid : childrenOfPyramid);
+            count.add(partingDiagonal(mesh, cell) ? childrenOfPartedPyramid : childrenOfPyramid);
           }
           else
           {
@@ -376,9 +370,10 @@ std::vector<Index> cellsCutBadly(const Mesh& mesh, const EdgeTable& table, const
   {
     for (std::size_t c = 0; c < mesh.pyramids.size(); ++c)
     {
-      splitPyramidUniformly(mesh.pyramids[c], midpointsOf(table.ofPyramids[c], midpoints.ofEdge),
-        midpointsOf(quads.ofPyramids[c], midpoints.ofQuad)[0],
-        partingDiagonalOf(mesh, mesh.pyramids[c]), children.pyramids, children.tetrahedra);
+      splitPyramidUniformly(mesh, mesh.pyramids[c],
+        midpointsOf(table.ofPyramids[c], midpoints.ofEdge),
+        midpointsOf(quads.ofPyramids[c], midpoints.ofQuad)[0], children.pyramids,
+        children.tetrahedra);
       look(static_cast<Index>(mesh.tetrahedra.size() + c));
     }
   }
@@ -420,9 +415,8 @@ SplitMesh splitUniformly(const Mesh& mesh, const EdgeTable& table, const QuadTab
   reserveLong(fine.pyramids, 6 * mesh.pyramids.size());
   for (std::size_t c = 0; c < mesh.pyramids.size(); ++c)
   {
-    splitPyramidUniformly(mesh.pyramids[c], onEdges(table.ofPyramids[c]),
-      inQuads(quads.ofPyramids[c])[0], partingDiagonalOf(mesh, mesh.pyramids[c]), fine.pyramids,
-      fine.tetrahedra);
+    splitPyramidUniformly(mesh, mesh.pyramids[c], onEdges(table.ofPyramids[c]),
+      inQuads(quads.ofPyramids[c])[0], fine.pyramids, fine.tetrahedra);
     numbering.take();
   }
   reserveLong(fine.wedges, 8 * mesh.wedges.size());

@@ -80,8 +80,9 @@ void splitTetrahedronUniformly(const Mesh& mesh, const std::array<Index, 4>& v,
   }
 }
 
-std::optional<int> partingDiagonal(const std::array<Point3, 5>& corners)
+std::optional<int> partingDiagonal(const Mesh& mesh, const std::array<Index, 5>& v)
 {
+  const auto corners = cornersOf(v, mesh.points);
   const Point3 base = centroidOf({ corners[0], corners[1], corners[2], corners[3] }, 4);
   std::array<Point3, 4> inner;
   std::transform(corners.begin(), corners.end() - 1, inner.begin(),
@@ -91,14 +92,8 @@ std::optional<int> partingDiagonal(const std::array<Point3, 5>& corners)
   {
     return std::nullopt;
   }
-  // On a tie the one with the smallest end: the choice is that of the points alone.
-  const auto isBefore = [](const Point3& p, const Point3& q, const Point3& r, const Point3& s)
-  {
-    const double first = squaredNorm(q - p);
-    const double second = squaredNorm(s - r);
-    return first != second ? first < second : std::min(p, q) < std::min(r, s);
-  };
-  const int shorter = isBefore(a, c, b, d) ? 0 : 1;
+  // Half of those of the base.
+  const int shorter = shorterDiagonal(mesh, { v[0], v[2] }, { v[1], v[3] }) ? 0 : 1;
   for (const int k : { shorter, 1 - shorter })
   {
     const Point3& next = inner[k + 1];
@@ -112,14 +107,14 @@ std::optional<int> partingDiagonal(const std::array<Point3, 5>& corners)
   return std::nullopt;
 }
 
-void splitPyramidUniformly(const std::array<Index, 5>& v, const std::array<Index, 8>& m, Index base,
-  std::optional<int> diagonal, Cells<5>& pyramids, Cells<4>& tetrahedra)
+void splitPyramidUniformly(const Mesh& mesh, const std::array<Index, 5>& v,
+  const std::array<Index, 8>& m, Index base, Cells<5>& pyramids, Cells<4>& tetrahedra)
 {
   pyramids.push_back({ v[0], m[0], base, m[3], m[4] });
   pyramids.push_back({ m[0], v[1], m[1], base, m[5] });
   pyramids.push_back({ base, m[1], v[2], m[2], m[6] });
   pyramids.push_back({ m[3], base, m[2], v[3], m[7] });
-  if (diagonal)
+  if (const auto diagonal = partingDiagonal(mesh, v))
   {
     const Index from = m[4 + *diagonal];
     const Index next = m[5 + *diagonal];

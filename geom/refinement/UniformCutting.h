@@ -26,18 +26,18 @@ void splitTetrahedronUniformly(const Mesh& mesh, const std::array<Index, 4>& v,
   const std::array<Index, 6>& m, Cells<4>& children);
 
 /// Of the quadrilateral between the middles of the edges to the apex the shorter diagonal along
-/// which the two pyramids at it are to be parted, by the corner of the base at which it begins, 0
-/// or 1: where the one below, upside down, would not be valid, as over a base that is far from
-/// flat, and its halves are.
-std::optional<int> partingDiagonal(const std::array<Point3, 5>& corners);
+/// which the two pyramids at it are to be parted (ties as above), by the corner of the base at
+/// which it begins, 0 or 1: where the one below, upside down, would not be valid, as over a base
+/// that is far from flat, and its halves are.
+std::optional<int> partingDiagonal(const Mesh& mesh, const std::array<Index, 5>& v);
 constexpr int childrenOfPyramid = 10;
 constexpr int childrenOfPartedPyramid = 12;
 
 /// With one vertex in the base: a pyramid at each corner, one over the base upside down, and four
 /// tetrahedra on the edges of the base; the pyramids at the apex and below it as two tetrahedra
 /// each where they are parted.
-void splitPyramidUniformly(const std::array<Index, 5>& v, const std::array<Index, 8>& m, Index base,
-  std::optional<int> diagonal, Cells<5>& pyramids, Cells<4>& tetrahedra);
+void splitPyramidUniformly(const Mesh& mesh, const std::array<Index, 5>& v,
+  const std::array<Index, 8>& m, Index base, Cells<5>& pyramids, Cells<4>& tetrahedra);
 
 /// Four wedges over each half of the height.
 void splitWedgeUniformly(const std::array<Index, 6>& v, const std::array<Index, 9>& m,

@@ -3,6 +3,7 @@
 
 #include "TestMeshes.h"
 
+#include <cadrefine/mesh/Quality.h>
 #include <cadrefine/operations/EditableMesh.h>
 
 #include <algorithm>
@@ -10,6 +11,23 @@
 
 namespace cadtest
 {
+
+inline double volumeOf(const cadrefine::EditableMesh& mesh)
+{
+  using namespace cadrefine;
+  double volume = 0;
+  for (Index c = 0; c < static_cast<Index>(mesh.cells().size()); ++c)
+  {
+    if (mesh.cells().exists(c))
+    {
+      const auto& v = mesh.cells()[c].corners;
+      volume += sixfoldVolume(mesh.vertex(v[0]).point, mesh.vertex(v[1]).point,
+                  mesh.vertex(v[2]).point, mesh.vertex(v[3]).point) /
+                6;
+    }
+  }
+  return volume;
+}
 
 /// A cube with inner vertices at random, so far as cells stay valid. Its boundary stays.
 inline cadrefine::EditableMesh spoiltCube(unsigned seed)

@@ -1,6 +1,6 @@
 // The local operations one by one: what they make of a few cells, and what they leave alone.
 
-#include "TestMeshes.h"
+#include "SpoiltCube.h"
 
 #include <cadrefine/mesh/Quality.h>
 #include <cadrefine/operations/Operations.h>
@@ -15,6 +15,7 @@ namespace
 {
 
 using namespace cadrefine;
+using cadtest::volumeOf;
 
 constexpr double pi = 3.14159265358979323846;
 
@@ -34,22 +35,6 @@ void putOnRim(EditableMesh& mesh, const std::vector<Index>& vertices)
     vertex.isOnRim = true;
     mesh.setVertex(v, vertex);
   }
-}
-
-double volumeOf(const EditableMesh& mesh)
-{
-  double volume = 0;
-  for (std::size_t c = 0; c < mesh.cells().size(); ++c)
-  {
-    if (mesh.cells().exists(static_cast<Index>(c)))
-    {
-      const auto& v = mesh.cells()[static_cast<Index>(c)].corners;
-      volume += sixfoldVolume(mesh.vertex(v[0]).point, mesh.vertex(v[1]).point,
-                  mesh.vertex(v[2]).point, mesh.vertex(v[3]).point) /
-                6;
-    }
-  }
-  return volume;
 }
 
 std::size_t countCells(const EditableMesh& mesh)

@@ -98,11 +98,11 @@ TEST_F(SurfaceRules, acceptsTheShorterDiagonalAlone)
 TEST_F(SurfaceRules, putsTheMiddleOfAnEdgeOntoTheSphere)
 {
   EditableMesh mesh = cap(0.3, 0.2);
-  const ClosestPoint where = rule.placeOfMiddle(mesh, 0, 1);
+  const ClosestPoint where = rule.placeOfMiddle(mesh, 0, 1).value();
   EXPECT_EQ(where.entity, (EntityId{ 2, 0 }));
   EXPECT_NEAR(distance(where.point, { -1, 0, 0 }), 0, 1e-9);
   mesh.addSegment({ { 0, 1 }, -1, -1 });
-  EXPECT_FALSE(rule.placeOfMiddle(mesh, 0, 1).entity); // a crease that is on no CAD edge
+  EXPECT_FALSE(rule.placeOfMiddle(mesh, 0, 1)); // a crease that is on no CAD edge
 }
 
 /// Both pairs of facets are under the same part of the sphere, so that the error differs by the

@@ -387,7 +387,7 @@ TEST(PlanarRule, keepsToTheCircle)
   EXPECT_TRUE(mesh.touchesBoundary(cavity));
   EXPECT_FALSE(rule.accepts(mesh, cavity));
 
-  const ClosestPoint where = rule.placeOfMiddle(mesh, 1, 2);
+  const ClosestPoint where = rule.placeOfMiddle(mesh, 1, 2).value();
   EXPECT_NEAR(
     distance(where.point, normalized(0.5 * (mesh.vertex(1).point + mesh.vertex(2).point))), 0,
     1e-9);
