@@ -1,7 +1,7 @@
 // 1. Each rank keeps a stretch of the range of the numbers, as long as the others'.
 // 2. Numbers of a rank that follow each other make a run; its sum goes to the rank that keeps these
-//    numbers, which writes it into its list.
-// 3. A prefix sum over the list and over the ranks; sums go back the way the runs came.
+//    numbers, which sorts the runs that came.
+// 3. A prefix sum over these and over the ranks; sums go back the way the runs came.
 
 #include "comm/GlobalNumbering.h"
 
@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <limits>
 #include <string>
+#include <utility>
 
 namespace cadrefine
 {
@@ -79,13 +80,13 @@ void forRuns(
       end = range.first + (keeper + 1) * range.length;
       begin(keeper, numbers[i]);
     }
-    weigh(i);
     next = numbers[i] + 1;
+    weigh(i); // which may write the number's sum in its place
   }
 }
 
 std::vector<std::vector<Run>> makeRuns(int ranks, const Range& range,
-  const std::vector<GlobalId>& numbers, const std::vector<std::int64_t>& weights)
+  const std::vector<GlobalId>& numbers, const std::vector<Index>& weights)
 {
   std::vector<std::vector<Run>> runs(static_cast<std::size_t>(ranks));
   Run* run = nullptr;
@@ -110,34 +111,28 @@ struct Sums
   bool repeated = false; // a number that came twice
 };
 
-Sums sumStretch(const std::vector<std::vector<Run>>& incoming, std::int64_t length)
+Sums sumRuns(const std::vector<std::vector<Run>>& incoming)
 {
   std::vector<Run> runs;
   for (const auto& list : incoming)
   {
     runs.insert(runs.end(), list.begin(), list.end());
   }
-  std::vector<std::uint32_t> runAt; // each place: the run that starts there, counted from 1
-  reserveLong(runAt, static_cast<std::size_t>(length));
-  runAt.assign(static_cast<std::size_t>(length), 0);
-  Sums sums;
+  std::vector<PlacedKey> order;
+  reserveLong(order, runs.size());
   for (std::size_t r = 0; r < runs.size(); ++r)
   {
-    sums.repeated = sums.repeated || runAt[runs[r].place] != 0;
-    runAt[runs[r].place] = static_cast<std::uint32_t>(r + 1);
+    order.push_back({ runs[r].place, static_cast<std::uint32_t>(r) });
   }
-  std::size_t end = 0; // of the last run
-  for (std::size_t place = 0; place < runAt.size(); ++place)
+  radixSort(order);
+  Sums sums;
+  std::uint64_t end = 0; // of the last run
+  for (const PlacedKey& next : order)
   {
-    if (runAt[place] != 0)
-    {
-      Run& run = runs[runAt[place] - 1];
-      sums.repeated = sums.repeated || place < end;
-      end = place + run.length;
-      const std::int64_t weight = run.weight;
-      run.weight = sums.total; // from now on what is before it
-      sums.total += weight;
-    }
+    Run& run = runs[next.place];
+    sums.repeated = sums.repeated || run.place < end;
+    end = std::uint64_t{ run.place } + run.length;
+    sums.total += std::exchange(run.weight, sums.total); // from now on what is before it
   }
   auto run = runs.begin();
   for (const auto& list : incoming)
@@ -152,11 +147,11 @@ Sums sumStretch(const std::vector<std::vector<Run>>& incoming, std::int64_t leng
   return sums;
 }
 
-Numbering sumDense(RankExchange& exchange, const Range& range, const std::vector<GlobalId>& numbers,
-  const std::vector<std::int64_t>& weights)
+// In the place of the numbers.
+Numbering sumDense(RankExchange& exchange, const Range& range, std::vector<GlobalId> numbers,
+  const std::vector<Index>& weights)
 {
-  const Sums sums =
-    sumStretch(exchange.allToAll(makeRuns(exchange.size(), range, numbers, weights)), range.length);
+  const Sums sums = sumRuns(exchange.allToAll(makeRuns(exchange.size(), range, numbers, weights)));
   exchange.agree(sums.repeated ? "A number that must be unique occurs twice." : "");
   const std::int64_t first = exchange.sumBefore(sums.total);
   Numbering result;
@@ -164,7 +159,6 @@ Numbering sumDense(RankExchange& exchange, const Range& range, const std::vector
   const auto answers = exchange.allToAll(sums.before);
   std::vector<std::size_t> next(answers.size(), 0);
   const std::vector<std::int64_t> firsts = exchange.gather(first);
-  resizeLong(result.numbers, numbers.size());
   std::int64_t sum = 0;
   forRuns(
     range, numbers,
@@ -175,9 +169,10 @@ Numbering sumDense(RankExchange& exchange, const Range& range, const std::vector
     },
     [&](std::size_t i)
     {
-      result.numbers[i] = sum;
+      numbers[i] = sum;
       sum += weights[i];
     });
+  result.numbers = std::move(numbers);
   return result;
 }
 
@@ -199,16 +194,16 @@ std::vector<std::uint32_t> ascendingPlaces(const std::vector<GlobalId>& numbers)
 }
 
 // Ascending, so that runs are as long as can be; on one rank nothing is sent.
-Numbering sumInOrder(RankExchange& exchange, const Range& range,
-  const std::vector<GlobalId>& numbers, const std::vector<std::int64_t>& weights)
+Numbering sumInOrder(RankExchange& exchange, const Range& range, std::vector<GlobalId> numbers,
+  const std::vector<Index>& weights)
 {
   if (exchange.size() == 1 || std::is_sorted(numbers.begin(), numbers.end()))
   {
-    return sumDense(exchange, range, numbers, weights);
+    return sumDense(exchange, range, std::move(numbers), weights);
   }
   const std::vector<std::uint32_t> places = ascendingPlaces(numbers);
   std::vector<GlobalId> sortedNumbers;
-  std::vector<std::int64_t> sortedWeights;
+  std::vector<Index> sortedWeights;
   reserveLong(sortedNumbers, numbers.size());
   reserveLong(sortedWeights, numbers.size());
   for (const std::uint32_t place : places)
@@ -216,28 +211,25 @@ Numbering sumInOrder(RankExchange& exchange, const Range& range,
     sortedNumbers.push_back(numbers[place]);
     sortedWeights.push_back(weights[place]);
   }
-  const Numbering sorted = sumDense(exchange, range, sortedNumbers, sortedWeights);
-  Numbering result;
-  result.count = sorted.count;
-  resizeLong(result.numbers, numbers.size());
+  const Numbering sorted = sumDense(exchange, range, std::move(sortedNumbers), sortedWeights);
   for (std::size_t i = 0; i < places.size(); ++i)
   {
-    result.numbers[places[i]] = sorted.numbers[i];
+    numbers[places[i]] = sorted.numbers[i];
   }
-  return result;
+  return { std::move(numbers), sorted.count };
 }
 
 } // namespace
 
-Numbering denseOffsets(RankExchange& exchange, const std::vector<GlobalId>& numbers,
-  const std::vector<std::int64_t>& weights)
+Numbering denseOffsets(
+  RankExchange& exchange, std::vector<GlobalId> numbers, const std::vector<Index>& weights)
 {
   const Range range = findRange(exchange, numbers);
   if (range.dense)
   {
     exchange.agree(
       numbers.size() == weights.size() ? "" : "There are not as many weights as numbers.");
-    return sumInOrder(exchange, range, numbers, weights);
+    return sumInOrder(exchange, range, std::move(numbers), weights);
   }
   std::vector<Key<1>> keys;
   reserveLong(keys, numbers.size());
@@ -245,7 +237,7 @@ Numbering denseOffsets(RankExchange& exchange, const std::vector<GlobalId>& numb
   {
     keys.push_back({ number });
   }
-  return offsets(exchange, keys, weights);
+  return offsets(exchange, keys, std::vector<std::int64_t>(weights.begin(), weights.end()));
 }
 
 } // namespace cadrefine

@@ -47,12 +47,12 @@ Numbering offsets(RankExchange& exchange, const std::vector<Key<K>>& keys,
   const std::vector<std::int64_t>& weights);
 
 /// offsets of whole numbers. Where these lie dense (over all ranks at most four times as many
-/// numbers in their range as are given) no rank sorts: each keeps a stretch of the range, as a
-/// list of 4 bytes a number, and the sums of weights come to where their numbers lie. Numbers of a
-/// rank that follow each other, and lie in one stretch, go as one: 16 bytes for each such run, and
-/// 8 back. So where ranks hold few runs, it is the runs that cost, not the numbers.
-Numbering denseOffsets(RankExchange& exchange, const std::vector<GlobalId>& numbers,
-  const std::vector<std::int64_t>& weights);
+/// numbers in their range as are given) each rank keeps a stretch of the range, and the sums of
+/// weights come to where their numbers lie. Numbers of a rank that follow each other, and lie in
+/// one stretch, go as one: 16 bytes for each such run, and 8 back. So where ranks hold few runs, it
+/// is the runs that cost, not the numbers; sums take the place of numbers that are moved here.
+Numbering denseOffsets(
+  RankExchange& exchange, std::vector<GlobalId> numbers, const std::vector<Index>& weights);
 
 /// A key that orders doubles as < does; -0.0 and 0.0 have the same. NaN come before or after all
 /// numbers, depending on their sign.

@@ -230,7 +230,7 @@ private:
   Numbering number(const std::vector<VertexKey<K>>& keys)
   {
     std::vector<GlobalId> owned;
-    std::vector<std::int64_t> weights;
+    std::vector<Index> weights;
     for (std::size_t v = 0; v < ids_.size(); ++v)
     {
       if (counts_[v] > 0)
@@ -239,7 +239,7 @@ private:
         weights.push_back(counts_[v]);
       }
     }
-    const Numbering ofOwned = denseOffsets(exchange_, owned, weights);
+    const Numbering ofOwned = denseOffsets(exchange_, std::move(owned), weights);
     std::vector<GlobalId> first(ids_.size(), 0);
     auto next = ofOwned.numbers.begin();
     for (std::size_t v = 0; v < ids_.size(); ++v)

@@ -53,7 +53,7 @@ bool areDistinct(RankExchange& exchange, const std::vector<GlobalId>& numbers)
 {
   try
   {
-    denseOffsets(exchange, numbers, std::vector<std::int64_t>(numbers.size(), 1));
+    denseOffsets(exchange, numbers, std::vector<Index>(numbers.size(), 1));
     return true;
   }
   catch (const AgreedError&) // not where a rank has failed

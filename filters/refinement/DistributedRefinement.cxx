@@ -75,8 +75,8 @@ void numberInCells(RankExchange& exchange, DistributedMesh& mesh, NewVerticesOfM
   {
     cells.push_back(idsOfCells[cell]);
   }
-  const Numbering numbering =
-    denseOffsets(exchange, cells, std::vector<std::int64_t>(cells.size(), 1));
+  const std::vector<Index> ones(cells.size(), 1);
+  const Numbering numbering = denseOffsets(exchange, std::move(cells), ones);
   for (const GlobalId number : numbering.numbers)
   {
     made.ids.push_back(mesh.vertexIdBound + number);
@@ -192,7 +192,7 @@ std::array<std::vector<GlobalId>, 4> numberChildren(
   const std::size_t cells = std::accumulate(parentIds.begin(), parentIds.end(), std::size_t{ 0 },
     [](std::size_t sum, const std::vector<GlobalId>& list) { return sum + list.size(); });
   std::vector<GlobalId> parents;
-  std::vector<std::int64_t> weights;
+  std::vector<Index> weights;
   reserveLong(parents, cells);
   reserveLong(weights, cells);
   for (int d = 0; d < 4; ++d)
@@ -207,7 +207,7 @@ std::array<std::vector<GlobalId>, 4> numberChildren(
   std::vector<GlobalId> firstIds;
   try
   {
-    firstIds = denseOffsets(exchange, parents, weights).numbers;
+    firstIds = denseOffsets(exchange, std::move(parents), weights).numbers;
   }
   catch (const AgreedError&)
   {

@@ -171,10 +171,10 @@ TEST_F(GlobalNumberingTest, sumWeightsOfDenseAndSparseNumbers)
     {
       std::vector<GlobalId> numbers;
       std::vector<Key<1>> keys;
-      std::vector<std::int64_t> weights;
+      std::vector<Index> weights;
       for (GlobalId i = 999; i >= 0; --i)
       {
-        const GlobalId weight = static_cast<GlobalId>(commonRandom() % 9);
+        const auto weight = static_cast<Index>(commonRandom() % 9);
         if (static_cast<int>(commonRandom() % static_cast<std::size_t>(exchange.size())) ==
             exchange.rank())
         {
@@ -183,7 +183,7 @@ TEST_F(GlobalNumberingTest, sumWeightsOfDenseAndSparseNumbers)
           weights.push_back(weight);
         }
       }
-      const Numbering expected = offsets<1>(exchange, keys, weights);
+      const Numbering expected = offsets<1>(exchange, keys, { weights.begin(), weights.end() });
       const Numbering result = denseOffsets(exchange, numbers, weights);
       EXPECT_EQ(result.numbers, expected.numbers);
       EXPECT_EQ(result.count, expected.count);
@@ -196,10 +196,9 @@ TEST_F(GlobalNumberingTest, refuseRepeatedDenseNumbersOnAllRanks)
 {
   const bool last = exchange.rank() == exchange.size() - 1;
   const auto twiceHere = last ? std::vector<GlobalId>{ 7, 8, 7 } : std::vector<GlobalId>{};
-  EXPECT_THROW(
-    denseOffsets(exchange, twiceHere, std::vector<std::int64_t>(twiceHere.size(), 1)), Error);
+  EXPECT_THROW(denseOffsets(exchange, twiceHere, std::vector<Index>(twiceHere.size(), 1)), Error);
   EXPECT_THROW(denseOffsets(exchange, { exchange.rank() },
-                 last ? std::vector<std::int64_t>() : std::vector<std::int64_t>{ 1 }),
+                 last ? std::vector<Index>() : std::vector<Index>{ 1 }),
     Error);
 }
 
@@ -233,9 +232,9 @@ TEST_F(GlobalNumberingTest, sendRunsOfDenseNumbersAsOne)
         numbers.push_back(stretch * length + i);
       }
     }
-    std::vector<std::int64_t> weights(numbers.size());
-    std::transform(
-      numbers.begin(), numbers.end(), weights.begin(), [](GlobalId n) { return n % 3; });
+    std::vector<Index> weights(numbers.size());
+    std::transform(numbers.begin(), numbers.end(), weights.begin(),
+      [](GlobalId n) { return static_cast<Index>(n % 3); });
     const std::int64_t before = exchange.bytesSent();
     const Numbering result = denseOffsets(exchange, numbers, weights);
     bytes.push_back(exchange.bytesSent() - before);
@@ -251,8 +250,7 @@ TEST_F(GlobalNumberingTest, refuseRunsThatOverlap)
 {
   const bool last = exchange.rank() == exchange.size() - 1;
   const auto numbers = last ? std::vector<GlobalId>{ 1, 2, 3, 2, 3, 4 } : std::vector<GlobalId>{};
-  EXPECT_THROW(
-    denseOffsets(exchange, numbers, std::vector<std::int64_t>(numbers.size(), 1)), Error);
+  EXPECT_THROW(denseOffsets(exchange, numbers, std::vector<Index>(numbers.size(), 1)), Error);
 }
 
 // Each rank gets about its share, though all keys were on one.
