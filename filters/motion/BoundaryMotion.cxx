@@ -119,10 +119,11 @@ std::vector<unsigned char> findHeld(RankExchange& exchange, const DistributedMes
   return held;
 }
 
-ColumnNodes verticesOf(const DistributedMesh& mesh, const Classification& classification)
+ColumnNodes verticesOf(const DistributedMesh& mesh, const Classification& classification,
+  const std::vector<std::array<Index, 2>>* parents = nullptr)
 {
   return { mesh.mesh().points, mesh.mesh().ids, mesh.shared, classification.entities, {},
-    leastMoveOfWalls };
+    leastMoveOfWalls, nullptr, parents };
 }
 
 /// Halves the moves of these vertices until every cell of every rank accepts them, then makes them.
@@ -352,8 +353,8 @@ void moveOntoCAD(RankExchange& exchange, DistributedMesh& mesh, Moves moves,
   Motion motion{ exchange, mesh, classification, settings, forOnThreads(exchange), plane,
     mesh.mesh().points, Moves(mesh.mesh().points),
     std::vector<unsigned char>(mesh.mesh().points.size(), 0), findHeld(exchange, mesh),
-    LayerColumns(exchange, mesh, verticesOf(mesh, classification), moves, settings.projector,
-      settings.fixed, plane),
+    LayerColumns(exchange, mesh, verticesOf(mesh, classification, settings.parents), moves,
+      settings.projector, settings.fixed, plane),
     aimed };
   motion.moves = std::move(moves);
 

@@ -7,6 +7,7 @@
 #include <cadrefine/classification/Classification.h>
 #include <cadrefine/motion/MoveGuard.h>
 
+#include <array>
 #include <vector>
 
 namespace cadrefine
@@ -25,6 +26,8 @@ struct MoveSettings
   /// Smoothing is for the worst cell where local operations have nothing to do; else for most
   /// cells, whichever get worse.
   bool smoothWorst = false;
+  /// The ends of the lines in whose middles the last vertices are; none: of no vertex.
+  const std::vector<std::array<Index, 2>>* parents = nullptr;
 };
 
 /// Moves the vertices of `moves` as far to their targets as all cells stay valid, on all ranks;

@@ -3,9 +3,17 @@
 #include "mesh/BoundaryFacets.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace cadrefine
 {
+namespace
+{
+
+/// First heights that differ by less of each other were made equal.
+constexpr double equalHeights = 1e-3;
+
+} // namespace
 
 ColumnClimb::ColumnClimb(const DistributedMesh& mesh, const ColumnNodes& nodes)
   : mesh_(mesh), nodes_(nodes), stacks_(mesh.mesh())
@@ -16,6 +24,36 @@ ColumnClimb::ColumnClimb(const DistributedMesh& mesh, const ColumnNodes& nodes)
   }
   std::sort(vertexOf_.begin(), vertexOf_.end());
   outgoing_.resize(mesh.shared.neighbours.size());
+}
+
+std::vector<double> ColumnClimb::firstHeights(
+  RankExchange& exchange, const std::vector<Facet>& facets) const
+{
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  std::vector<double> heights(nodes_.points.size(), infinity);
+  for (const Facet& facet : facets)
+  {
+    const Facet above = stacks_.opposite(facet);
+    for (int k = 0; above.cell >= 0 && k < nodes_.count(facet); ++k)
+    {
+      double& height = heights[nodes_.at(facet, k)];
+      height = std::min(height, heightBetween(facet, above, k));
+    }
+  }
+  combineShared(
+    exchange, nodes_.shared, heights, [](double a, double b) { return std::min(a, b); });
+  const std::size_t first = nodes_.parents ? heights.size() - nodes_.parents->size() : 0;
+  for (std::size_t n = 0; nodes_.parents && n < nodes_.parents->size(); ++n)
+  {
+    const auto& [a, b] = (*nodes_.parents)[n];
+    const auto [low, high] = std::minmax(heights[a], heights[b]);
+    double& height = heights[first + n];
+    if (height < infinity && high < infinity && high - low < equalHeights * high)
+    {
+      height = 0.5 * (low + high);
+    }
+  }
+  return heights;
 }
 
 void ColumnClimb::start(const Facet& facet, int place, double highest, double reach)
@@ -59,7 +97,7 @@ void ColumnClimb::climb(Facet side, Front front)
     }
     const auto place = static_cast<int>(front.place);
     const Index node = nodes_.at(above, place);
-    front.height += distance(nodes_.points[nodes_.at(side, place)], nodes_.points[node]);
+    front.height += heightBetween(side, above, place);
     ++front.level;
     if (front.level == 1 && front.height > front.highest)
     {
@@ -76,6 +114,11 @@ void ColumnClimb::climb(Facet side, Front front)
       send(above, front);
     }
   }
+}
+
+double ColumnClimb::heightBetween(const Facet& side, const Facet& above, int place) const
+{
+  return distance(nodes_.points[nodes_.at(side, place)], nodes_.points[nodes_.at(above, place)]);
 }
 
 void ColumnClimb::goBeyond(const Facet& side, const Front& front)

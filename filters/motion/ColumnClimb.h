@@ -26,6 +26,8 @@ struct ColumnNodes
   std::vector<unsigned char> held;       ///< 1: the node stays; none: none does.
   double leastMove; ///< Of the first height: a wall that moves by less takes nothing along.
   const EdgeTable* edges = nullptr; ///< Of mid nodes.
+  /// The ends of the lines in whose middles the last nodes are; none: of no node.
+  const std::vector<std::array<Index, 2>>* parents = nullptr;
 
   /// How many a side of a cell has.
   int count(const Facet& side) const { return edges ? side.edges() : side.corners(); }
@@ -53,6 +55,11 @@ class ColumnClimb
 public:
   ColumnClimb(const DistributedMesh& mesh, const ColumnNodes& nodes);
 
+  /// Of the first cell over each node of these facets, along its edge: that which there is, or, if
+  /// they are equal, that over the ends of the line in whose middle the node is; infinite for other
+  /// nodes. Collective.
+  std::vector<double> firstHeights(RankExchange& exchange, const std::vector<Facet>& facets) const;
+
   /// A column that stands on this node of a facet (see ColumnNodes::at), on both sides of it, and
   /// ends at the height `reach`; none where its first cell is higher than `highest`.
   void start(const Facet& facet, int place, double highest, double reach);
@@ -75,6 +82,7 @@ private:
     double reach;   ///< The column ends at this height.
   };
 
+  double heightBetween(const Facet& side, const Facet& above, int place) const;
   void climb(Facet side, Front front);
   void goBeyond(const Facet& side, const Front& front);
   void send(const Facet& side, Front front);

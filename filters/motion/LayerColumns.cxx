@@ -32,6 +32,8 @@ constexpr double heightsOfMove = 6;
 constexpr double alongEntity = 0.1;
 /// Of what fades out: from so much height on it does so smoothly, and the first height stays.
 constexpr double smoothHeights = 2;
+/// By which a first height is made larger.
+constexpr double mostLift = 0.5;
 /// The least cosine between a facet's normal and a move across it, not along it.
 constexpr double across = 0.5;
 
@@ -134,6 +136,7 @@ LayerColumns::LayerColumns(RankExchange& exchange, const DistributedMesh& mesh, 
     }
   }
   listMembers(exchange, climb.run(exchange), moves);
+  findLifts(exchange, moves, climb);
   std::vector<double> cosines;
   std::transform(best.begin(), best.end(), std::back_inserter(cosines),
     [](const BestFacet& facet) { return facet.cosine; });
@@ -252,6 +255,38 @@ void LayerColumns::findYielding(
   {
     walls_[c] = isNone[c] ? -1 : walls_[c];
   }
+}
+
+/// Along the normal of the wall's face, or else as the column goes. Collective.
+void LayerColumns::findLifts(RankExchange& exchange, const Moves& moves, const ColumnClimb& climb)
+{
+  lifts_.assign(columns_.size(), Vector3{});
+  if (!nodes_.parents)
+  {
+    return;
+  }
+  const std::vector<double> wanted = climb.firstHeights(exchange, facets_);
+  for (const Member& member : members_)
+  {
+    const Index wall = walls_[member.column];
+    if (member.level != 1 || wall < 0 || wanted[wall] <= member.height ||
+        wanted[wall] > (1 + mostLift) * member.height)
+    {
+      continue;
+    }
+    const Vector3 now = nodes_.points[member.node] - nodes_.points[wall];
+    Vector3 direction = (1 / member.height) * now;
+    const ClosestPoint where = projector_.nearestOn(nodes_.entities[wall], moves.targets[wall]);
+    if (where.entity.dimension == 2)
+    {
+      const Vector3 normal = projector_.model().normal(where.entity.index, where.parameters);
+      const double cosine = dot(normal, direction);
+      direction = std::abs(cosine) > across ? std::copysign(1.0, cosine) * normal : direction;
+    }
+    lifts_[member.column] = wanted[wall] * direction - now;
+  }
+  combineShared(exchange, shared_, lifts_,
+    [](const Vector3& a, const Vector3& b) { return a == Vector3{} ? b : a; });
 }
 
 /// Which columns have the nodes, given 1 for members that are left out. Collective.
@@ -419,7 +454,10 @@ std::vector<Vector3> LayerColumns::movesOf(
 /// Collective.
 LayerColumns::WallMoves LayerColumns::movesOfWalls(RankExchange& exchange, const Moves& moves) const
 {
-  return { movesOf(exchange, moves, walls_), movesOf(exchange, moves, facing_) };
+  WallMoves result{ movesOf(exchange, moves, walls_), movesOf(exchange, moves, facing_) };
+  std::transform(result.own.begin(), result.own.end(), lifts_.begin(), result.own.begin(),
+    [](const Vector3& move, const Vector3& lift) { return move + lift; });
+  return result;
 }
 
 /// The moves of the walls over which nodes are, of one of them where there are several. Collective.
@@ -487,6 +525,7 @@ LayerColumns::Followers LayerColumns::follow(RankExchange& exchange, Moves& move
       following_.push_back(member);
     }
   }
+  lifts_.assign(lifts_.size(), Vector3{}); // what is left of them is part of what is left to go
   combineShared(exchange, nodes_.shared, places,
     [](const Place& a, const Place& b) { return a.isSet ? a : b; });
   Followers followers;

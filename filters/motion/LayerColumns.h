@@ -26,12 +26,14 @@ namespace cadrefine
 /// of the first cell stays, the others less and less (by 3 x^2 - 2 x^3 of the height over the
 /// first), the last one not at all. On a stack that is lower than six moves what follows has to
 /// make way: so much less fades out that no cell of the stack loses more than a quarter of its
-/// height. Nodes of a column that are on a boundary keep to it: those on the CAD to their
-/// entity, others move if they stay in the planes of their facets; where the last one cannot go
-/// along, all of the move fades out. Where the last one is on another wall, from which a column
-/// comes back, the move fades into that of this wall, and the two columns go as one. Heights that
-/// are smaller than two of what fades out are scaled more and more alike. A node that is to move
-/// along the boundary itself, as on a plane of symmetry, goes with a column that does so too.
+/// height. A column halfway between two that are not parallel has a lower first cell than they:
+/// where theirs are equally high (see ColumnClimb::firstHeights), its nodes go on until its own is.
+/// Nodes of a column that are on a boundary keep to it: those on the CAD to their entity, others
+/// move if they stay in the planes of their facets; where the last one cannot go along, all of the
+/// move fades out. Where the last one is on another wall, from which a column comes back, the move
+/// fades into that of this wall, and the two columns go as one. Heights that are smaller than two
+/// of what fades out are scaled more and more alike. A node that is to move along the boundary
+/// itself, as on a plane of symmetry, goes with a column that does so too.
 ///
 /// Work: linear in the cells that are not simplices. Messages: one to and from each neighbour for
 /// every time that columns cross between ranks, and a few more.
@@ -112,6 +114,7 @@ private:
   void listMembers(
     RankExchange& exchange, const std::vector<ColumnVisit>& visits, const Moves& moves);
   void findYielding(RankExchange& exchange, const Moves& moves, const std::vector<double>& cosines);
+  void findLifts(RankExchange& exchange, const Moves& moves, const ColumnClimb& climb);
   std::vector<Claim> findClaims(
     RankExchange& exchange, const Moves& moves, const std::vector<unsigned char>& isLeftOut) const;
   Claim claimOf(const Member& member) const { return { member.level, columns_[member.column] }; }
@@ -148,7 +151,8 @@ private:
   /// The node of the wall where a column ends, if another one comes back from there; -1: none, or
   /// only other ranks have it.
   std::vector<Index> facing_;
-  bool anyFacing_ = false; ///< On any rank.
+  bool anyFacing_ = false;     ///< On any rank.
+  std::vector<Vector3> lifts_; ///< By which the nodes of a column go farther than its wall's.
   std::vector<Member> members_;
   std::vector<Member> following_; ///< Those of them that move.
 };

@@ -353,7 +353,8 @@ RefinementTrace refineOntoCAD(RankExchange& exchange, DistributedMesh& mesh,
     moves.add(static_cast<Index>(oldCount + hit.place), hit.where.point);
   }
   moveOntoCAD(exchange, mesh, std::move(moves), classification,
-    { projector, onBoundary, newVertices == NewVertices::MoveAndMend, true, plan.withOperations });
+    { projector, onBoundary, newVertices == NewVertices::MoveAndMend, true, plan.withOperations,
+      &trace.parentEdges });
   trace.onBoundary = std::move(onBoundary);
   return trace;
 }

@@ -85,20 +85,21 @@ const std::vector<LayerCase> cases{
   { "ShallowQuadrilaterals", 2, BoxKind::Hexahedron, 0.002, 1.5, 6, 0.02, 12 },
 };
 
-class Layers
-  : public ParallelTest
-  , public testing::WithParamInterface<LayerCase>
+class LayersTest : public ParallelTest
 {
 protected:
   cadtest::TemporaryFolder folder;
-  cadtest::FilterRun filters{ cadtest::writeInto(folder,
-                                GetParam().dimension == 2 ? cadtest::circle(2) : cadtest::sphere(2),
-                                ".brep"),
-    worldController() };
 
-  vtkSmartPointer<vtkPointSet> piece() const
+  cadtest::FilterRun filtersFor(int dimension) const
   {
-    const auto whole = cadtest::toGrid(meshOf(GetParam()));
+    return cadtest::FilterRun(
+      cadtest::writeInto(folder, dimension == 2 ? cadtest::circle(2) : cadtest::sphere(2), ".brep"),
+      worldController());
+  }
+
+  vtkSmartPointer<vtkPointSet> pieceOf(const Mesh& mesh) const
+  {
+    const auto whole = cadtest::toGrid(mesh);
     const auto rankOfCell = cadtest::deal(cadtest::Dealing::Random, whole, exchange.size());
     return cadtest::pieceOf(whole, rankOfCell, exchange.rank(), false);
   }
@@ -161,11 +162,11 @@ protected:
     return mesh;
   }
 
-  /// All of the wall is on the CAD, and its first cells are as high as the same ones of `straight`.
-  void expectKept(vtkPointSet* piece, vtkPointSet* straightPiece, std::size_t wallVertices)
+  /// All of the wall is on the CAD, and its first cells are so high: expected(first edge).
+  template<class Expected>
+  void expectKept(vtkPointSet* piece, std::size_t wallVertices, const Expected& expected)
   {
     const Mesh mesh = expectSound(piece);
-    const Mesh straight = cadtest::toMesh(cadtest::gather(exchange, straightPiece));
     EXPECT_EQ(cadtest::fieldValue(piece, "UnprojectedVertices"), 0);
     if (exchange.rank() > 0)
     {
@@ -175,10 +176,20 @@ protected:
     EXPECT_EQ(edges.size(), wallVertices);
     for (const auto& [vertex, edge] : edges)
     {
-      const double before = heightOf(straight, edge);
-      EXPECT_NEAR(heightOf(mesh, edge), before, 0.01 * before) << "over vertex " << vertex;
+      const double height = expected(edge);
+      EXPECT_NEAR(heightOf(mesh, edge), height, 0.01 * height) << "over vertex " << vertex;
     }
   }
+};
+
+class Layers
+  : public LayersTest
+  , public testing::WithParamInterface<LayerCase>
+{
+protected:
+  cadtest::FilterRun filters = filtersFor(GetParam().dimension);
+
+  vtkSmartPointer<vtkPointSet> piece() const { return pieceOf(meshOf(GetParam())); }
 };
 
 INSTANTIATE_TEST_SUITE_P(
@@ -260,38 +271,51 @@ TEST_P(Layers, areAsHighAtMidNodes)
 TEST_P(Layers, keepTheirFirstHeights)
 {
   const int n = GetParam().parts;
-  const auto input = piece();
-  const auto mesh = filters.project(input);
+  const auto mesh = filters.project(piece());
+  const auto expectHeight = [&](vtkPointSet* refined, std::size_t wallVertices, double height)
+  { expectKept(refined, wallVertices, [&](const Edge&) { return height * GetParam().first; }); };
+  const auto verticesOf = [](vtkPointSet* refined)
+  { return static_cast<std::size_t>(cadtest::fieldValue(refined, "CADVertices")); };
   {
     SCOPED_TRACE("projected");
-    // With the ids that the filter gives.
-    const auto same = filters.refineStraight(input, 0);
-    expectKept(mesh, same, GetParam().dimension == 2 ? n : 6 * n * n + 2);
+    expectHeight(mesh, GetParam().dimension == 2 ? n : 6 * n * n + 2, 1);
   }
   {
     SCOPED_TRACE("refined along the wall");
     const auto refined = filters.run<vtkRefineWithCAD>(mesh, [](vtkRefineWithCAD*) {});
-    const auto straight = filters.run<vtkRefineWithCAD>(
-      mesh, [](vtkRefineWithCAD* filter) { filter->ProjectNewVerticesOff(); });
-    expectKept(
-      refined, straight, static_cast<std::size_t>(cadtest::fieldValue(refined, "CADVertices")));
+    expectHeight(refined, verticesOf(refined), 1);
   }
-  const auto expectKeptUniformly = [&](vtkPointSet* refined, vtkPointSet* from)
-  {
-    expectKept(refined, filters.refineStraight(from),
-      static_cast<std::size_t>(cadtest::fieldValue(refined, "CADVertices")));
-  };
   const auto uniform = filters.refineUniformly(mesh); // through the layers, too
   {
     SCOPED_TRACE("refined uniformly");
-    expectKeptUniformly(uniform, mesh);
-    EXPECT_EQ(cadtest::fieldValue(uniform, "CADVertices"),
-      GetParam().dimension == 2 ? 2 * n : 24 * n * n + 2);
+    expectHeight(uniform, GetParam().dimension == 2 ? 2 * n : 24 * n * n + 2, 0.5);
   }
   {
     SCOPED_TRACE("refined uniformly once more");
-    expectKeptUniformly(filters.refineUniformly(uniform), uniform);
+    const auto refined = filters.refineUniformly(uniform);
+    expectHeight(refined, verticesOf(refined), 0.25);
   }
+}
+
+/// Of edges that are unequal it is the height over the facets that stays, as generators make them
+/// longer where the wall turns.
+TEST_F(LayersTest, ofUnequalEdgesAreAsHighOverFacets)
+{
+  const LayerCase& ring = *std::find_if(
+    cases.begin(), cases.end(), [](const LayerCase& each) { return each.dimension == 2; });
+  Mesh mesh = meshOf(ring);
+  const auto wall = static_cast<std::size_t>(ring.parts);
+  for (std::size_t v = wall; v < wall * (1 + ring.layers); ++v)
+  {
+    const Vector3 up = mesh.points[v] - mesh.points[v % wall];
+    mesh.points[v] = mesh.points[v] + 0.2 * normalized(up)[0] * up;
+  }
+  const cadtest::FilterRun filters = filtersFor(2);
+  const auto projected = filters.project(pieceOf(mesh));
+  const Mesh straight =
+    cadtest::toMesh(cadtest::gather(exchange, filters.refineStraight(projected)));
+  expectKept(filters.refineUniformly(projected), 2 * wall,
+    [&](const Edge& edge) { return heightOf(straight, edge); });
 }
 
 /// Cells through a wall whose both sides are on the CAD, which bulges by more than it is thick.
