@@ -5,9 +5,12 @@
 
 #include <cadrefine/base/IndicesWhere.h>
 #include <cadrefine/base/LargeMemory.h>
+#include <cadrefine/mesh/VertexFlags.h>
 
 #include <algorithm>
 #include <array>
+#include <iterator>
+#include <numeric>
 #include <utility>
 
 namespace cadrefine
@@ -24,8 +27,8 @@ public:
   {
   }
 
-  /// With its places in the piece. `cells` are in the order of makePointSet, and ascend. Work:
-  /// linear in their number.
+  /// With the places of its vertices in the piece. `cells` are in the order of makePointSet, and
+  /// ascend. Work: linear in their number.
   ConvertedMesh make(const std::vector<vtkIdType>& cells)
   {
     part_ = {};
@@ -58,7 +61,6 @@ private:
     const auto last = begin + static_cast<vtkIdType>(cells.size());
     const auto count = static_cast<std::size_t>(std::lower_bound(next_, end_, last) - next_);
     reserveLong(taken, count);
-    reserveLong(part_.cellOf[dimension], part_.cellOf[dimension].size() + count);
     reserveLong(part_.cellIds[dimension], part_.cellIds[dimension].size() + count);
     for (; next_ != end_ && *next_ < last; ++next_)
     {
@@ -66,7 +68,6 @@ private:
       auto& newCorners = taken.emplace_back();
       std::transform(corners.begin(), corners.end(), newCorners.begin(),
         [&](Index vertex) { return newVertex(vertex); });
-      part_.cellOf[dimension].push_back(*next_);
       part_.cellIds[dimension].push_back(mesh_.converted.cellIds[dimension][*next_ - first]);
     }
   }
@@ -116,7 +117,7 @@ struct Messages
   std::vector<std::vector<Index>> corners;
 };
 
-Messages pack(const std::vector<ConvertedMesh>& parts, int here)
+Messages pack(const std::vector<ConvertedMesh>& parts)
 {
   const std::size_t ranks = parts.size();
   Messages messages{ std::vector<std::vector<PlacedVertex>>(ranks),
@@ -124,7 +125,7 @@ Messages pack(const std::vector<ConvertedMesh>& parts, int here)
   for (std::size_t rank = 0; rank < ranks; ++rank)
   {
     const auto& [mesh, pointOf, cellOf, cellIds, midNodes] = parts[rank];
-    if (static_cast<int>(rank) == here || mesh.cellCount() == 0)
+    if (mesh.cellCount() == 0)
     {
       continue;
     }
@@ -178,98 +179,176 @@ ConvertedMesh unpack(const std::vector<PlacedVertex>& vertices,
   return part;
 }
 
-/// The parts in a row, each vertex once: `kept` of those of all parts.
-ConvertedMesh join(const std::vector<ConvertedMesh>& parts, ArraySelection& kept)
+/// Takes out the cells that go to other ranks. The vertices that are left, as they were numbered.
+std::vector<Index> takeOut(const std::vector<int>& ranks, int here, ConvertedMesh& piece)
 {
-  ConvertedMesh result;
-  Mesh& mesh = result.mesh;
-  std::vector<GlobalId> ids;
-  for (const ConvertedMesh& part : parts)
-  {
-    ids.insert(ids.end(), part.mesh.ids.begin(), part.mesh.ids.end());
-  }
-  const std::vector<Index> vertexOf = numberByIds(ids, [](std::size_t) { return true; });
-  auto& points = kept.points.emplace();
-  reserveLong(points, ids.size());
-  reserveLong(mesh.points, ids.size());
-  reserveLong(mesh.ids, ids.size());
-  std::size_t place = 0;
-  for (const ConvertedMesh& part : parts)
-  {
-    for (const Point3& point : part.mesh.points)
-    {
-      if (vertexOf[place] == static_cast<Index>(points.size()))
-      {
-        points.push_back(static_cast<vtkIdType>(place));
-        mesh.points.push_back(point);
-        mesh.ids.push_back(ids[place]);
-      }
-      ++place;
-    }
-  }
-  constexpr std::size_t shapes = 8;
-  std::array<std::vector<vtkIdType>, shapes> placesOf; // in the order in which shapes are visited
-  std::array<std::vector<GlobalId>, shapes> idsOf;
-  std::size_t firstVertex = 0;
-  vtkIdType nextPlace = 0;
-  for (const ConvertedMesh& part : parts)
-  {
-    const auto cellIds = joined(part.cellIds);
-    auto nextId = cellIds.begin();
-    std::size_t s = 0;
-    visitShapes(part.mesh,
-      [&](auto shape, const auto& cells)
-      {
-        auto& all = mesh.*decltype(shape)::cells;
-        reserveLong(all, all.size() + cells.size());
-        reserveLong(placesOf[s], all.size() + cells.size());
-        reserveLong(idsOf[s], all.size() + cells.size());
-        for (auto cell : cells)
-        {
-          std::transform(cell.begin(), cell.end(), cell.begin(),
-            [&](Index vertex) { return vertexOf[firstVertex + vertex]; });
-          all.push_back(cell);
-          placesOf[s].push_back(nextPlace++);
-          idsOf[s].push_back(*nextId++);
-        }
-        ++s;
-      });
-    firstVertex += part.mesh.points.size();
-  }
-  auto& cells = kept.cells.emplace();
-  std::size_t s = 0;
+  auto rank = ranks.begin();
   for (int d = 0; d < 4; ++d)
   {
-    visitShapes(mesh, d,
-      [&](auto, auto&)
+    auto& ids = piece.cellIds[d];
+    auto id = ids.begin();
+    auto keptId = ids.begin();
+    visitShapes(piece.mesh, d,
+      [&](auto, auto& cells)
       {
-        cells.insert(cells.end(), placesOf[s].begin(), placesOf[s].end());
-        result.cellIds[d].insert(result.cellIds[d].end(), idsOf[s].begin(), idsOf[s].end());
-        ++s;
+        auto kept = cells.begin();
+        for (const auto& cell : cells)
+        {
+          if (*rank++ == here)
+          {
+            *kept++ = cell;
+            *keptId++ = *id;
+          }
+          ++id;
+        }
+        cells.erase(kept, cells.end());
+      });
+    ids.erase(keptId, ids.end());
+  }
+  std::vector<Index> vertices = usedVertices(piece.mesh);
+  keepVertices(vertices, piece.mesh);
+  return vertices;
+}
+
+/// Puts the other parts of a row of parts behind this rank's own.
+class PartJoiner
+{
+public:
+  PartJoiner(std::vector<ConvertedMesh>& parts, std::size_t own) : parts_(parts), own_(own) {}
+
+  /// What becomes of the own part. Of a vertex that it has already, which is one of `candidates`,
+  /// or that several parts have, the first one is kept. Work: linear in the cells, and beside that
+  /// in the other parts and the candidates.
+  ConvertedMesh join(const std::vector<Index>& candidates, Delivery& delivery)
+  {
+    for (const ConvertedMesh& part : parts_)
+    {
+      delivery.points.push_back(part.mesh.points.size());
+      delivery.cells.push_back(part.mesh.cellCount());
+    }
+    addVertices(candidates, firstPlaces(delivery.points), delivery.kept.points.emplace());
+    addCells(firstPlaces(delivery.cells), delivery.kept.cells.emplace());
+    return std::move(parts_[own_]);
+  }
+
+private:
+  static std::vector<vtkIdType> firstPlaces(const std::vector<std::size_t>& counts)
+  {
+    std::vector<vtkIdType> firsts(counts.size());
+    std::exclusive_scan(counts.begin(), counts.end(), firsts.begin(), vtkIdType{ 0 });
+    return firsts;
+  }
+
+  template<class Use>
+  void forOthers(const Use& use) const
+  {
+    for (std::size_t p = 0; p < parts_.size(); ++p)
+    {
+      if (p != own_)
+      {
+        use(p, parts_[p]);
+      }
+    }
+  }
+
+  /// `firsts`: where what came from each rank begins; likewise of cells.
+  void addVertices(const std::vector<Index>& candidates, const std::vector<vtkIdType>& firsts,
+    std::vector<vtkIdType>& places)
+  {
+    Mesh& own = parts_[own_].mesh;
+    places.resize(own.points.size());
+    std::iota(places.begin(), places.end(), firsts[own_]);
+    std::vector<GlobalId> ids;
+    std::transform(candidates.begin(), candidates.end(), std::back_inserter(ids),
+      [&](Index vertex) { return own.ids[vertex]; });
+    forOthers([&](std::size_t, const ConvertedMesh& part)
+      { ids.insert(ids.end(), part.mesh.ids.begin(), part.mesh.ids.end()); });
+    const std::vector<Index> numbers = numberByIds(ids, [](std::size_t) { return true; });
+    const auto known = static_cast<Index>(candidates.size());
+    const auto firstNew = static_cast<Index>(own.points.size());
+    auto number = numbers.begin() + known;
+    forOthers(
+      [&](std::size_t p, const ConvertedMesh& part)
+      {
+        for (std::size_t v = 0; v < part.mesh.points.size(); ++v)
+        {
+          const Index n = *number++;
+          vertexOf_.push_back(n < known ? candidates[n] : firstNew + n - known);
+          if (vertexOf_.back() == static_cast<Index>(own.points.size()))
+          {
+            places.push_back(firsts[p] + static_cast<vtkIdType>(v));
+            own.points.push_back(part.mesh.points[v]);
+            own.ids.push_back(part.mesh.ids[v]);
+          }
+        }
       });
   }
-  return result;
-}
+
+  void addCells(std::vector<vtkIdType> firsts, std::vector<vtkIdType>& places)
+  {
+    ConvertedMesh& own = parts_[own_];
+    for (int d = 0; d < 4; ++d)
+    {
+      std::vector<std::size_t> nextIds(parts_.size(), 0);
+      std::vector<GlobalId> ids;
+      visitShapes(own.mesh, d,
+        [&](auto shape, auto& all)
+        {
+          const auto take = [&](std::size_t p, std::size_t count)
+          {
+            const auto first =
+              parts_[p].cellIds[d].begin() + static_cast<std::ptrdiff_t>(nextIds[p]);
+            ids.insert(ids.end(), first, first + static_cast<std::ptrdiff_t>(count));
+            nextIds[p] += count;
+            places.resize(places.size() + count);
+            std::iota(places.end() - static_cast<std::ptrdiff_t>(count), places.end(), firsts[p]);
+            firsts[p] += static_cast<vtkIdType>(count);
+          };
+          take(own_, all.size());
+          std::size_t firstVertex = 0;
+          forOthers(
+            [&](std::size_t p, const ConvertedMesh& part)
+            {
+              const auto& cells = part.mesh.*decltype(shape)::cells;
+              take(p, cells.size());
+              for (auto cell : cells)
+              {
+                std::transform(cell.begin(), cell.end(), cell.begin(),
+                  [&](Index vertex) { return vertexOf_[firstVertex + vertex]; });
+                all.push_back(cell);
+              }
+              firstVertex += part.mesh.points.size();
+            });
+        });
+      own.cellIds[d] = std::move(ids);
+    }
+  }
+
+  std::vector<ConvertedMesh>& parts_;
+  const std::size_t own_;
+  std::vector<Index> vertexOf_; ///< Of the vertices of the other parts.
+};
 
 } // namespace
 
 Redistribution redistribute(
-  RankExchange& exchange, const DistributedMesh& mesh, const std::vector<int>& ranks)
+  RankExchange& exchange, DistributedMesh mesh, const std::vector<int>& ranks)
 {
   const auto here = static_cast<std::size_t>(exchange.rank());
   std::vector<ConvertedMesh> parts(exchange.size());
   Redistribution result;
   Messages messages;
-  // Vertices that other ranks may hold.
-  std::vector<unsigned char> isCandidate(mesh.mesh().points.size(), 0);
+  std::vector<Index> candidates; // vertices that other ranks may hold
   agreeOnFailure(exchange,
     [&]
     {
       std::vector<std::vector<vtkIdType>> cellsTo(parts.size());
+      reserveLong(cellsTo[here], ranks.size());
       for (std::size_t cell = 0; cell < ranks.size(); ++cell)
       {
         cellsTo[ranks[cell]].push_back(static_cast<vtkIdType>(cell));
       }
+      std::vector<unsigned char> isCandidate(mesh.mesh().points.size(), 0);
       for (const Index vertex : mesh.shared.all)
       {
         isCandidate[vertex] = 1;
@@ -277,18 +356,32 @@ Redistribution redistribute(
       PartMaker maker(mesh);
       for (std::size_t rank = 0; rank < parts.size(); ++rank)
       {
-        parts[rank] = maker.make(cellsTo[rank]);
-        result.delivery.push_back({ parts[rank].pointOf, joined(parts[rank].cellOf) });
-        for (const vtkIdType vertex : parts[rank].pointOf)
+        if (rank != here)
         {
-          isCandidate[vertex] = isCandidate[vertex] || rank != here;
+          parts[rank] = maker.make(cellsTo[rank]);
+          for (const vtkIdType vertex : parts[rank].pointOf)
+          {
+            isCandidate[vertex] = 1;
+          }
         }
       }
-      messages = pack(parts, exchange.rank());
+      messages = pack(parts);
+      const std::vector<Index> own = takeOut(ranks, exchange.rank(), mesh.converted);
+      candidates =
+        indicesWhere(own.size(), [&](std::size_t v) { return isCandidate[own[v]] != 0; });
+      parts[here] = std::move(mesh.converted);
+      parts[here].pointOf.assign(own.begin(), own.end());
+      parts[here].cellOf = {};
+      for (std::size_t rank = 0; rank < parts.size(); ++rank)
+      {
+        result.delivery.toRanks.push_back(
+          { std::move(parts[rank].pointOf), std::move(cellsTo[rank]) });
+      }
     });
   messages.vertices = exchange.allToAll(messages.vertices);
   messages.cells = exchange.allToAll(messages.cells);
   messages.corners = exchange.allToAll(messages.corners);
+  std::size_t ownVertices = 0;
   agreeOnFailure(exchange,
     [&]
     {
@@ -300,25 +393,16 @@ Redistribution redistribute(
             unpack(messages.vertices[rank], messages.cells[rank], messages.corners[rank]);
         }
       }
-      result.mesh.converted = join(parts, result.kept);
+      ownVertices = parts[here].mesh.points.size();
+      result.mesh.converted = PartJoiner(parts, here).join(candidates, result.delivery);
     });
-  Mesh& joined = result.mesh.mesh();
-  joined.dimension = mesh.mesh().dimension;
-  joined.wedgesAsDocumented = mesh.mesh().wedgesAsDocumented;
+  const std::vector<GlobalId>& ids = result.mesh.mesh().ids;
   result.mesh.vertexIdBound = mesh.vertexIdBound;
-  std::size_t firstOwn = 0;
-  for (std::size_t rank = 0; rank < here; ++rank)
+  for (std::size_t v = ownVertices; v < ids.size(); ++v)
   {
-    firstOwn += parts[rank].mesh.points.size();
+    candidates.push_back(static_cast<Index>(v));
   }
-  const std::vector<vtkIdType>& own = *result.delivery[here].points;
-  const auto mayBeShared = [&](std::size_t v)
-  {
-    const std::size_t place = static_cast<std::size_t>((*result.kept.points)[v]) - firstOwn;
-    return place >= own.size() || isCandidate[own[place]]; // huge where it is below
-  };
-  result.mesh.shared =
-    findSharedVertices(exchange, joined.ids, indicesWhere(joined.points.size(), mayBeShared));
+  result.mesh.shared = findSharedVertices(exchange, ids, candidates);
   return result;
 }
 

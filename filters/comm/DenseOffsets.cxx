@@ -20,6 +20,7 @@ namespace
 {
 
 constexpr std::int64_t sparse = 4;
+constexpr std::size_t longRun = 64;
 
 // Numbers one after the other, kept by one rank: the first as its place in that rank's stretch.
 struct Run
@@ -193,11 +194,22 @@ std::vector<std::uint32_t> ascendingPlaces(const std::vector<GlobalId>& numbers)
   return places;
 }
 
-// Ascending, so that runs are as long as can be; on one rank nothing is sent.
+// How many runs the numbers make in their order.
+std::size_t countRuns(const std::vector<GlobalId>& numbers)
+{
+  std::size_t count = 1;
+  for (std::size_t i = 1; i < numbers.size(); ++i)
+  {
+    count += numbers[i] != numbers[i - 1] + 1;
+  }
+  return count;
+}
+
+// Ascending, unless runs are long as it is; on one rank nothing is sent.
 Numbering sumInOrder(RankExchange& exchange, const Range& range, std::vector<GlobalId> numbers,
   const std::vector<Index>& weights)
 {
-  if (exchange.size() == 1 || std::is_sorted(numbers.begin(), numbers.end()))
+  if (exchange.size() == 1 || countRuns(numbers) < numbers.size() / longRun)
   {
     return sumDense(exchange, range, std::move(numbers), weights);
   }

@@ -3,13 +3,15 @@
 #include "comm/CollectiveErrors.h"
 #include "fields/ArrayBytes.h"
 
+#include <cadrefine/base/LargeMemory.h>
+
 #include <vtkCellData.h>
 #include <vtkFieldData.h>
 #include <vtkPointData.h>
 #include <vtkTable.h>
 
 #include <algorithm>
-#include <numeric>
+#include <iterator>
 
 namespace cadrefine
 {
@@ -34,58 +36,83 @@ vtkAbstractArray* arrayLike(vtkAbstractArray* array, vtkDataSetAttributes* attri
            : nullptr;
 }
 
-/// The tuples of all parts in a row, of the arrays that all have.
-void append(const std::vector<vtkDataSetAttributes*>& parts, vtkDataSetAttributes* attributes)
+/// What came from a rank: all of these arrays, or their tuples at these places.
+struct Part
 {
-  if (parts.size() == 1)
-  {
-    attributes->ShallowCopy(parts.front());
-  }
-  if (parts.size() <= 1)
+  vtkDataSetAttributes* attributes = nullptr; ///< None: it had no arrays, or nothing came.
+  const std::vector<vtkIdType>* places = nullptr;
+};
+
+/// Tuples of one part that follow each other.
+struct Run
+{
+  std::size_t part;
+  std::size_t begin;
+};
+
+/// The kept tuples of a row of parts, given how many each has, of the arrays that all parts have
+/// from which something came.
+void gatherKept(const std::vector<Part>& parts, const std::vector<std::size_t>& counts,
+  const std::vector<vtkIdType>& kept, vtkDataSetAttributes* attributes)
+{
+  const auto first =
+    std::find_if(counts.begin(), counts.end(), [](std::size_t count) { return count > 0; });
+  vtkDataSetAttributes* model =
+    first == counts.end() ? nullptr : parts[first - counts.begin()].attributes;
+  if (!model)
   {
     return;
   }
-  const vtkIdType total = std::accumulate(parts.begin(), parts.end(), vtkIdType{ 0 },
-    [](vtkIdType sum, vtkDataSetAttributes* part) { return sum + part->GetNumberOfTuples(); });
-  vtkDataSetAttributes* first = parts.front();
-  for (int a = 0; a < first->GetNumberOfArrays(); ++a)
+  std::vector<vtkIdType> places; // in their parts' arrays
+  resizeLong(places, kept.size());
+  std::vector<Run> runs;
+  forKept(kept, counts,
+    [&](std::size_t part, vtkIdType place, std::size_t k)
+    {
+      places[k] = parts[part].places ? (*parts[part].places)[place] : place;
+      if (runs.empty() || runs.back().part != part)
+      {
+        runs.push_back({ part, k });
+      }
+    });
+  runs.push_back({ parts.size(), kept.size() });
+  for (int a = 0; a < model->GetNumberOfArrays(); ++a)
   {
-    vtkAbstractArray* array = first->GetAbstractArray(a);
-    if (!std::all_of(parts.begin(), parts.end(),
-          [&](vtkDataSetAttributes* part) { return arrayLike(array, part); }))
+    vtkAbstractArray* array = model->GetAbstractArray(a);
+    std::vector<vtkAbstractArray*> sources;
+    bool allHaveIt = true;
+    for (std::size_t p = 0; p < parts.size(); ++p)
     {
-      continue;
+      sources.push_back(parts[p].attributes ? arrayLike(array, parts[p].attributes) : nullptr);
+      allHaveIt = allHaveIt && (counts[p] == 0 || sources.back());
     }
-    const auto all = emptyLike(array, total);
-    vtkIdType next = 0;
-    for (vtkDataSetAttributes* part : parts)
+    if (allHaveIt)
     {
-      all->InsertTuples(next, part->GetNumberOfTuples(), 0, arrayLike(array, part));
-      next += part->GetNumberOfTuples();
+      const auto all = emptyLike(array, static_cast<vtkIdType>(kept.size()));
+      for (std::size_t r = 0; r + 1 < runs.size(); ++r)
+      {
+        copyTuples(sources[runs[r].part], places, runs[r].begin, runs[r + 1].begin, all);
+      }
+      addAs(model->IsArrayAnAttribute(a), all, attributes);
     }
-    addAs(first->IsArrayAnAttribute(a), all, attributes);
   }
 }
 
-/// `own`: in the place of what comes from this rank.
-void unpack(const std::vector<Bytes>& incoming, int rank, vtkDataSetAttributes* own,
-  vtkDataSetAttributes* attributes)
+/// What came from each rank, `own` in the place of what comes from this one.
+std::vector<Part> unpack(const std::vector<Bytes>& incoming, std::size_t here, const Part& own,
+  std::vector<vtkSmartPointer<vtkTable>>& tables)
 {
-  std::vector<vtkSmartPointer<vtkTable>> tables;
-  std::vector<vtkDataSetAttributes*> parts;
-  for (int r = 0; r < static_cast<int>(incoming.size()); ++r)
+  std::vector<Part> parts(incoming.size());
+  for (std::size_t rank = 0; rank < incoming.size(); ++rank)
   {
-    if (r == rank && own->GetNumberOfTuples() > 0)
+    if (!incoming[rank].empty())
     {
-      parts.push_back(own);
-    }
-    else if (!incoming[r].empty())
-    {
-      tables.push_back(arraysOf(incoming[r]));
-      parts.push_back(tables.back()->GetRowData());
+      tables.push_back(arraysOf(incoming[rank]));
+      parts[rank].attributes = tables.back()->GetRowData();
     }
   }
-  append(parts, attributes);
+  parts[here] = own;
+  return parts;
 }
 
 /// A rank that had no points does not know how the arrays of ids are called elsewhere.
@@ -107,18 +134,17 @@ void agreeOnNamesOfIds(RankExchange& exchange, MeshArrays& arrays)
 MeshArrays deliver(RankExchange& exchange, const MeshArrays& arrays, const Delivery& delivery)
 {
   const auto here = static_cast<std::size_t>(exchange.rank());
-  std::vector<Bytes> ofVertices(delivery.size());
-  std::vector<Bytes> ofCells(delivery.size());
-  MeshArrays own;
+  const auto& toRanks = delivery.toRanks;
+  std::vector<Bytes> ofVertices(toRanks.size());
+  std::vector<Bytes> ofCells(toRanks.size());
   agreeOnFailure(exchange,
     [&]
     {
-      own = select(arrays, delivery[here]);
-      for (std::size_t rank = 0; rank < delivery.size(); ++rank)
+      for (std::size_t rank = 0; rank < toRanks.size(); ++rank)
       {
         if (rank != here)
         {
-          const MeshArrays part = select(arrays, delivery[rank]);
+          const MeshArrays part = select(arrays, toRanks[rank]);
           ofVertices[rank] = pack(part.ofVertices);
           ofCells[rank] = pack(part.ofCells);
         }
@@ -132,8 +158,12 @@ MeshArrays deliver(RankExchange& exchange, const MeshArrays& arrays, const Deliv
   agreeOnFailure(exchange,
     [&]
     {
-      unpack(ofVertices, exchange.rank(), own.ofVertices, result.ofVertices);
-      unpack(ofCells, exchange.rank(), own.ofCells, result.ofCells);
+      const MeshArrays own = select(arrays, {});
+      std::vector<vtkSmartPointer<vtkTable>> tables;
+      gatherKept(unpack(ofVertices, here, { own.ofVertices, &*toRanks[here].points }, tables),
+        delivery.points, *delivery.kept.points, result.ofVertices);
+      gatherKept(unpack(ofCells, here, { own.ofCells, &*toRanks[here].cells }, tables),
+        delivery.cells, *delivery.kept.cells, result.ofCells);
     });
   return result;
 }

@@ -84,35 +84,41 @@ bool inOwnType(vtkAbstractArray* from, vtkAbstractArray* to, const Work& work)
          vtkArrayDispatch::Dispatch2SameValueType::Execute(source, target, work);
 }
 
-/// The tuples of `array` at these places, which may be noTuple.
 template<class Place>
-vtkSmartPointer<vtkAbstractArray> gather(vtkAbstractArray* array, const std::vector<Place>& places)
+void copy(vtkAbstractArray* from, const std::vector<Place>& places, std::size_t begin,
+  std::size_t end, vtkAbstractArray* to)
 {
-  const std::size_t count = places.size();
-  auto result = emptyLike(array, static_cast<vtkIdType>(count));
-  const auto copy = [&](auto* from, auto* to)
+  const auto copyValues = [&](auto* valuesFrom, auto* valuesTo)
   {
-    const auto source = vtk::DataArrayValueRange(from);
-    auto target = vtk::DataArrayValueRange(to);
-    const vtkIdType components = from->GetNumberOfComponents();
-    auto next = target.begin();
-    for (std::size_t i = 0; i < count; ++i)
+    const auto source = vtk::DataArrayValueRange(valuesFrom);
+    auto target = vtk::DataArrayValueRange(valuesTo);
+    const vtkIdType components = valuesFrom->GetNumberOfComponents();
+    auto next = target.begin() + static_cast<vtkIdType>(begin) * components;
+    for (std::size_t i = begin; i < end; ++i)
     {
       next = places[i] == noTuple
                ? std::fill_n(next, components, 0)
                : std::copy_n(source.begin() + places[i] * components, components, next);
     }
   };
-  if (!inOwnType(array, result, copy))
+  if (!inOwnType(from, to, copyValues))
   {
-    for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t i = begin; i < end; ++i)
     {
       if (places[i] != noTuple)
       {
-        result->SetTuple(static_cast<vtkIdType>(i), places[i], array);
+        to->SetTuple(static_cast<vtkIdType>(i), places[i], from);
       }
     }
   }
+}
+
+/// The tuples of `array` at these places, which may be noTuple.
+template<class Place>
+vtkSmartPointer<vtkAbstractArray> gather(vtkAbstractArray* array, const std::vector<Place>& places)
+{
+  auto result = emptyLike(array, static_cast<vtkIdType>(places.size()));
+  copy(array, places, 0, places.size(), result);
   return result;
 }
 
@@ -241,6 +247,12 @@ vtkSmartPointer<vtkAbstractArray> emptyLike(vtkAbstractArray* array, vtkIdType c
       static_cast<std::size_t>(result->GetNumberOfValues()) * result->GetDataTypeSize());
   }
   return result;
+}
+
+void copyTuples(vtkAbstractArray* from, const std::vector<vtkIdType>& places, std::size_t begin,
+  std::size_t end, vtkAbstractArray* to)
+{
+  copy(from, places, begin, end, to);
 }
 
 void addAs(int attribute, vtkAbstractArray* array, vtkDataSetAttributes* target)

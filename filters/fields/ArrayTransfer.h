@@ -37,6 +37,11 @@ struct MeshArrays
 /// An array of the same type, name and components, with so many tuples of any value.
 vtkSmartPointer<vtkAbstractArray> emptyLike(vtkAbstractArray* array, vtkIdType count);
 
+/// Copies the tuples of `from` at `places`, of which those from `begin` to `end` count, to `to`, an
+/// array of the same type: each to where its place stands in the list. See noTuple.
+void copyTuples(vtkAbstractArray* from, const std::vector<vtkIdType>& places, std::size_t begin,
+  std::size_t end, vtkAbstractArray* to);
+
 /// Adds the array as this attribute (VTK's scalars, vectors, ...; -1: as none).
 void addAs(int attribute, vtkAbstractArray* array, vtkDataSetAttributes* target);
 

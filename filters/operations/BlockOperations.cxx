@@ -42,34 +42,6 @@ void numberNewVertices(RankExchange& exchange, const std::vector<std::int64_t>& 
   mesh.vertexIdBound += std::accumulate(counts.begin(), counts.end(), std::int64_t{ 0 });
 }
 
-/// The vertices that cells have, ascending.
-std::vector<Index> usedVertices(const Mesh& mesh)
-{
-  std::vector<unsigned char> used(mesh.points.size(), 0);
-  const auto mark = [&](const auto& cells)
-  {
-    for (const auto& cell : cells)
-    {
-      for (const Index vertex : cell)
-      {
-        used[vertex] = 1;
-      }
-    }
-  };
-  visitShapes(mesh, [&](auto, const auto& cells) { mark(cells); });
-  return indicesWhere(used.size(), [&](std::size_t v) { return used[v] != 0; });
-}
-
-template<class T>
-void keepOnly(const std::vector<Index>& kept, std::vector<T>& list)
-{
-  for (std::size_t i = 0; i < kept.size(); ++i)
-  {
-    list[i] = list[kept[i]];
-  }
-  list.resize(kept.size());
-}
-
 /// Which of the shared vertices are still shared: those of them that have cells here have these
 /// numbers, the others are below 0. Collective.
 SharedVertices sharedOfKept(
@@ -102,25 +74,7 @@ SharedVertices sharedOfKept(
 void dropVertices(RankExchange& exchange, const std::vector<Index>& kept, DistributedMesh& mesh,
   Classification& classification)
 {
-  Mesh& cells = mesh.mesh();
-  std::vector<Index> numbers(cells.points.size(), -1);
-  for (std::size_t i = 0; i < kept.size(); ++i)
-  {
-    numbers[kept[i]] = static_cast<Index>(i);
-  }
-  visitShapes(cells,
-    [&](auto, auto& list)
-    {
-      for (auto& cell : list)
-      {
-        for (Index& vertex : cell)
-        {
-          vertex = numbers[vertex];
-        }
-      }
-    });
-  keepOnly(kept, cells.points);
-  keepOnly(kept, cells.ids);
+  const std::vector<Index> numbers = keepVertices(kept, mesh.mesh());
   keepOnly(kept, classification.entities);
   keepOnly(kept, classification.parameters);
   keepOnly(kept, classification.distances);

@@ -219,7 +219,7 @@ void redistribute(const PipelineContext& context, MeshState& state, const std::v
 {
   RankExchange& exchange = context.exchange;
   const bool isBoundaryKnown = knowsBoundary(exchange, state);
-  Redistribution sent = redistribute(exchange, state.mesh, ranks);
+  Redistribution sent = redistribute(exchange, std::move(state.mesh), ranks);
   state.onBoundary =
     isBoundaryKnown ? sent.ofVertices(exchange, state.onBoundary) : std::vector<unsigned char>{};
   if (state.classification)
@@ -237,7 +237,6 @@ void redistribute(const PipelineContext& context, MeshState& state, const std::v
   state.mesh = std::move(sent.mesh);
   const std::size_t done = state.mapping.stageCount();
   state.mapping.redistribute(std::move(sent.delivery));
-  state.mapping.convert(std::move(sent.kept));
   followMapping(exchange, state, done);
 }
 

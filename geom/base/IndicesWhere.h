@@ -1,4 +1,4 @@
-// The indices of what has a property.
+// The indices of what has a property, and lists of that alone.
 #pragma once
 
 #include <cadrefine/base/MeshTypes.h>
@@ -41,6 +41,17 @@ std::vector<Index> indicesWhere(
         }
       }
     });
+}
+
+/// Leaves these entries of a list, ascending, in it.
+template<class T>
+void keepOnly(const std::vector<Index>& kept, std::vector<T>& list)
+{
+  for (std::size_t i = 0; i < kept.size(); ++i)
+  {
+    list[i] = list[kept[i]];
+  }
+  list.resize(kept.size());
 }
 
 } // namespace cadrefine

@@ -1,5 +1,7 @@
 #include <cadrefine/mesh/VertexFlags.h>
 
+#include <cadrefine/base/IndicesWhere.h>
+
 #include <algorithm>
 
 namespace cadrefine
@@ -62,6 +64,46 @@ void flagVertices(
       }
       first += all.size();
     });
+}
+
+std::vector<Index> usedVertices(const Mesh& mesh)
+{
+  std::vector<unsigned char> used(mesh.points.size(), 0);
+  visitShapes(mesh,
+    [&](auto, const auto& cells)
+    {
+      for (const auto& cell : cells)
+      {
+        for (const Index vertex : cell)
+        {
+          used[vertex] = 1;
+        }
+      }
+    });
+  return indicesWhere(used.size(), [&](std::size_t v) { return used[v] != 0; });
+}
+
+std::vector<Index> keepVertices(const std::vector<Index>& kept, Mesh& mesh)
+{
+  std::vector<Index> numbers(mesh.points.size(), -1);
+  for (std::size_t i = 0; i < kept.size(); ++i)
+  {
+    numbers[kept[i]] = static_cast<Index>(i);
+  }
+  visitShapes(mesh,
+    [&](auto, auto& cells)
+    {
+      for (auto& cell : cells)
+      {
+        for (Index& vertex : cell)
+        {
+          vertex = numbers[vertex];
+        }
+      }
+    });
+  keepOnly(kept, mesh.points);
+  keepOnly(kept, mesh.ids);
+  return numbers;
 }
 
 } // namespace cadrefine

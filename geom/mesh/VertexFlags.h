@@ -21,4 +21,10 @@ std::vector<Index> cellsOfShape(
 void flagVertices(
   const Mesh& mesh, const std::vector<Index>& cells, std::vector<unsigned char>& flags);
 
+/// The vertices that cells have, ascending. Work: one look at each cell.
+std::vector<Index> usedVertices(const Mesh& mesh);
+/// Takes all vertices but these, which are ascending and all that cells have, out of a mesh. The
+/// new number of each, -1 of what is gone. Work: linear.
+std::vector<Index> keepVertices(const std::vector<Index>& kept, Mesh& mesh);
+
 } // namespace cadrefine
