@@ -36,7 +36,7 @@ constexpr double aim = 0.3;
 constexpr int maximumCuts = 8;
 constexpr int mostTries = 2;
 constexpr std::int64_t newCellsForOne = 200;
-constexpr std::int64_t cellsForOneNew = 100;
+constexpr std::int64_t cellsForOneNew = 4;
 /// Where no vertex is off the CAD, there are so many times as many cells at most, or so many, and
 /// nothing is cut if more than one cell in so many is bad.
 constexpr std::int64_t largestGrowth = 2;
