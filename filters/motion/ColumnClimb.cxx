@@ -3,15 +3,31 @@
 #include "mesh/BoundaryFacets.h"
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
+#include <utility>
 
 namespace cadrefine
 {
 namespace
 {
 
-/// First heights that differ by less of each other were made equal.
-constexpr double equalHeights = 1e-3;
+/// Of the length of first edges: those that differ by less were made equal.
+constexpr double equal = 1e-3;
+
+const FirstEdge& shorter(const FirstEdge& a, const FirstEdge& b)
+{
+  if (a.wantedLength == 0 || b.wantedLength == 0)
+  {
+    return a.wantedLength == 0 ? b : a;
+  }
+  return std::pair(a.wantedLength, a.up) < std::pair(b.wantedLength, b.up) ? a : b;
+}
+
+bool isHalfway(const FirstEdge& edge, const FirstEdge& a, const FirstEdge& b)
+{
+  return edge.wantedLength > 0 && a.wantedLength > 0 && b.wantedLength > 0 &&
+         distance(edge.up, 0.5 * (a.up + b.up)) < equal * edge.wantedLength;
+}
 
 } // namespace
 
@@ -26,34 +42,34 @@ ColumnClimb::ColumnClimb(const DistributedMesh& mesh, const ColumnNodes& nodes)
   outgoing_.resize(mesh.shared.neighbours.size());
 }
 
-std::vector<double> ColumnClimb::firstHeights(
+std::vector<FirstEdge> ColumnClimb::firstEdges(
   RankExchange& exchange, const std::vector<Facet>& facets) const
 {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  std::vector<double> heights(nodes_.points.size(), infinity);
+  std::vector<FirstEdge> edges(nodes_.points.size());
   for (const Facet& facet : facets)
   {
     const Facet above = stacks_.opposite(facet);
     for (int k = 0; above.cell >= 0 && k < nodes_.count(facet); ++k)
     {
-      double& height = heights[nodes_.at(facet, k)];
-      height = std::min(height, heightBetween(facet, above, k));
+      const Vector3 up = upFrom(facet, above, k);
+      FirstEdge& edge = edges[nodes_.at(facet, k)];
+      edge = shorter(edge, { up, norm(up) });
     }
   }
-  combineShared(
-    exchange, nodes_.shared, heights, [](double a, double b) { return std::min(a, b); });
-  const std::size_t first = nodes_.parents ? heights.size() - nodes_.parents->size() : 0;
-  for (std::size_t n = 0; nodes_.parents && n < nodes_.parents->size(); ++n)
+  combineShared(exchange, nodes_.shared, edges, shorter);
+  const std::size_t first = nodes_.parents ? edges.size() - nodes_.parents->size() : edges.size();
+  for (std::size_t n = first; n < edges.size(); ++n)
   {
-    const auto& [a, b] = (*nodes_.parents)[n];
-    const auto [low, high] = std::minmax(heights[a], heights[b]);
-    double& height = heights[first + n];
-    if (height < infinity && high < infinity && high - low < equalHeights * high)
+    const auto& [i, k] = (*nodes_.parents)[n - first];
+    const FirstEdge& a = edges[i];
+    const FirstEdge& b = edges[k];
+    const double longest = std::max(a.wantedLength, b.wantedLength);
+    if (isHalfway(edges[n], a, b) && std::abs(a.wantedLength - b.wantedLength) < equal * longest)
     {
-      height = 0.5 * (low + high);
+      edges[n].wantedLength = 0.5 * (a.wantedLength + b.wantedLength);
     }
   }
-  return heights;
+  return edges;
 }
 
 void ColumnClimb::start(const Facet& facet, int place, double highest, double reach)
@@ -97,7 +113,7 @@ void ColumnClimb::climb(Facet side, Front front)
     }
     const auto place = static_cast<int>(front.place);
     const Index node = nodes_.at(above, place);
-    front.height += heightBetween(side, above, place);
+    front.height += norm(upFrom(side, above, place));
     ++front.level;
     if (front.level == 1 && front.height > front.highest)
     {
@@ -116,9 +132,9 @@ void ColumnClimb::climb(Facet side, Front front)
   }
 }
 
-double ColumnClimb::heightBetween(const Facet& side, const Facet& above, int place) const
+Vector3 ColumnClimb::upFrom(const Facet& side, const Facet& above, int place) const
 {
-  return distance(nodes_.points[nodes_.at(side, place)], nodes_.points[nodes_.at(above, place)]);
+  return nodes_.points[nodes_.at(above, place)] - nodes_.points[nodes_.at(side, place)];
 }
 
 void ColumnClimb::goBeyond(const Facet& side, const Front& front)

@@ -4,6 +4,7 @@
 #include "mesh/DistributedMesh.h"
 
 #include <cadrefine/base/EntityId.h>
+#include <cadrefine/base/Vector3.h>
 #include <cadrefine/mesh/EdgeTable.h>
 #include <cadrefine/mesh/Facets.h>
 #include <cadrefine/motion/CellStacks.h>
@@ -48,6 +49,14 @@ struct ColumnVisit
   double height;
 };
 
+/// From a node of a wall to the first one over it.
+struct FirstEdge
+{
+  Vector3 up{}; ///< Zero: there is none.
+  /// As long as it is, or, if it is halfway between two that are equally long, as these.
+  double wantedLength = 0;
+};
+
 /// Finds the nodes of columns. Work: linear in the cells that they go through, and that of
 /// CellStacks. Keeps references to mesh and nodes.
 class ColumnClimb
@@ -55,10 +64,8 @@ class ColumnClimb
 public:
   ColumnClimb(const DistributedMesh& mesh, const ColumnNodes& nodes);
 
-  /// Of the first cell over each node of these facets, along its edge: that which there is, or, if
-  /// they are equal, that over the ends of the line in whose middle the node is; infinite for other
-  /// nodes. Collective.
-  std::vector<double> firstHeights(RankExchange& exchange, const std::vector<Facet>& facets) const;
+  /// Over each node of these facets; of several the shortest. Collective.
+  std::vector<FirstEdge> firstEdges(RankExchange& exchange, const std::vector<Facet>& facets) const;
 
   /// A column that stands on this node of a facet (see ColumnNodes::at), on both sides of it, and
   /// ends at the height `reach`; none where its first cell is higher than `highest`.
@@ -82,7 +89,7 @@ private:
     double reach;   ///< The column ends at this height.
   };
 
-  double heightBetween(const Facet& side, const Facet& above, int place) const;
+  Vector3 upFrom(const Facet& side, const Facet& above, int place) const;
   void climb(Facet side, Front front);
   void goBeyond(const Facet& side, const Front& front);
   void send(const Facet& side, Front front);

@@ -265,25 +265,28 @@ void LayerColumns::findLifts(RankExchange& exchange, const Moves& moves, const C
   {
     return;
   }
-  const std::vector<double> wanted = climb.firstHeights(exchange, facets_);
+  const std::vector<FirstEdge> edges = climb.firstEdges(exchange, facets_);
   for (const Member& member : members_)
   {
     const Index wall = walls_[member.column];
-    if (member.level != 1 || wall < 0 || wanted[wall] <= member.height ||
-        wanted[wall] > (1 + mostLift) * member.height)
+    if (member.level > 1 || wall < 0)
     {
       continue;
     }
-    const Vector3 now = nodes_.points[member.node] - nodes_.points[wall];
-    Vector3 direction = (1 / member.height) * now;
-    const ClosestPoint where = projector_.nearestOn(nodes_.entities[wall], moves.targets[wall]);
-    if (where.entity.dimension == 2)
+    const auto& [up, length] = edges[wall];
+    const bool isThisEdge = up == nodes_.points[member.node] - nodes_.points[wall];
+    if (isThisEdge && length > member.height && length < (1 + mostLift) * member.height)
     {
-      const Vector3 normal = projector_.model().normal(where.entity.index, where.parameters);
-      const double cosine = dot(normal, direction);
-      direction = std::abs(cosine) > across ? std::copysign(1.0, cosine) * normal : direction;
+      Vector3 direction = normalized(up);
+      const ClosestPoint where = projector_.nearestOn(nodes_.entities[wall], moves.targets[wall]);
+      if (where.entity.dimension == 2)
+      {
+        const Vector3 normal = projector_.model().normal(where.entity.index, where.parameters);
+        const double cosine = dot(normal, direction);
+        direction = std::abs(cosine) > across ? std::copysign(1.0, cosine) * normal : direction;
+      }
+      lifts_[member.column] = length * direction - up;
     }
-    lifts_[member.column] = wanted[wall] * direction - now;
   }
   combineShared(exchange, shared_, lifts_,
     [](const Vector3& a, const Vector3& b) { return a == Vector3{} ? b : a; });

@@ -27,7 +27,7 @@ namespace cadrefine
 /// first), the last one not at all. On a stack that is lower than six moves what follows has to
 /// make way: so much less fades out that no cell of the stack loses more than a quarter of its
 /// height. A column halfway between two that are not parallel has a lower first cell than they:
-/// where theirs are equally high (see ColumnClimb::firstHeights), its nodes go on until its own is.
+/// where theirs are equally high (see ColumnClimb::firstEdges), its nodes go on until its own is.
 /// Nodes of a column that are on a boundary keep to it: those on the CAD to their entity, others
 /// move if they stay in the planes of their facets; where the last one cannot go along, all of the
 /// move fades out. Where the last one is on another wall, from which a column comes back, the move
