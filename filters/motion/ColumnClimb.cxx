@@ -42,8 +42,8 @@ ColumnClimb::ColumnClimb(const DistributedMesh& mesh, const ColumnNodes& nodes)
   outgoing_.resize(mesh.shared.neighbours.size());
 }
 
-std::vector<FirstEdge> ColumnClimb::firstEdges(
-  RankExchange& exchange, const std::vector<Facet>& facets) const
+std::vector<FirstEdge> ColumnClimb::firstEdges(RankExchange& exchange,
+  const std::vector<Facet>& facets, const std::vector<unsigned char>& onBoundary) const
 {
   std::vector<FirstEdge> edges(nodes_.points.size());
   for (const Facet& facet : facets)
@@ -53,11 +53,11 @@ std::vector<FirstEdge> ColumnClimb::firstEdges(
     {
       const Vector3 up = upFrom(facet, above, k);
       FirstEdge& edge = edges[nodes_.at(facet, k)];
-      edge = shorter(edge, { up, norm(up) });
+      edge = shorter(edge, { up, norm(up), onBoundary[nodes_.at(above, k)] != 0 });
     }
   }
   combineShared(exchange, nodes_.shared, edges, shorter);
-  const std::size_t first = nodes_.parents ? edges.size() - nodes_.parents->size() : edges.size();
+  const std::size_t first = edges.size() - nodes_.parents->size();
   for (std::size_t n = first; n < edges.size(); ++n)
   {
     const auto& [i, k] = (*nodes_.parents)[n - first];

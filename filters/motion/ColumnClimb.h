@@ -55,6 +55,7 @@ struct FirstEdge
   Vector3 up{}; ///< Zero: there is none.
   /// As long as it is, or, if it is halfway between two that are equally long, as these.
   double wantedLength = 0;
+  bool onBoundary = false; ///< Its upper end, too.
 };
 
 /// Finds the nodes of columns. Work: linear in the cells that they go through, and that of
@@ -64,8 +65,10 @@ class ColumnClimb
 public:
   ColumnClimb(const DistributedMesh& mesh, const ColumnNodes& nodes);
 
-  /// Over each node of these facets; of several the shortest. Collective.
-  std::vector<FirstEdge> firstEdges(RankExchange& exchange, const std::vector<Facet>& facets) const;
+  /// Over each node of these facets; of several the shortest. `onBoundary`: 1 for nodes there, over
+  /// all ranks. Collective; needs the parents.
+  std::vector<FirstEdge> firstEdges(RankExchange& exchange, const std::vector<Facet>& facets,
+    const std::vector<unsigned char>& onBoundary) const;
 
   /// A column that stands on this node of a facet (see ColumnNodes::at), on both sides of it, and
   /// ends at the height `reach`; none where its first cell is higher than `highest`.

@@ -32,8 +32,9 @@ constexpr double heightsOfMove = 6;
 constexpr double alongEntity = 0.1;
 /// Of what fades out: from so much height on it does so smoothly, and the first height stays.
 constexpr double smoothHeights = 2;
-/// By which a first height is made larger.
-constexpr double mostLift = 0.5;
+/// Of the length of a first edge: one that is too short by less stays, as does one by more.
+constexpr double leastLift = 1e-3;
+constexpr double mostLift = 0.35;
 /// The least cosine between a facet's normal and a move across it, not along it.
 constexpr double across = 0.5;
 
@@ -136,7 +137,11 @@ LayerColumns::LayerColumns(RankExchange& exchange, const DistributedMesh& mesh, 
     }
   }
   listMembers(exchange, climb.run(exchange), moves);
-  findLifts(exchange, moves, climb);
+  lifts_.assign(columns_.size(), Vector3{});
+  if (nodes_.parents)
+  {
+    findLifts(exchange, moves, climb.firstEdges(exchange, facets_, fixed));
+  }
   std::vector<double> cosines;
   std::transform(best.begin(), best.end(), std::back_inserter(cosines),
     [](const BestFacet& facet) { return facet.cosine; });
@@ -257,36 +262,57 @@ void LayerColumns::findYielding(
   }
 }
 
-/// Along the normal of the wall's face, or else as the column goes. Collective.
-void LayerColumns::findLifts(RankExchange& exchange, const Moves& moves, const ColumnClimb& climb)
+/// The first edge over a new node of a wall once it is there, given those over the ends of the line
+/// that it halves: as long as wanted, and from the normal of the CAD's face by their mean. As it
+/// goes where there is no face, or the boundary holds its upper end.
+Vector3 LayerColumns::liftedEdge(Index node, const Moves& moves, const FirstEdge& edge,
+  const std::vector<Vector3>& ups, const std::array<Index, 2>& ends) const
 {
-  lifts_.assign(columns_.size(), Vector3{});
-  if (!nodes_.parents)
+  const CADModel& model = projector_.model();
+  const Vector3 asItGoes = normalized(edge.up);
+  const ClosestPoint where = projector_.nearestOn(nodes_.entities[node], moves.targets[node]);
+  if (where.entity.dimension != 2 || edge.onBoundary)
   {
-    return;
+    return edge.wantedLength * asItGoes;
   }
-  const std::vector<FirstEdge> edges = climb.firstEdges(exchange, facets_);
+  const auto leaning = [](const Vector3& way, const Vector3& normal)
+  { return way - dot(way, normal) * normal; };
+  Vector3 aside{};
+  for (const Index end : ends)
+  {
+    const Vector3 normal = model.normalNear(where.entity.index, moves.targets[end]);
+    aside = aside + 0.5 * leaning(normalized(ups[end]), normal);
+  }
+  const Vector3 normal = model.normal(where.entity.index, where.parameters);
+  aside = leaning(aside, normal);
+  const double height = std::sqrt(std::max(0.0, 1 - squaredNorm(aside)));
+  return edge.wantedLength * (aside + std::copysign(height, dot(normal, asItGoes)) * normal);
+}
+
+/// Collective.
+void LayerColumns::findLifts(
+  RankExchange& exchange, const Moves& moves, const std::vector<FirstEdge>& edges)
+{
+  std::vector<Vector3> ups;
+  std::transform(edges.begin(), edges.end(), std::back_inserter(ups),
+    [](const FirstEdge& edge) { return edge.up; });
+  const std::size_t first = edges.size() - nodes_.parents->size();
+  for (std::size_t n = first; n < edges.size(); ++n)
+  {
+    const double lift = edges[n].wantedLength - norm(edges[n].up);
+    if (nodes_.entities[n] && lift > leastLift * edges[n].wantedLength &&
+        lift < mostLift * edges[n].wantedLength)
+    {
+      ups[n] =
+        liftedEdge(static_cast<Index>(n), moves, edges[n], ups, (*nodes_.parents)[n - first]);
+    }
+  }
   for (const Member& member : members_)
   {
     const Index wall = walls_[member.column];
-    if (member.level > 1 || wall < 0)
-    {
-      continue;
-    }
-    const auto& [up, length] = edges[wall];
-    const bool isThisEdge = up == nodes_.points[member.node] - nodes_.points[wall];
-    if (isThisEdge && length > member.height && length < (1 + mostLift) * member.height)
-    {
-      Vector3 direction = normalized(up);
-      const ClosestPoint where = projector_.nearestOn(nodes_.entities[wall], moves.targets[wall]);
-      if (where.entity.dimension == 2)
-      {
-        const Vector3 normal = projector_.model().normal(where.entity.index, where.parameters);
-        const double cosine = dot(normal, direction);
-        direction = std::abs(cosine) > across ? std::copysign(1.0, cosine) * normal : direction;
-      }
-      lifts_[member.column] = length * direction - up;
-    }
+    const bool isFirst = member.level == 1 && wall >= 0 &&
+                         edges[wall].up == nodes_.points[member.node] - nodes_.points[wall];
+    lifts_[member.column] = isFirst ? ups[wall] - edges[wall].up : lifts_[member.column];
   }
   combineShared(exchange, shared_, lifts_,
     [](const Vector3& a, const Vector3& b) { return a == Vector3{} ? b : a; });

@@ -114,7 +114,9 @@ private:
   void listMembers(
     RankExchange& exchange, const std::vector<ColumnVisit>& visits, const Moves& moves);
   void findYielding(RankExchange& exchange, const Moves& moves, const std::vector<double>& cosines);
-  void findLifts(RankExchange& exchange, const Moves& moves, const ColumnClimb& climb);
+  Vector3 liftedEdge(Index node, const Moves& moves, const FirstEdge& edge,
+    const std::vector<Vector3>& ups, const std::array<Index, 2>& ends) const;
+  void findLifts(RankExchange& exchange, const Moves& moves, const std::vector<FirstEdge>& edges);
   std::vector<Claim> findClaims(
     RankExchange& exchange, const Moves& moves, const std::vector<unsigned char>& isLeftOut) const;
   Claim claimOf(const Member& member) const { return { member.level, columns_[member.column] }; }

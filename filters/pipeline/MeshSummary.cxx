@@ -93,8 +93,8 @@ std::string warningOfInvalidCells(const QualitySummary& quality, const MeshCount
   }
   return count == 0 ? std::string()
                     : "the input mesh has " + std::to_string(count) +
-                        " inverted or degenerate cells; they are repaired where that is possible "
-                        "while vertices move onto the CAD";
+                        " inverted or degenerate cells; tetrahedra and triangles of them are "
+                        "repaired where that is possible while vertices move onto the CAD";
 }
 
 void setFieldValue(vtkFieldData* data, const char* name, double value)
