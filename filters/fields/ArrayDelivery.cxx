@@ -83,7 +83,8 @@ void gatherKept(const std::vector<Part>& parts, const std::vector<std::size_t>& 
     bool allHaveIt = true;
     for (std::size_t p = 0; p < parts.size(); ++p)
     {
-      sources.push_back(parts[p].attributes ? arrayLike(array, parts[p].attributes) : nullptr);
+      vtkDataSetAttributes* part = parts[p].attributes;
+      sources.push_back(part == model ? array : part ? arrayLike(array, part) : nullptr);
       allHaveIt = allHaveIt && (counts[p] == 0 || sources.back());
     }
     if (allHaveIt)
