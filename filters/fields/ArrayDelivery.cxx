@@ -11,7 +11,6 @@
 #include <vtkTable.h>
 
 #include <algorithm>
-#include <iterator>
 
 namespace cadrefine
 {

@@ -3,36 +3,13 @@
 #include "mesh/BoundaryFacets.h"
 
 #include <algorithm>
-#include <cmath>
-#include <utility>
 
 namespace cadrefine
 {
-namespace
-{
 
-/// Of the length of first edges: those that differ by less were made equal.
-constexpr double equal = 1e-3;
-
-const FirstEdge& shorter(const FirstEdge& a, const FirstEdge& b)
-{
-  if (a.wantedLength == 0 || b.wantedLength == 0)
-  {
-    return a.wantedLength == 0 ? b : a;
-  }
-  return std::pair(a.wantedLength, a.up) < std::pair(b.wantedLength, b.up) ? a : b;
-}
-
-bool isHalfway(const FirstEdge& edge, const FirstEdge& a, const FirstEdge& b)
-{
-  return edge.wantedLength > 0 && a.wantedLength > 0 && b.wantedLength > 0 &&
-         distance(edge.up, 0.5 * (a.up + b.up)) < equal * edge.wantedLength;
-}
-
-} // namespace
-
-ColumnClimb::ColumnClimb(const DistributedMesh& mesh, const ColumnNodes& nodes)
-  : mesh_(mesh), nodes_(nodes), stacks_(mesh.mesh())
+ColumnClimb::ColumnClimb(
+  const DistributedMesh& mesh, const CellStacks& stacks, const ColumnNodes& nodes)
+  : mesh_(mesh), nodes_(nodes), stacks_(stacks)
 {
   for (const Index vertex : mesh.shared.all)
   {
@@ -40,36 +17,6 @@ ColumnClimb::ColumnClimb(const DistributedMesh& mesh, const ColumnNodes& nodes)
   }
   std::sort(vertexOf_.begin(), vertexOf_.end());
   outgoing_.resize(mesh.shared.neighbours.size());
-}
-
-std::vector<FirstEdge> ColumnClimb::firstEdges(RankExchange& exchange,
-  const std::vector<Facet>& facets, const std::vector<unsigned char>& onBoundary) const
-{
-  std::vector<FirstEdge> edges(nodes_.points.size());
-  for (const Facet& facet : facets)
-  {
-    const Facet above = stacks_.opposite(facet);
-    for (int k = 0; above.cell >= 0 && k < nodes_.count(facet); ++k)
-    {
-      const Vector3 up = upFrom(facet, above, k);
-      FirstEdge& edge = edges[nodes_.at(facet, k)];
-      edge = shorter(edge, { up, norm(up), onBoundary[nodes_.at(above, k)] != 0 });
-    }
-  }
-  combineShared(exchange, nodes_.shared, edges, shorter);
-  const std::size_t first = edges.size() - nodes_.parents->size();
-  for (std::size_t n = first; n < edges.size(); ++n)
-  {
-    const auto& [i, k] = (*nodes_.parents)[n - first];
-    const FirstEdge& a = edges[i];
-    const FirstEdge& b = edges[k];
-    const double longest = std::max(a.wantedLength, b.wantedLength);
-    if (isHalfway(edges[n], a, b) && std::abs(a.wantedLength - b.wantedLength) < equal * longest)
-    {
-      edges[n].wantedLength = 0.5 * (a.wantedLength + b.wantedLength);
-    }
-  }
-  return edges;
 }
 
 void ColumnClimb::start(const Facet& facet, int place, double highest, double reach)
@@ -113,7 +60,7 @@ void ColumnClimb::climb(Facet side, Front front)
     }
     const auto place = static_cast<int>(front.place);
     const Index node = nodes_.at(above, place);
-    front.height += norm(upFrom(side, above, place));
+    front.height += distance(nodes_.points[nodes_.at(side, place)], nodes_.points[node]);
     ++front.level;
     if (front.level == 1 && front.height > front.highest)
     {
@@ -130,11 +77,6 @@ void ColumnClimb::climb(Facet side, Front front)
       send(above, front);
     }
   }
-}
-
-Vector3 ColumnClimb::upFrom(const Facet& side, const Facet& above, int place) const
-{
-  return nodes_.points[nodes_.at(above, place)] - nodes_.points[nodes_.at(side, place)];
 }
 
 void ColumnClimb::goBeyond(const Facet& side, const Front& front)

@@ -4,7 +4,6 @@
 #include "mesh/DistributedMesh.h"
 
 #include <cadrefine/base/EntityId.h>
-#include <cadrefine/base/Vector3.h>
 #include <cadrefine/mesh/EdgeTable.h>
 #include <cadrefine/mesh/Facets.h>
 #include <cadrefine/motion/CellStacks.h>
@@ -49,26 +48,12 @@ struct ColumnVisit
   double height;
 };
 
-/// From a node of a wall to the first one over it.
-struct FirstEdge
-{
-  Vector3 up{}; ///< Zero: there is none.
-  /// As long as it is, or, if it is halfway between two that are equally long, as these.
-  double wantedLength = 0;
-  bool onBoundary = false; ///< Its upper end, too.
-};
-
-/// Finds the nodes of columns. Work: linear in the cells that they go through, and that of
-/// CellStacks. Keeps references to mesh and nodes.
+/// Finds the nodes of columns. Work: linear in the cells that they go through. Keeps references to
+/// all that it is given.
 class ColumnClimb
 {
 public:
-  ColumnClimb(const DistributedMesh& mesh, const ColumnNodes& nodes);
-
-  /// Over each node of these facets; of several the shortest. `onBoundary`: 1 for nodes there, over
-  /// all ranks. Collective; needs the parents.
-  std::vector<FirstEdge> firstEdges(RankExchange& exchange, const std::vector<Facet>& facets,
-    const std::vector<unsigned char>& onBoundary) const;
+  ColumnClimb(const DistributedMesh& mesh, const CellStacks& stacks, const ColumnNodes& nodes);
 
   /// A column that stands on this node of a facet (see ColumnNodes::at), on both sides of it, and
   /// ends at the height `reach`; none where its first cell is higher than `highest`.
@@ -92,7 +77,6 @@ private:
     double reach;   ///< The column ends at this height.
   };
 
-  Vector3 upFrom(const Facet& side, const Facet& above, int place) const;
   void climb(Facet side, Front front);
   void goBeyond(const Facet& side, const Front& front);
   void send(const Facet& side, Front front);
@@ -100,7 +84,7 @@ private:
 
   const DistributedMesh& mesh_;
   const ColumnNodes& nodes_;
-  const CellStacks stacks_;
+  const CellStacks& stacks_;
   std::vector<std::pair<GlobalId, Index>> vertexOf_; ///< Of the ids of shared vertices.
   std::vector<std::vector<Front>> outgoing_;
   std::vector<ColumnVisit> visited_;

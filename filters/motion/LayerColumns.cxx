@@ -32,9 +32,6 @@ constexpr double heightsOfMove = 6;
 constexpr double alongEntity = 0.1;
 /// Of what fades out: from so much height on it does so smoothly, and the first height stays.
 constexpr double smoothHeights = 2;
-/// Of the length of a first edge: one that is too short by less stays, as does one by more.
-constexpr double leastLift = 1e-3;
-constexpr double mostLift = 0.35;
 /// The least cosine between a facet's normal and a move across it, not along it.
 constexpr double across = 0.5;
 
@@ -46,6 +43,11 @@ double smaller(double a, double b)
 double larger(double a, double b)
 {
   return std::max(a, b);
+}
+
+const Vector3& nonZero(const Vector3& a, const Vector3& b)
+{
+  return a == Vector3{} ? b : a;
 }
 
 /// The facet at a moving node whose normal is nearest to the direction of its move.
@@ -123,7 +125,8 @@ LayerColumns::LayerColumns(RankExchange& exchange, const DistributedMesh& mesh, 
   }
   facets_ = findBoundaryFacets(exchange, mesh, fixed);
   const auto best = findBestFacets(exchange, piece, nodes_, moves, facets_, plane);
-  ColumnClimb climb(mesh, nodes_);
+  const CellStacks stacks(piece);
+  ColumnClimb climb(mesh, stacks, nodes_);
   for (const Facet& facet : facets_)
   {
     for (int k = 0; k < nodes_.count(facet); ++k)
@@ -140,7 +143,7 @@ LayerColumns::LayerColumns(RankExchange& exchange, const DistributedMesh& mesh, 
   lifts_.assign(columns_.size(), Vector3{});
   if (nodes_.parents)
   {
-    findLifts(exchange, moves, climb.firstEdges(exchange, facets_, fixed));
+    findLifts(exchange, findFirstEdges(exchange, stacks, nodes_, facets_, moves, projector, fixed));
   }
   std::vector<double> cosines;
   std::transform(best.begin(), best.end(), std::back_inserter(cosines),
@@ -262,60 +265,19 @@ void LayerColumns::findYielding(
   }
 }
 
-/// The first edge over a new node of a wall once it is there, given those over the ends of the line
-/// that it halves: as long as wanted, and from the normal of the CAD's face by their mean. As it
-/// goes where there is no face, or the boundary holds its upper end.
-Vector3 LayerColumns::liftedEdge(Index node, const Moves& moves, const FirstEdge& edge,
-  const std::vector<Vector3>& ups, const std::array<Index, 2>& ends) const
-{
-  const CADModel& model = projector_.model();
-  const Vector3 asItGoes = normalized(edge.up);
-  const ClosestPoint where = projector_.nearestOn(nodes_.entities[node], moves.targets[node]);
-  if (where.entity.dimension != 2 || edge.onBoundary)
-  {
-    return edge.wantedLength * asItGoes;
-  }
-  const auto leaning = [](const Vector3& way, const Vector3& normal)
-  { return way - dot(way, normal) * normal; };
-  Vector3 aside{};
-  for (const Index end : ends)
-  {
-    const Vector3 normal = model.normalNear(where.entity.index, moves.targets[end]);
-    aside = aside + 0.5 * leaning(normalized(ups[end]), normal);
-  }
-  const Vector3 normal = model.normal(where.entity.index, where.parameters);
-  aside = leaning(aside, normal);
-  const double height = std::sqrt(std::max(0.0, 1 - squaredNorm(aside)));
-  return edge.wantedLength * (aside + std::copysign(height, dot(normal, asItGoes)) * normal);
-}
-
 /// Collective.
-void LayerColumns::findLifts(
-  RankExchange& exchange, const Moves& moves, const std::vector<FirstEdge>& edges)
+void LayerColumns::findLifts(RankExchange& exchange, const std::vector<FirstEdge>& edges)
 {
-  std::vector<Vector3> ups;
-  std::transform(edges.begin(), edges.end(), std::back_inserter(ups),
-    [](const FirstEdge& edge) { return edge.up; });
-  const std::size_t first = edges.size() - nodes_.parents->size();
-  for (std::size_t n = first; n < edges.size(); ++n)
-  {
-    const double lift = edges[n].wantedLength - norm(edges[n].up);
-    if (nodes_.entities[n] && lift > leastLift * edges[n].wantedLength &&
-        lift < mostLift * edges[n].wantedLength)
-    {
-      ups[n] =
-        liftedEdge(static_cast<Index>(n), moves, edges[n], ups, (*nodes_.parents)[n - first]);
-    }
-  }
   for (const Member& member : members_)
   {
     const Index wall = walls_[member.column];
-    const bool isFirst = member.level == 1 && wall >= 0 &&
-                         edges[wall].up == nodes_.points[member.node] - nodes_.points[wall];
-    lifts_[member.column] = isFirst ? ups[wall] - edges[wall].up : lifts_[member.column];
+    if (member.level == 1 && wall >= 0 &&
+        edges[wall].up == nodes_.points[member.node] - nodes_.points[wall])
+    {
+      lifts_[member.column] = edges[wall].lifted - edges[wall].up;
+    }
   }
-  combineShared(exchange, shared_, lifts_,
-    [](const Vector3& a, const Vector3& b) { return a == Vector3{} ? b : a; });
+  combineShared(exchange, shared_, lifts_, nonZero);
 }
 
 /// Which columns have the nodes, given 1 for members that are left out. Collective.
@@ -475,8 +437,7 @@ std::vector<Vector3> LayerColumns::movesOf(
       result[c] = moves.targets[n] - nodes_.points[n];
     }
   }
-  combineShared(exchange, shared_, result,
-    [](const Vector3& a, const Vector3& b) { return a == Vector3{} ? b : a; });
+  combineShared(exchange, shared_, result, nonZero);
   return result;
 }
 
@@ -501,8 +462,7 @@ std::vector<Vector3> LayerColumns::movesOfMembers(RankExchange& exchange, const 
       ofNodes[members_[k].node] = ofWalls.of(members_[k]);
     }
   }
-  combineShared(exchange, nodes_.shared, ofNodes,
-    [](const Vector3& a, const Vector3& b) { return a == Vector3{} ? b : a; });
+  combineShared(exchange, nodes_.shared, ofNodes, nonZero);
   return ofNodes;
 }
 

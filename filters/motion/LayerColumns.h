@@ -3,6 +3,7 @@
 
 #include "mesh/DistributedMesh.h"
 #include "motion/ColumnClimb.h"
+#include "motion/FirstEdges.h"
 
 #include <cadrefine/base/Moves.h>
 #include <cadrefine/classification/BoundaryProjector.h>
@@ -27,7 +28,7 @@ namespace cadrefine
 /// first), the last one not at all. On a stack that is lower than six moves what follows has to
 /// make way: so much less fades out that no cell of the stack loses more than a quarter of its
 /// height. A column halfway between two that are not parallel has a lower first cell than they:
-/// where theirs are equally high (see ColumnClimb::firstEdges), its nodes go on until its own is.
+/// where theirs are equally high (see findFirstEdges), its nodes go on until its own is.
 /// Nodes of a column that are on a boundary keep to it: those on the CAD to their entity, others
 /// move if they stay in the planes of their facets; where the last one cannot go along, all of the
 /// move fades out. Where the last one is on another wall, from which a column comes back, the move
@@ -114,9 +115,7 @@ private:
   void listMembers(
     RankExchange& exchange, const std::vector<ColumnVisit>& visits, const Moves& moves);
   void findYielding(RankExchange& exchange, const Moves& moves, const std::vector<double>& cosines);
-  Vector3 liftedEdge(Index node, const Moves& moves, const FirstEdge& edge,
-    const std::vector<Vector3>& ups, const std::array<Index, 2>& ends) const;
-  void findLifts(RankExchange& exchange, const Moves& moves, const std::vector<FirstEdge>& edges);
+  void findLifts(RankExchange& exchange, const std::vector<FirstEdge>& edges);
   std::vector<Claim> findClaims(
     RankExchange& exchange, const Moves& moves, const std::vector<unsigned char>& isLeftOut) const;
   Claim claimOf(const Member& member) const { return { member.level, columns_[member.column] }; }

@@ -1,0 +1,111 @@
+#include "motion/FirstEdges.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace cadrefine
+{
+namespace
+{
+
+/// Of the length of first edges: those that differ by less were made equal.
+constexpr double equal = 1e-3;
+/// One that is too short by less of its length stays, as does one by more.
+constexpr double leastLift = 1e-3;
+constexpr double mostLift = 0.35;
+
+const FirstEdge& shorter(const FirstEdge& a, const FirstEdge& b)
+{
+  if (a.wantedLength == 0 || b.wantedLength == 0)
+  {
+    return a.wantedLength == 0 ? b : a;
+  }
+  return std::pair(a.wantedLength, a.up) < std::pair(b.wantedLength, b.up) ? a : b;
+}
+
+/// Whether an edge is halfway between two that are equally long.
+bool isBetweenEqual(const FirstEdge& edge, const FirstEdge& a, const FirstEdge& b)
+{
+  const double longest = std::max(a.wantedLength, b.wantedLength);
+  return edge.wantedLength > 0 && a.wantedLength > 0 && b.wantedLength > 0 &&
+         distance(edge.up, 0.5 * (a.up + b.up)) < equal * edge.wantedLength &&
+         std::abs(a.wantedLength - b.wantedLength) < equal * longest;
+}
+
+bool isTooShort(const FirstEdge& edge)
+{
+  const double lift = edge.wantedLength - norm(edge.up);
+  return lift > leastLift * edge.wantedLength && lift < mostLift * edge.wantedLength;
+}
+
+/// The part of a way along a face of this normal.
+Vector3 along(const Vector3& way, const Vector3& normal)
+{
+  return way - dot(way, normal) * normal;
+}
+
+/// The edge over a new node of a wall once it is there, given those over the ends of the line that
+/// it halves: as long as wanted, and from the normal of the CAD's face by their mean. As it goes
+/// where there is no face, or the boundary holds its upper end.
+Vector3 liftedEdge(const FirstEdge& edge, const ClosestPoint& where, const CADModel& model,
+  const std::array<Point3, 2>& places, const std::array<Vector3, 2>& ups)
+{
+  const Vector3 asItGoes = normalized(edge.up);
+  if (where.entity.dimension != 2 || edge.onBoundary)
+  {
+    return edge.wantedLength * asItGoes;
+  }
+  Vector3 aside{};
+  for (std::size_t end = 0; end < ups.size(); ++end)
+  {
+    const Vector3 normal = model.normalNear(where.entity.index, places[end]);
+    aside = aside + 0.5 * along(normalized(ups[end]), normal);
+  }
+  const Vector3 normal = model.normal(where.entity.index, where.parameters);
+  aside = along(aside, normal);
+  const double height = std::sqrt(std::max(0.0, 1 - squaredNorm(aside)));
+  return edge.wantedLength * (aside + std::copysign(height, dot(normal, asItGoes)) * normal);
+}
+
+} // namespace
+
+std::vector<FirstEdge> findFirstEdges(RankExchange& exchange, const CellStacks& stacks,
+  const ColumnNodes& nodes, const std::vector<Facet>& facets, const Moves& moves,
+  const BoundaryProjector& projector, const std::vector<unsigned char>& onBoundary)
+{
+  std::vector<FirstEdge> edges(nodes.points.size());
+  for (const Facet& facet : facets)
+  {
+    const Facet above = stacks.opposite(facet);
+    for (int k = 0; above.cell >= 0 && k < nodes.count(facet); ++k)
+    {
+      const Index node = nodes.at(facet, k);
+      const Index first = nodes.at(above, k);
+      const Vector3 up = nodes.points[first] - nodes.points[node];
+      edges[node] = shorter(edges[node], { up, norm(up), onBoundary[first] != 0, up });
+    }
+  }
+  combineShared(exchange, nodes.shared, edges, shorter);
+  // Parents come before the nodes between them.
+  const std::size_t first = edges.size() - nodes.parents->size();
+  for (std::size_t n = first; n < edges.size(); ++n)
+  {
+    FirstEdge& edge = edges[n];
+    const auto& [a, b] = (*nodes.parents)[n - first];
+    if (isBetweenEqual(edge, edges[a], edges[b]))
+    {
+      edge.wantedLength = 0.5 * (edges[a].wantedLength + edges[b].wantedLength);
+    }
+    if (nodes.entities[n] && isTooShort(edge))
+    {
+      const ClosestPoint where = projector.nearestOn(nodes.entities[n], moves.targets[n]);
+      edge.lifted = liftedEdge(edge, where, projector.model(),
+        { moves.targets[a], moves.targets[b] }, { edges[a].lifted, edges[b].lifted });
+    }
+  }
+  return edges;
+}
+
+} // namespace cadrefine
