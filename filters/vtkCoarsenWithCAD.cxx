@@ -39,6 +39,15 @@ cadrefine::PipelineResult vtkCoarsenWithCAD::Execute(
   cadrefine::MeshState state = cadrefine::readMesh(exchange, input);
   state.mapping.require(this->FindFieldNeeds());
   cadrefine::readClassification(context, input, state);
+  const cadrefine::Mesh& mesh = state.mesh.mesh();
+  const auto isEmpty = [](const auto& cells) { return cells.empty(); };
+  if (exchange.any(mesh.hasOtherThanSimplices()) &&
+      !exchange.any(!cadrefine::visitCells(mesh, isEmpty)))
+  {
+    throw cadrefine::Error(
+      "only triangles and tetrahedra are coarsened, and all cells of the mesh are others; the "
+      "filters Triangulate and Tetrahedralize make simplices of them");
+  }
 
   cadrefine::CoarseningOptions options;
   for (const std::string& array : this->GetCellArraysRead())

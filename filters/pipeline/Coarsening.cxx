@@ -67,7 +67,7 @@ private:
     return gone > 0;
   }
 
-  /// Those none of whose cells is marked. Collective.
+  /// Those all of whose cells are simplices and not marked. Collective.
   std::vector<unsigned char> verticesThatMayGo()
   {
     const Mesh& mesh = state_.mesh.mesh();
@@ -95,6 +95,14 @@ private:
       mesh.dimension == 3 ? keepMarked(mesh.tetrahedra) : keepMarked(mesh.triangles);
     }
     std::for_each(mesh.vertices.begin(), mesh.vertices.end(), keep);
+    visitOwnShapes(mesh,
+      [&](auto shape, const auto& cells)
+      {
+        if (!isSimplex(shape))
+        {
+          std::for_each(cells.begin(), cells.end(), keep);
+        }
+      });
     combineShared(exchange_, state_.mesh.shared, mayGo,
       [](unsigned char a, unsigned char b) { return std::min(a, b); });
     return mayGo;
@@ -184,11 +192,6 @@ private:
 std::int64_t coarsenMesh(
   const PipelineContext& context, MeshState& state, const CoarseningOptions& options)
 {
-  if (context.exchange.any(state.mesh.mesh().hasOtherThanSimplices()))
-  {
-    throw Error("only triangles and tetrahedra are coarsened, and the mesh has other cells; the "
-                "filters Triangulate and Tetrahedralize make simplices of them");
-  }
   return Coarsening(context, state, options).run();
 }
 

@@ -3,6 +3,8 @@
 #include "DataSets.h"
 #include "FilterRun.h"
 #include "MeshChecks.h"
+#include "MixedMeshes.h"
+#include "TestShapes.h"
 
 #include <cadrefine/mesh/Quality.h>
 
@@ -195,6 +197,19 @@ TEST_F(CoarseningAeroplane, leavesTheMeshWhereItMayOnlyCut)
 }
 
 /// A solver's indicator that moves through the mesh: fine there, coarse behind it.
+TEST(CoarseningHexahedra, isAnErrorWithoutSimplices)
+{
+  const cadtest::TemporaryFolder folder;
+  const FilterRun filters(cadtest::writeInto(folder, cadtest::sphere(2), ".brep"));
+  const auto outcome = filters.attempt<vtkCoarsenWithCAD>(
+    filters.project(cadtest::toGrid(cadtest::hexahedralBallMesh(2, 0.02, 1, { 1 }))),
+    [](vtkCoarsenWithCAD*) {});
+  EXPECT_FALSE(outcome.succeeded);
+  ASSERT_EQ(outcome.errors.size(), 1U);
+  EXPECT_NE(outcome.errors[0].find("all cells of the mesh are others"), std::string::npos)
+    << outcome.errors[0];
+}
+
 TEST(CoarseningFront, keepsTheNumberOfCells)
 {
   const FilterRun filters(CADREFINE_DATA "/naca0012_sharp.igs");

@@ -8,6 +8,7 @@
 #include "TestShapes.h"
 
 #include <vtkAdaptToCAD.h>
+#include <vtkCoarsenWithCAD.h>
 #include <vtkFieldData.h>
 #include <vtkPolyData.h>
 #include <vtkUnstructuredGrid.h>
@@ -217,6 +218,22 @@ std::vector<Case> cases()
   return result;
 }
 
+/// Those with simplices, dealt at random.
+std::vector<Case> coarsenedCases()
+{
+  std::vector<Case> result;
+  for (const Case& c : cases())
+  {
+    const std::string& name = problems[c.problem].name;
+    if (c.dealing == cadtest::Dealing::Random &&
+        (name == "WedgeLayers" || name == "MixedBall" || name == "Ring" || name == "Surface"))
+    {
+      result.push_back(c);
+    }
+  }
+  return result;
+}
+
 class MixedPartition
   : public ParallelTest
   , public testing::WithParamInterface<Case>
@@ -288,6 +305,63 @@ TEST_P(MixedPartition, givesTheSameMeshAsOneRank)
   if (GetParam().keepLayers) // else moves end at the first pyramid
   {
     EXPECT_EQ(cadtest::fieldValue(pieces.back(), "UnprojectedVertices"), 0);
+  }
+}
+
+/// Coarsening takes vertices out of simplices alone.
+class MixedCoarsening : public MixedPartition
+{
+protected:
+  using Counts = std::array<std::int64_t, 4>; ///< Of simplices, pyramids, wedges, and hexahedra
+                                              ///< and quadrilaterals, over all ranks.
+
+  Counts countCells(vtkPointSet* piece)
+  {
+    const Mesh mesh = cadtest::toMesh(piece);
+    std::vector<std::int64_t> counts(4, 0);
+    visitOwnShapes(mesh,
+      [&](auto shape, const auto& cells)
+      {
+        using Shape = decltype(shape);
+        constexpr int place = isSimplex(Shape{})    ? 0
+                              : Shape::corners == 5 ? 1
+                              : Shape::corners == 6 ? 2
+                                                    : 3;
+        counts[place] += static_cast<std::int64_t>(cells.size());
+      });
+    counts = exchange.sum(counts);
+    return { counts[0], counts[1], counts[2], counts[3] };
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Problems, MixedCoarsening, testing::ValuesIn(coarsenedCases()),
+  [](const auto& each) { return nameOf(each.param); });
+
+TEST_P(MixedCoarsening, leavesOtherCells)
+{
+  const cadtest::Steps steps =
+    cadtest::expectSameSteps(exchange, wholeMesh(), GetParam().dealing, GetParam().ghosts,
+      [&](vtkPointSet* mesh, vtkMultiProcessController* controller)
+      {
+        const cadtest::FilterRun filters(cadFile, controller);
+        const auto refined = filters.run<vtkRefineWithCAD>(filters.project(mesh),
+          [](vtkRefineWithCAD* filter)
+          {
+            filter->SetMethod(vtkRefineWithCAD::UNIFORM_BISECTION);
+            filter->SetLevels(2);
+          });
+        return cadtest::Steps{ refined,
+          filters.run<vtkCoarsenWithCAD>(
+            refined, [](vtkCoarsenWithCAD* filter) { filter->SetMaximumDistance(0.2); }) };
+      });
+  expectSound(steps.back());
+  EXPECT_EQ(cadtest::fieldValue(steps.back(), "UnprojectedVertices"), 0);
+  const Counts before = countCells(steps.front());
+  const Counts after = countCells(steps.back());
+  EXPECT_LT(after[0], 0.96 * static_cast<double>(before[0]));
+  for (int shape = 1; shape < 4; ++shape)
+  {
+    EXPECT_EQ(after[shape], before[shape]);
   }
 }
 
