@@ -22,8 +22,9 @@ namespace cadrefine
 namespace
 {
 
-/// Of vertices that are to go in this level; it goes along where cells are sent to other ranks.
-constexpr const char* goesArray = "cadrefine:goes";
+/// What is to become of vertices in this level (VertexFate); it goes along where cells are sent to
+/// other ranks. The mean of two is no more than either, so that of new vertices no more go.
+constexpr const char* fatesArray = "cadrefine:fates";
 constexpr int maximumRounds = 8;
 
 class Coarsening
@@ -53,13 +54,14 @@ private:
       static_cast<double>(level + 1) / options_.levels);
     exchange_.progress().say(0, "choosing vertices to take out");
     const std::int64_t before = countMesh(exchange_, state_.mesh).vertices;
-    flag(verticesToRemove(exchange_, state_.mesh, *state_.classification,
-      boundaryOf(context_, state_), verticesThatMayGo()));
+    const std::vector<unsigned char> mayGo = verticesThatMayGo();
+    addFates(mayGo, verticesToRemove(exchange_, state_.mesh, *state_.classification,
+                      boundaryOf(context_, state_), mayGo));
     left_ = std::numeric_limits<std::int64_t>::max();
     for (int round = 0; round < maximumRounds && takeOut(round); ++round)
     {
     }
-    state_.arrays.ofVertices->RemoveArray(goesArray);
+    state_.arrays.ofVertices->RemoveArray(fatesArray);
     improveCells(
       context_, state_, { options_.minimumQuality, {}, options_.largestBlock, { 0, true }, false });
     const std::int64_t gone = before - countMesh(exchange_, state_.mesh).vertices;
@@ -108,28 +110,38 @@ private:
     return mayGo;
   }
 
-  void flag(const std::vector<unsigned char>& flags)
+  void addFates(const std::vector<unsigned char>& mayGo, const std::vector<unsigned char>& goes)
   {
     vtkNew<vtkUnsignedCharArray> array;
-    array->SetName(goesArray);
-    array->SetNumberOfValues(static_cast<vtkIdType>(flags.size()));
-    std::copy(flags.begin(), flags.end(), array->GetPointer(0));
+    array->SetName(fatesArray);
+    array->SetNumberOfValues(static_cast<vtkIdType>(goes.size()));
+    std::transform(mayGo.begin(), mayGo.end(), goes.begin(), fates(array),
+      [](unsigned char may, unsigned char does) {
+        return does ? VertexFate::Goes : may ? VertexFate::MayGo : VertexFate::Stays;
+      });
     state_.arrays.ofVertices->AddArray(array);
   }
 
   /// Of each vertex; null where there is none.
-  const unsigned char* flags() const
+  VertexFate* fates() const
   {
     auto* array =
-      vtkUnsignedCharArray::SafeDownCast(state_.arrays.ofVertices->GetAbstractArray(goesArray));
-    return array ? array->GetPointer(0) : nullptr;
+      vtkUnsignedCharArray::SafeDownCast(state_.arrays.ofVertices->GetAbstractArray(fatesArray));
+    return array ? fates(array) : nullptr;
+  }
+
+  static VertexFate* fates(vtkUnsignedCharArray* array)
+  {
+    return reinterpret_cast<VertexFate*>(array->GetPointer(0));
   }
 
   /// A round of collapses. Returns whether there may be more: that before took out a hundredth of
   /// what was left, at least.
   bool takeOut(int round)
   {
-    const std::vector<unsigned char> flagged(flags(), flags() + state_.mesh.mesh().points.size());
+    std::vector<unsigned char> flagged(state_.mesh.mesh().points.size());
+    std::transform(fates(), fates() + flagged.size(), flagged.begin(),
+      [](VertexFate fate) { return static_cast<unsigned char>(fate == VertexFate::Goes); });
     const std::vector<char> owned = state_.mesh.ownedPoints();
     std::int64_t left = 0;
     for (std::size_t v = 0; v < flagged.size(); ++v)
@@ -148,10 +160,20 @@ private:
     const CoarseningLimits limits = findLimits();
     const auto work = [&](BlockMesh& block, const SurfaceRule& rule)
     {
-      std::vector<unsigned char> goes(block.vertices().size());
-      std::transform(block.vertices().begin(), block.vertices().end(), goes.begin(),
-        [ofPiece = flags()](Index vertex) { return ofPiece[vertex]; });
-      return coarsenCells(block.mesh(), rule, goes, limits);
+      VertexFate* ofPiece = fates();
+      std::vector<VertexFate> ofBlock(block.vertices().size());
+      std::transform(block.vertices().begin(), block.vertices().end(), ofBlock.begin(),
+        [&](Index vertex) { return ofPiece[vertex]; });
+      OperationResult result = coarsenCells(block.mesh(), rule, ofBlock, limits);
+      for (std::size_t v = 0; v < block.vertices().size(); ++v)
+      {
+        const Index vertex = block.vertices()[v];
+        if (ofPiece[vertex] != ofBlock[v])
+        {
+          ofPiece[vertex] = ofBlock[v];
+        }
+      }
+      return result;
     };
     operate(context_, state_, flagged,
       { 2, round, options_.largestBlock, [](Index) { return true; } }, work);

@@ -17,7 +17,7 @@ using Freedom = EditableMesh::Freedom;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Cells below this are improved so that more vertices can go.
-constexpr double aim = 0.3;
+constexpr double aim = 0.5;
 
 /// Of the boundary on the CAD.
 double countFacetsOnCAD(const EditableMesh& mesh)
@@ -34,20 +34,86 @@ double countFacetsOnCAD(const EditableMesh& mesh)
   return mesh.kind() == EditableMesh::Kind::Plane ? count(mesh.segments()) : count(mesh.facets());
 }
 
+/// Those of the vertices that are to go that can go at all, the freest first.
+std::vector<Index> candidates(const EditableMesh& mesh, const std::vector<VertexFate>& fates)
+{
+  std::vector<std::pair<Freedom, Index>> sorted;
+  for (std::size_t v = 0; v < fates.size(); ++v)
+  {
+    const auto vertex = static_cast<Index>(v);
+    const Freedom freedom = fates[v] == VertexFate::Goes ? mesh.freedomOf(vertex) : Freedom::None;
+    if (freedom != Freedom::None)
+    {
+      sorted.emplace_back(freedom, vertex);
+    }
+  }
+  std::stable_sort(
+    sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<Index> vertices(sorted.size());
+  std::transform(sorted.begin(), sorted.end(), vertices.begin(),
+    [](const auto& candidate) { return candidate.second; });
+  return vertices;
+}
+
+/// So that no operation moves them or takes them out.
+void holdStaying(const std::vector<VertexFate>& fates, EditableMesh& mesh)
+{
+  for (std::size_t v = 0; v < fates.size(); ++v)
+  {
+    EditableMesh::Vertex vertex = mesh.vertex(static_cast<Index>(v));
+    if (fates[v] == VertexFate::Stays && !vertex.stays)
+    {
+      vertex.stays = true;
+      mesh.setVertex(static_cast<Index>(v), vertex);
+    }
+  }
+}
+
 template<int Dimension>
 class Coarsener
 {
 public:
-  Coarsener(EditableMesh& mesh, const SurfaceRule& rule, const std::vector<unsigned char>& goes,
+  Coarsener(EditableMesh& mesh, const SurfaceRule& rule, std::vector<VertexFate>& fates,
     const CoarseningLimits& limits, double& errorLeft)
-    : mesh_(mesh), rule_(rule), goes_(goes), limits_(limits), errorLeft_(errorLeft), waits_(goes)
+    : mesh_(mesh), rule_(rule), fates_(fates), limits_(limits), errorLeft_(errorLeft),
+      waits_(fates.size(), 0)
   {
   }
 
-  /// Returns the number of collapses.
-  std::int64_t run()
+  /// `exchanges`: where a vertex cannot go, a neighbour may go into it. Returns the number of
+  /// collapses.
+  std::int64_t run(bool exchanges)
   {
-    const std::vector<Index> vertices = candidates();
+    exchanges_ = exchanges;
+    const std::vector<Index> vertices = candidates(mesh_, fates_);
+    const auto ofBoundary = std::count_if(vertices.begin(), vertices.end(),
+      [&](Index vertex) { return mesh_.freedomOf(vertex) != Freedom::Space; });
+    const double share = errorLeft_ / static_cast<double>(std::max<std::ptrdiff_t>(ofBoundary, 1));
+    for (const Index vertex : vertices)
+    {
+      waits_[vertex] = 1;
+    }
+    // The cheap ones first.
+    for (const double most : { share, 3 * share, infinity })
+    {
+      mostGain_ = most;
+      tryAll(vertices);
+    }
+    return collapses_;
+  }
+
+private:
+  /// A way to take a vertex out.
+  struct Collapse
+  {
+    double worst; ///< Of the cells after it.
+    Index from;
+    Index to;
+  };
+
+  void tryAll(const std::vector<Index>& vertices)
+  {
+    std::vector<Index> costly;
     bool changes = true;
     while (changes)
     {
@@ -57,33 +123,19 @@ public:
         if (waits_[vertex])
         {
           waits_[vertex] = 0;
-          changes = collapse(vertex) || changes;
+          costsTooMuch_ = false;
+          changes = takeOut(vertex) || changes;
+          if (costsTooMuch_)
+          {
+            costly.push_back(vertex);
+          }
         }
       }
     }
-    return collapses_;
-  }
-
-private:
-  /// Those that may go at all, the freest first.
-  std::vector<Index> candidates() const
-  {
-    std::vector<std::pair<Freedom, Index>> sorted;
-    for (std::size_t v = 0; v < goes_.size(); ++v)
+    for (const Index vertex : costly)
     {
-      const auto vertex = static_cast<Index>(v);
-      const Freedom freedom = goes_[v] ? mesh_.freedomOf(vertex) : Freedom::None;
-      if (freedom != Freedom::None)
-      {
-        sorted.emplace_back(freedom, vertex);
-      }
+      waits_[vertex] = fates_[vertex] == VertexFate::Goes;
     }
-    std::stable_sort(
-      sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-    std::vector<Index> vertices(sorted.size());
-    std::transform(sorted.begin(), sorted.end(), vertices.begin(),
-      [](const auto& candidate) { return candidate.second; });
-    return vertices;
   }
 
   using Corners = std::array<Index, Dimension + 1>;
@@ -97,7 +149,7 @@ private:
     {
       for (const Index corner : cells()[cell].corners)
       {
-        if (!goes_[corner])
+        if (corner != vertex && fates_[corner] != VertexFate::Goes)
         {
           neighbours.push_back(corner);
         }
@@ -152,97 +204,154 @@ private:
       [&](const auto& cell) { return mesh_.presentQuality(cell.corners) >= before; });
   }
 
-  bool collapse(Index vertex)
+  bool takeOut(Index vertex)
   {
-    const double least = worstAt(vertex);
-    std::vector<std::pair<double, Index>> targets;
-    for (const Index to : remainingNeighbours(vertex))
+    const std::vector<Index> neighbours = remainingNeighbours(vertex);
+    std::vector<Collapse> ways;
+    const auto add = [&](Index from, Index to)
     {
-      const double worst = worstAfter(vertex, to, least);
+      const double worst = worstAfter(from, to, worstAt(from));
       if (worst >= 0)
       {
-        targets.emplace_back(worst, to);
+        ways.push_back({ worst, from, to });
+      }
+    };
+    for (const Index to : neighbours)
+    {
+      add(vertex, to);
+    }
+    const bool goes = collapseByBest(ways);
+    if (goes || !exchanges_)
+    {
+      return goes;
+    }
+    ways.clear();
+    for (const Index from : neighbours)
+    {
+      if (mesh_.freedomOf(from) != Freedom::None)
+      {
+        add(from, vertex);
       }
     }
-    // What costs most comes last.
-    std::stable_sort(targets.begin(), targets.end(),
-      [](const auto& a, const auto& b) { return a.first > b.first; });
-    return std::any_of(targets.begin(), targets.end(),
-      [&](const auto& target)
-      {
-        return proposeCollapse(mesh_, vertex, target.second, cavity_) && mesh_.isValid(cavity_) &&
-               keepsPresentQuality() && keepsSurface() && carryOut();
-      });
+    return collapseByBest(ways);
   }
 
-  /// Takes what the collapse adds to the error off what is left.
-  bool keepsSurface()
+  /// By the way that adds least to the error; of those that add nothing, by the one with the best
+  /// worst cell.
+  bool collapseByBest(std::vector<Collapse>& ways)
   {
-    if (!mesh_.touchesBoundary(cavity_))
+    std::stable_sort(ways.begin(), ways.end(),
+      [](const Collapse& a, const Collapse& b) { return a.worst > b.worst; });
+    const Collapse* best = nullptr;
+    double leastGain = infinity;
+    for (const Collapse& way : ways)
     {
-      return true;
+      const double gain = isAllowed(way) ? gainOf(cavity_) : infinity;
+      if (gain < leastGain)
+      {
+        best = &way;
+        leastGain = gain;
+      }
+      if (gain <= 0)
+      {
+        break;
+      }
     }
-    if (!rule_.accepts(
-          mesh_, cavity_, { limits_.distance, false, SurfaceLimits::Walls::LoseVertices }))
+    if (!best || leastGain > std::min(mostGain_, errorLeft_))
     {
+      costsTooMuch_ = costsTooMuch_ || best;
       return false;
     }
-    const double gain = errorLeft_ < infinity ? rule_.errorGain(mesh_, cavity_) : 0;
-    if (gain > errorLeft_)
-    {
-      return false;
-    }
-    errorLeft_ -= gain;
+    proposeCollapse(mesh_, best->from, best->to, cavity_);
+    errorLeft_ -= leastGain;
+    carryOut(*best);
     return true;
   }
 
-  bool carryOut()
+  bool isAllowed(const Collapse& way)
+  {
+    return proposeCollapse(mesh_, way.from, way.to, cavity_) && mesh_.isValid(cavity_) &&
+           keepsPresentQuality() &&
+           (!mesh_.touchesBoundary(cavity_) ||
+             rule_.accepts(
+               mesh_, cavity_, { limits_.distance, false, SurfaceLimits::Walls::LoseVertices }));
+  }
+
+  /// What a collapse adds to the error, where that is limited.
+  double gainOf(const Cavity& cavity) const
+  {
+    const bool counts = errorLeft_ < infinity && mesh_.touchesBoundary(cavity);
+    return counts ? rule_.errorGain(mesh_, cavity) : 0;
+  }
+
+  /// What remains may go in the place of others later.
+  void carryOut(const Collapse& way)
   {
     mesh_.replace(cavity_);
     ++collapses_;
+    fates_[way.from] = VertexFate::Stays;
+    if (fates_[way.to] == VertexFate::Goes)
+    {
+      fates_[way.to] = VertexFate::MayGo;
+    }
     for (const auto& cell : cavity_.newCellsOf<Dimension>())
     {
       for (const Index corner : cell.corners)
       {
-        waits_[corner] = goes_[corner];
+        waits_[corner] = fates_[corner] == VertexFate::Goes;
       }
     }
-    return true;
   }
 
   EditableMesh& mesh_;
   const SurfaceRule& rule_;
-  const std::vector<unsigned char>& goes_;
+  std::vector<VertexFate>& fates_;
   const CoarseningLimits limits_;
   double& errorLeft_;
   std::vector<unsigned char> waits_; ///< 1: to be tried.
+  double mostGain_ = infinity;       ///< Of the error, by a collapse.
+  bool costsTooMuch_ = false;        ///< The vertex last looked at.
+  bool exchanges_ = false;
   Cavity cavity_;
   std::int64_t collapses_ = 0;
 };
 
 template<int Dimension>
-OperationResult coarsen(EditableMesh& mesh, const SurfaceRule& rule,
-  std::vector<unsigned char> goes, const CoarseningLimits& limits)
+OperationResult coarsen(EditableMesh& mesh, const SurfaceRule& rule, std::vector<VertexFate>& fates,
+  const CoarseningLimits& limits)
 {
+  holdStaying(fates, mesh);
   double errorLeft =
     limits.errorPerFacet < infinity ? limits.errorPerFacet * countFacetsOnCAD(mesh) : infinity;
-  std::int64_t collapses = Coarsener<Dimension>(mesh, rule, goes, limits, errorLeft).run();
+  const std::int64_t collapses =
+    Coarsener<Dimension>(mesh, rule, fates, limits, errorLeft).run(false);
+  if (candidates(mesh, fates).empty())
+  {
+    OperationResult result;
+    result.counts.collapses = collapses;
+    return result;
+  }
   const SurfaceLimits surface{ 0, true, SurfaceLimits::Walls::LoseVertices };
   OperationResult result = improveCells(
     mesh, &rule, { std::max(limits.minimumQuality, aim), limits.minimumQuality, surface });
-  goes.resize(mesh.vertexCount(), 0);
-  collapses += Coarsener<Dimension>(mesh, rule, goes, limits, errorLeft).run();
   result.counts.collapses += collapses;
+  for (std::size_t v = 0; v < fates.size(); ++v)
+  {
+    const bool isThere = !mesh.cellsOf<Dimension>().at(static_cast<Index>(v)).empty();
+    fates[v] = isThere ? fates[v] : VertexFate::Stays;
+  }
+  fates.resize(mesh.vertexCount(), VertexFate::MayGo);
+  result.counts.collapses += Coarsener<Dimension>(mesh, rule, fates, limits, errorLeft).run(true);
   return result;
 }
 
 } // namespace
 
 OperationResult coarsenCells(EditableMesh& mesh, const SurfaceRule& rule,
-  const std::vector<unsigned char>& goes, const CoarseningLimits& limits)
+  std::vector<VertexFate>& fates, const CoarseningLimits& limits)
 {
-  return mesh.dimension() == 3 ? coarsen<3>(mesh, rule, goes, limits)
-                               : coarsen<2>(mesh, rule, goes, limits);
+  return mesh.dimension() == 3 ? coarsen<3>(mesh, rule, fates, limits)
+                               : coarsen<2>(mesh, rule, fates, limits);
 }
 
 } // namespace cadrefine

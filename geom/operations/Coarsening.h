@@ -22,17 +22,30 @@ struct CoarseningLimits
   double errorPerFacet = 0;
 };
 
-/// Collapses the vertices with flag 1 (`goes`, one for each vertex) into neighbours with flag 0;
-/// then improves badly shaped cells (see improveCells), and tries those that are left again. Those
-/// inside the mesh first, then those on facets and on CAD edges, in the order of their numbers;
-/// each into the neighbour that leaves the best worst cell, if all cells are valid and the limits
-/// are kept. What finds no neighbour is tried again when its surroundings have changed. A vertex on
-/// a CAD edge goes along that, one on a CAD face along the surface. The result depends on the order
-/// of vertices and cells alone.
+/// What is to become of a vertex.
+enum class VertexFate : unsigned char
+{
+  Stays,
+  MayGo, ///< In the place of a neighbour that is to go and cannot.
+  Goes
+};
+
+/// Collapses the vertices that are to go (`fates`, one for each vertex) into neighbours that are
+/// not; where some are left, improves badly shaped cells (see improveCells) and tries these again:
+/// now a neighbour that may go can go into them instead. Those inside the mesh come first, then
+/// those on facets and on CAD edges, in the order of their numbers; each takes the way that adds
+/// least to the geometric error, or else leaves the best worst cell, if all cells are valid and the
+/// limits are kept. What finds no way is tried again when its surroundings have changed. A vertex
+/// on a CAD edge goes along that, one on a CAD face along the surface. The result depends on the
+/// order of vertices and cells alone. `fates` tells afterwards what is still to go.
+///
+/// Where the error is limited, vertices first go at their share of it, the same for each, then at
+/// three times that, then at all that is left: so what would take much does not come before what
+/// takes little.
 ///
 /// Work: for each vertex, and each neighbour that it may go to, its cells; for vertices on the CAD
-/// the projections of SurfaceRule; and that of improveCells.
+/// the projections of SurfaceRule for each such neighbour; and that of improveCells.
 OperationResult coarsenCells(EditableMesh& mesh, const SurfaceRule& rule,
-  const std::vector<unsigned char>& goes, const CoarseningLimits& limits);
+  std::vector<VertexFate>& fates, const CoarseningLimits& limits);
 
 } // namespace cadrefine

@@ -257,7 +257,7 @@ TEST(CoarseningFront, keepsTheNumberOfCells)
 // degrees, farther from the CAD's normals than coarsening leaves any; that of the wing is 228
 // cells.
 INSTANTIATE_TEST_SUITE_P(Cases, Coarsening,
-  testing::Values(Case{ "Cylinder", "cylinder_coarse.vtu", "cylinder.brep", 0.3 },
+  testing::Values(Case{ "Cylinder", "cylinder_coarse.vtu", "cylinder.brep", 0.05 },
     Case{ "Wing", "naca0012_coarse.vtu", "naca0012_sharp.igs", 0.08 },
     Case{ "Aeroplane", "aeroplane_coarse.vtu", "aeroplane.igs", 0.05 }),
   [](const auto& tested) { return tested.param.name; });

@@ -49,18 +49,19 @@ TEST_P(Coarsenings, keepVolumesAndTakeOutFlaggedVerticesAlone)
   EditableMesh mesh = cadtest::spoiltCube(GetParam());
   const auto before = volumesOf(mesh);
   const EditableMesh first = mesh;
-  std::vector<unsigned char> goes(mesh.vertexCount());
-  for (std::size_t v = 0; v < goes.size(); ++v)
+  std::vector<VertexFate> fates(mesh.vertexCount());
+  for (std::size_t v = 0; v < fates.size(); ++v)
   {
-    goes[v] = v % 3 != 0;
+    fates[v] = v % 3 == 0 ? VertexFate::Stays : VertexFate::Goes;
   }
-  const OperationResult result = coarsenCells(mesh, rule, goes, { 0.05 });
+  const std::size_t count = fates.size();
+  const OperationResult result = coarsenCells(mesh, rule, fates, { 0.05 });
   EXPECT_GT(result.counts.collapses, 0);
   const auto after = volumesOf(mesh);
   EXPECT_NEAR(after[0], before[0], 1e-14);
   EXPECT_NEAR(after[1], before[1], 1e-14);
   std::int64_t gone = 0;
-  for (std::size_t v = 0; v < goes.size(); ++v)
+  for (std::size_t v = 0; v < count; ++v)
   {
     const auto vertex = static_cast<Index>(v);
     const bool isThere = !mesh.cells().at(vertex).empty();
@@ -88,7 +89,8 @@ TEST_P(Coarsenings, leaveNoCellWorseThanAllowed)
     return worst;
   };
   const double before = worstOf(mesh);
-  coarsenCells(mesh, rule, std::vector<unsigned char>(mesh.vertexCount(), 1), { least });
+  std::vector<VertexFate> fates(mesh.vertexCount(), VertexFate::Goes);
+  coarsenCells(mesh, rule, fates, { least });
   EXPECT_GE(worstOf(mesh), std::min(before, least));
 }
 
