@@ -35,12 +35,12 @@ constexpr double aim = 0.3;
 /// cells for each bad one that is gone, or for one new cell in so many.
 constexpr int maximumCuts = 8;
 constexpr int mostTries = 2;
-constexpr std::int64_t newCellsForOne = 200;
+constexpr std::int64_t newCellsForOne = 300;
 constexpr std::int64_t cellsForOneNew = 4;
 /// Where no vertex is off the CAD, there are so many times as many cells at most, or so many, and
 /// nothing is cut if more than one cell in so many is bad.
 constexpr std::int64_t largestGrowth = 2;
-constexpr std::int64_t fewCells = 1500;
+constexpr std::int64_t fewCells = 5500;
 constexpr std::int64_t cellsForOneBad = 3;
 
 class CellImprovement
@@ -288,17 +288,31 @@ private:
              [&](Index vertex) { return options_.inRegion(state_.mesh.mesh().points[vertex]); });
   }
 
+  /// Where a vertex is on the way to the CAD, those in flat walls beside it may go.
+  ImprovementLimits limitsFor(const EditableMesh& block) const
+  {
+    ImprovementLimits limits{ std::max(options_.minimumQuality, aim), options_.minimumQuality,
+      options_.surface };
+    for (std::size_t v = 0; v < block.vertexCount(); ++v)
+    {
+      const EditableMesh::Vertex& vertex = block.vertex(static_cast<Index>(v));
+      if (vertex.point != vertex.wanted)
+      {
+        limits.surface.walls = SurfaceLimits::Walls::LoseVertices;
+      }
+    }
+    return limits;
+  }
+
   /// Returns whether cells have changed.
   bool improve(const std::vector<unsigned char>& flags, int round)
   {
-    const ImprovementLimits limits{ std::max(options_.minimumQuality, aim), options_.minimumQuality,
-      options_.surface };
     const std::int64_t operations = operate(context_, state_, flags,
       { ringsOfCells, round, options_.largestBlock,
         [&](Index cell)
         { return visitCells(mesh(), [&](const auto& cells) { return mayChange(cells[cell]); }); } },
       [&](BlockMesh& block, const SurfaceRule& rule)
-      { return improveCells(block.mesh(), &rule, limits); });
+      { return improveCells(block.mesh(), &rule, limitsFor(block.mesh())); });
     operations_ += operations;
     context_.statistics.set("local operations", static_cast<double>(operations_));
     return operations > 0;

@@ -21,6 +21,16 @@ constexpr double asNear = 1.25;
 /// Of a mesh edge's length: a place so near to one of its ends is not that of its middle.
 constexpr double atEnd = 0.1;
 
+/// A mesh edge may lead across a nose if the CAD is so high over its middle, in parts of its
+/// length.
+constexpr double noseHeight = 0.05;
+/// Where the front of a nose, or the bottom of a groove, is looked for, in the same parts.
+constexpr std::array noseParts{ 0.5, 1.0, 2.0, -0.5, -1.0, -2.0 };
+/// It is as far from one end as from the other, but for this part of the length.
+constexpr double noseBalance = 0.5;
+/// Its normal is within 45 degrees of the direction between those at the ends.
+const double noseCosine = ClassificationTolerances::cosineOfDegrees(45);
+
 /// The nearer of two answers; on a tie the smaller entity.
 bool isBetter(const ClosestPoint& a, const ClosestPoint& b)
 {
@@ -324,6 +334,11 @@ ClosestPoint BoundaryProjector::projectMidpoint(const BoundaryEdge& edge) const
   {
     return where;
   }
+  const ClosestPoint nose = onNose(edge, where);
+  if (nose.entity)
+  {
+    return nose;
+  }
   const bool isAtEnd =
     std::min(distance(where.point, a), distance(where.point, b)) <= atEnd * distance(a, b);
   const bool isOnEdge = edgeClass.kind == EdgeClass::OnEdge && edgeClass.entity >= 0;
@@ -422,6 +437,59 @@ ClosestPoint BoundaryProjector::betweenOnFaces(const BoundaryEdge& edge, double 
     {
       best = where;
       least = off;
+    }
+  }
+  return best;
+}
+
+/// Where the normals at the ends are more than 90 degrees apart, as across the nose of a wing, the
+/// place before or behind the middle whose normal lies between them, if that of `where` does not.
+ClosestPoint BoundaryProjector::onNose(const BoundaryEdge& edge, const ClosestPoint& where) const
+{
+  const auto& [a, b] = edge.points;
+  const double length = distance(a, b);
+  if (kind_ != BoundaryKind::Triangles || edge.edgeClass.kind != EdgeClass::Smooth ||
+      where.entity.dimension != 2 || where.distance <= noseHeight * length)
+  {
+    return {};
+  }
+  const auto normalAt = [&](int end)
+  {
+    const EntityId entity = edge.entities[end];
+    const std::int32_t face = edge.edgeClass.entity >= 0 ? edge.edgeClass.entity
+                              : entity.dimension == 2    ? entity.index
+                                                         : -1;
+    return face >= 0 ? model_.normalNear(face, edge.points[end]) : Vector3{};
+  };
+  const Vector3 first = normalAt(0);
+  const Vector3 second = normalAt(1);
+  if (dot(first, second) >= 0)
+  {
+    return {};
+  }
+  const Vector3 between = normalized(first + second);
+  const auto fits = [&](const ClosestPoint& place)
+  {
+    return place.entity.dimension == 2 &&
+           dot(model_.normal(place.entity.index, place.parameters), between) >= noseCosine;
+  };
+  ClosestPoint best;
+  if (fits(where))
+  {
+    return best;
+  }
+  const Point3 middle = 0.5 * (a + b);
+  for (const double part : noseParts)
+  {
+    const Point3 point = middle + part * length * between;
+    const ClosestPoint shared = nearestOnShared(edge.edgeClass, edge.entities, point);
+    ClosestPoint place = shared.entity ? shared : nearest(point, 2 * length);
+    place.distance = distance(place.point, middle);
+    const double off = std::abs(distance(place.point, a) - distance(place.point, b));
+    if (fits(place) && place.distance <= 2 * length && off <= noseBalance * length &&
+        isBetter(place, best))
+    {
+      best = place;
     }
   }
   return best;

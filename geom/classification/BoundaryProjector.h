@@ -95,7 +95,7 @@ public:
   /// that is as high as it is wide, a point between the ends, as far from one as from the other.
   /// The same on the CAD edge that both ends are on where another one is nearest, as to a diameter,
   /// and on the face of the edge where another one is nearest, but by less than a fifth, as to a
-  /// diameter under a dome.
+  /// diameter under a dome. Of a chord that cuts a nose off, its tip.
   ClosestPoint projectMidpoint(const BoundaryEdge& edge) const;
   /// The same for another point that stands for the edge, such as one of a curved edge.
   ClosestPoint project(
@@ -131,6 +131,7 @@ private:
   bool hasLeft(EntityId entity, const BoundaryEdge& edge, const ClosestPoint& where) const;
   ClosestPoint betweenOnEdge(const BoundaryEdge& edge) const;
   ClosestPoint betweenOnFaces(const BoundaryEdge& edge, double away) const;
+  ClosestPoint onNose(const BoundaryEdge& edge, const ClosestPoint& where) const;
   ClosestPoint projectOnEdge(std::int32_t edge, const Point3& point) const;
   /// The face of a smooth edge, or else those (of a planar mesh: edges) that both ends share.
   std::vector<std::int32_t> entitiesOf(

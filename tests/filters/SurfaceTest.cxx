@@ -56,6 +56,61 @@ TEST_F(SphereSurface, ofPolyDataConvergesAtSecondOrder)
   }
 }
 
+/// The section of a mesh that cuts its noses off: no vertex is within 0.025 of their tips.
+TEST(NoseSurface, isFilledInRefinement)
+{
+  constexpr double height = 0.06;
+  const cadtest::TemporaryFolder folder;
+  const cadtest::FilterRun filters(
+    cadtest::writeInto(folder, cadtest::ellipticPipe(1, height, 1), ".brep"));
+  Mesh mesh;
+  mesh.dimension = 2;
+  std::vector<double> angles{ 0.21 };
+  while (angles.back() < pi - 0.41)
+  {
+    angles.push_back(angles.back() + (pi - 0.42) / 8);
+  }
+  const std::size_t upper = angles.size();
+  for (std::size_t k = 0; k < upper; ++k)
+  {
+    angles.push_back(angles[k] + pi);
+  }
+  const auto around = static_cast<Index>(angles.size());
+  constexpr Index rows = 5;
+  for (Index row = 0; row < rows; ++row)
+  {
+    for (const double angle : angles)
+    {
+      mesh.ids.push_back(static_cast<GlobalId>(mesh.points.size()));
+      mesh.points.push_back({ std::cos(angle), height * std::sin(angle), 1.0 * row / (rows - 1) });
+    }
+  }
+  for (Index row = 0; row + 1 < rows; ++row)
+  {
+    for (Index k = 0; k < around; ++k)
+    {
+      const Index a = row * around + k;
+      const Index b = row * around + (k + 1) % around;
+      mesh.triangles.push_back({ a, b, b + around });
+      mesh.triangles.push_back({ a, b + around, a + around });
+    }
+  }
+  cadtest::FilterRun::Data data = filters.project(cadtest::toPolyData(mesh));
+  const auto errorOf = [&](vtkPointSet* of)
+  { return cadtest::fieldValue(filters.measure(of, 2), "GlobalGeometricError"); };
+  const double first = errorOf(data);
+  EXPECT_GT(
+    cadtest::fieldValue(filters.measure(data, 2), "MaximumGeometricDistance"), 0.02); // of the tips
+  for (int level = 0; level < 3; ++level)
+  {
+    data = filters.refineUniformly(data);
+  }
+  EXPECT_EQ(cadtest::fieldValue(data, "UnprojectedVertices"), 0);
+  EXPECT_EQ(cadtest::fieldValue(data, "InvalidCells"), 0);
+  EXPECT_LT(errorOf(data), first / 25);
+  EXPECT_LT(cadtest::fieldValue(filters.measure(data, 2), "MaximumGeometricDistance"), 3e-3);
+}
+
 TEST_F(SphereSurface, hasTheErrorOfTheVolumeBelowIt)
 {
   const auto mesh = cadtest::toPolyData(cadtest::sphereMesh(radius, 0));

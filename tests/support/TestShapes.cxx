@@ -13,6 +13,7 @@
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCone.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
+#include <BRepPrimAPI_MakePrism.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRepPrimAPI_MakeTorus.hxx>
 #include <BRepTools.hxx>
@@ -21,12 +22,14 @@
 #include <Message_Messenger.hxx>
 #include <TopTools_ListOfShape.hxx>
 #include <TopoDS_Compound.hxx>
+#include <TopoDS_Edge.hxx>
 #include <gp.hxx>
 #include <gp_Ax2.hxx>
 #include <gp_Ax3.hxx>
 #include <gp_Circ.hxx>
 #include <gp_Cone.hxx>
 #include <gp_Cylinder.hxx>
+#include <gp_Elips.hxx>
 #include <gp_Pln.hxx>
 #include <gp_Trsf.hxx>
 
@@ -77,6 +80,12 @@ TopoDS_Shape longCylinder(double radius, double height)
 TopoDS_Shape halfPipe(double radius, double height)
 {
   return BRepBuilderAPI_MakeFace(gp_Cylinder(gp_Ax3(), radius), 0, M_PI, 0, height).Shape();
+}
+
+TopoDS_Shape ellipticPipe(double halfLength, double halfHeight, double width)
+{
+  const TopoDS_Edge ellipse = BRepBuilderAPI_MakeEdge(gp_Elips(gp_Ax2(), halfLength, halfHeight));
+  return BRepPrimAPI_MakePrism(ellipse, gp_Vec(0, 0, width)).Shape();
 }
 
 TopoDS_Shape halfCone(double radius, double upperRadius, double height)

@@ -230,6 +230,32 @@ TEST(HalfPipe, hasTheMiddleOfADiameterAtTheTopOfTheBow)
   }
 }
 
+/// Within a thin nose the sides are nearer to the middle of a chord than its tip is.
+TEST(Nose, hasTheMiddleOfAChordAcrossItAtItsTip)
+{
+  constexpr double height = 0.06;
+  const auto model = cadtest::modelOf(cadtest::ellipticPipe(1, height, 1));
+  const BoundaryProjector projector(*model, BoundaryKind::Triangles);
+  const auto placeOf = [&](double x, double y, double fromZ, double toZ)
+  {
+    const std::array<Point3, 2> points{ { { x, height * std::sqrt(1 - x * x), fromZ },
+      { y, -height * std::sqrt(1 - y * y), toZ } } };
+    const auto entities = entitiesAt(projector, points);
+    EXPECT_EQ(entities[0].dimension, 2);
+    const EdgeClass edgeClass{ EdgeClass::Smooth, entities[0].index };
+    const ClosestPoint where = projector.projectMidpoint({ edgeClass, points, entities });
+    const ClosestPoint back = projector.projectMidpoint(
+      { edgeClass, { points[1], points[0] }, { entities[1], entities[0] } });
+    EXPECT_EQ(back.point, where.point);
+    return where.point;
+  };
+  EXPECT_NEAR(distance(placeOf(-0.975, -0.975, 0.5, 0.5), { -1, 0, 0.5 }), 0, 1e-6);
+  EXPECT_NEAR(distance(placeOf(-0.975, -0.975, 0.4, 0.5), { -1, 0, 0.45 }), 0, 1e-6);
+  EXPECT_NEAR(distance(placeOf(-0.97, -0.98, 0.5, 0.5), { -1, 0, 0.5 }), 0, 0.01);
+  // No nose: a chord between the sides, far from both ends of the section.
+  EXPECT_LT(std::abs(placeOf(-0.1, 0.1, 0.5, 0.5)[0]), 0.2);
+}
+
 /// Of two arcs of one circle the other one may be nearer to the middle of a chord.
 TEST(Disc, hasTheMiddleOfAChordOnItsOwnArc)
 {
