@@ -165,6 +165,7 @@ private:
       std::transform(block.vertices().begin(), block.vertices().end(), ofBlock.begin(),
         [&](Index vertex) { return ofPiece[vertex]; });
       OperationResult result = coarsenCells(block.mesh(), rule, ofBlock, limits);
+      // Those on the border of blocks, which other threads read, do not change.
       for (std::size_t v = 0; v < block.vertices().size(); ++v)
       {
         const Index vertex = block.vertices()[v];
