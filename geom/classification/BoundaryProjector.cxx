@@ -24,6 +24,8 @@ constexpr double atEnd = 0.1;
 /// A mesh edge may lead across a nose if the CAD is so high over its middle, in parts of its
 /// length.
 constexpr double noseHeight = 0.05;
+/// Of the sum of the normals at its ends: those of both sides of a plate tell no direction.
+constexpr double leastNoseSum = 0.1;
 /// Where the front of a nose, or the bottom of a groove, is looked for, in the same parts.
 constexpr std::array noseParts{ 0.5, 1.0, 2.0, -0.5, -1.0, -2.0 };
 /// It is as far from one end as from the other, but for this part of the length.
@@ -463,11 +465,12 @@ ClosestPoint BoundaryProjector::onNose(const BoundaryEdge& edge, const ClosestPo
   };
   const Vector3 first = normalAt(0);
   const Vector3 second = normalAt(1);
-  if (dot(first, second) >= 0)
+  const Vector3 sum = first + second;
+  if (dot(first, second) >= 0 || norm(sum) < leastNoseSum)
   {
     return {};
   }
-  const Vector3 between = normalized(first + second);
+  const Vector3 between = normalized(sum);
   const auto fits = [&](const ClosestPoint& place)
   {
     return place.entity.dimension == 2 &&
