@@ -444,8 +444,6 @@ ClosestPoint BoundaryProjector::betweenOnFaces(const BoundaryEdge& edge, double 
   return best;
 }
 
-/// Where the normals at the ends are more than 90 degrees apart, as across the nose of a wing, the
-/// place before or behind the middle whose normal lies between them, if that of `where` does not.
 ClosestPoint BoundaryProjector::onNose(const BoundaryEdge& edge, const ClosestPoint& where) const
 {
   const auto& [a, b] = edge.points;
@@ -455,12 +453,13 @@ ClosestPoint BoundaryProjector::onNose(const BoundaryEdge& edge, const ClosestPo
   {
     return {};
   }
+  const auto common = entitiesOf(edge.edgeClass, edge.entities);
   const auto normalAt = [&](int end)
   {
     const EntityId entity = edge.entities[end];
-    const std::int32_t face = edge.edgeClass.entity >= 0 ? edge.edgeClass.entity
-                              : entity.dimension == 2    ? entity.index
-                                                         : -1;
+    const std::int32_t face = common.size() == 1      ? common[0]
+                              : entity.dimension == 2 ? entity.index
+                                                      : -1;
     return face >= 0 ? model_.normalNear(face, edge.points[end]) : Vector3{};
   };
   const Vector3 first = normalAt(0);

@@ -100,6 +100,12 @@ public:
   /// The same for another point that stands for the edge, such as one of a curved edge.
   ClosestPoint project(
     const EdgeClass& edgeClass, const Point3& point, const std::array<EntityId, 2>& entities) const;
+  /// Of a smooth edge whose midpoint is nearest to `where`: where the normals at its ends are more
+  /// than 90 degrees apart, as across the nose of a wing, the place before or behind the midpoint
+  /// whose normal lies between them, if that of `where` does not; else of no entity. Work: none
+  /// unless the CAD is higher than a twentieth of the edge; else two projections, and six on a
+  /// nose.
+  ClosestPoint onNose(const BoundaryEdge& edge, const ClosestPoint& where) const;
   /// A place for the midpoint of an edge that is projected to `where`, in its face, or in those
   /// that both ends share: not on another one that is nearer to a chord which leaves its face, and
   /// not on a crease that the edge is not on, where it would meet the vertices of the crease's own
@@ -131,7 +137,6 @@ private:
   bool hasLeft(EntityId entity, const BoundaryEdge& edge, const ClosestPoint& where) const;
   ClosestPoint betweenOnEdge(const BoundaryEdge& edge) const;
   ClosestPoint betweenOnFaces(const BoundaryEdge& edge, double away) const;
-  ClosestPoint onNose(const BoundaryEdge& edge, const ClosestPoint& where) const;
   ClosestPoint projectOnEdge(std::int32_t edge, const Point3& point) const;
   /// The face of a smooth edge, or else those (of a planar mesh: edges) that both ends share.
   std::vector<std::int32_t> entitiesOf(

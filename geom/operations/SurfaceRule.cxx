@@ -363,13 +363,21 @@ void SurfaceRule::widen(
       const Vector3 ofCAD = projector_.model().normal(where.entity.index, where.parameters);
       fit.cosine = std::min(fit.cosine, std::abs(dot(normal, ofCAD)));
     }
+    return where;
   };
   lookAt((1.0 / 3) * (p[0] + p[1] + p[2]), true);
   for (int k = 0; k < 3; ++k)
   {
     const int next = (k + 1) % 3;
     const bool isOnFace = classOf(mesh, cavity, facet[k], facet[next]).kind == EdgeClass::Smooth;
-    lookAt(0.5 * (p[k] + p[next]), isOnFace);
+    const ClosestPoint where = lookAt(0.5 * (p[k] + p[next]), isOnFace);
+    if (isOnFace)
+    {
+      const BoundaryEdge edge{ { EdgeClass::Smooth, -1 }, { p[k], p[next] },
+        { mesh.vertex(facet[k]).entity, mesh.vertex(facet[next]).entity } };
+      const ClosestPoint nose = projector_.onNose(edge, where);
+      fit.distance = nose.entity ? std::max(fit.distance, nose.distance) : fit.distance;
+    }
     if (mesh.dimension() == 2)
     {
       fit.distance = std::max(fit.distance, distance(mesh.vertex(facet[k]).point, p[k]));
