@@ -208,17 +208,18 @@ private:
   {
     const std::vector<Index> neighbours = remainingNeighbours(vertex);
     std::vector<Collapse> ways;
-    const auto add = [&](Index from, Index to)
+    const auto add = [&](Index from, Index to, double least)
     {
-      const double worst = worstAfter(from, to, worstAt(from));
+      const double worst = worstAfter(from, to, least);
       if (worst >= 0)
       {
         ways.push_back({ worst, from, to });
       }
     };
+    const double least = worstAt(vertex);
     for (const Index to : neighbours)
     {
-      add(vertex, to);
+      add(vertex, to, least);
     }
     const bool goes = collapseByBest(ways);
     if (goes || !exchanges_)
@@ -230,7 +231,7 @@ private:
     {
       if (mesh_.freedomOf(from) != Freedom::None)
       {
-        add(from, vertex);
+        add(from, vertex, worstAt(from));
       }
     }
     return collapseByBest(ways);
@@ -246,7 +247,7 @@ private:
     double leastGain = infinity;
     for (const Collapse& way : ways)
     {
-      const double gain = isAllowed(way) ? gainOf(cavity_) : infinity;
+      const double gain = isAllowed(way) ? errorGain() : infinity;
       if (gain < leastGain)
       {
         best = &way;
@@ -277,11 +278,11 @@ private:
                mesh_, cavity_, { limits_.distance, false, SurfaceLimits::Walls::LoseVertices }));
   }
 
-  /// What a collapse adds to the error, where that is limited.
-  double gainOf(const Cavity& cavity) const
+  /// What the collapse proposed adds to the error, where that is limited.
+  double errorGain() const
   {
-    const bool counts = errorLeft_ < infinity && mesh_.touchesBoundary(cavity);
-    return counts ? rule_.errorGain(mesh_, cavity) : 0;
+    const bool counts = errorLeft_ < infinity && mesh_.touchesBoundary(cavity_);
+    return counts ? rule_.errorGain(mesh_, cavity_) : 0;
   }
 
   /// What remains may go in the place of others later.

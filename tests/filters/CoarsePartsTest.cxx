@@ -46,6 +46,22 @@ TEST(CoarseParts, reachTheCADUnderUniformRefinement)
   }
 }
 
+/// A level of coarsening undoes one of refinement, with an error that is no larger than at first.
+TEST(CoarseParts, areCoarsenedBack)
+{
+  const FilterRun filters(crankArm);
+  const auto first = filters.project(readGrid(CADREFINE_TRUTH "/crank_arm_coarse.vtu"));
+  const auto errorOf = [&](vtkPointSet* mesh)
+  { return fieldValue(filters.measure(mesh, 0), "GlobalGeometricError"); };
+  const double target = errorOf(first);
+  const auto back = filters.run<vtkCoarsenWithCAD>(filters.refineUniformly(first),
+    [&](vtkCoarsenWithCAD* filter) { filter->SetTargetError(target); });
+  expectAllOnCAD(back, 0.1);
+  EXPECT_LE(errorOf(back), target);
+  const double cells = fieldValue(first, "GlobalCells");
+  EXPECT_NEAR(fieldValue(back, "GlobalCells"), cells, 0.05 * cells);
+}
+
 /// A minimum that most cells cannot have.
 TEST(CoarseParts, areNotCutAllOver)
 {
@@ -77,22 +93,6 @@ TEST(CoarseParts, keepTheirShapeWhereVerticesSlide)
 class RoundEnds : public testing::TestWithParam<int>
 {
 };
-
-/// A level of coarsening undoes one of refinement, with an error that is no larger than at first.
-TEST(CoarseParts, areCoarsenedBack)
-{
-  const FilterRun filters(crankArm);
-  const auto first = filters.project(readGrid(CADREFINE_TRUTH "/crank_arm_coarse.vtu"));
-  const auto errorOf = [&](vtkPointSet* mesh)
-  { return fieldValue(filters.measure(mesh, 0), "GlobalGeometricError"); };
-  const double target = errorOf(first);
-  const auto back = filters.run<vtkCoarsenWithCAD>(filters.refineUniformly(first),
-    [&](vtkCoarsenWithCAD* filter) { filter->SetTargetError(target); });
-  expectAllOnCAD(back, 0.1);
-  EXPECT_LE(errorOf(back), target);
-  const double cells = fieldValue(first, "GlobalCells");
-  EXPECT_NEAR(fieldValue(back, "GlobalCells"), cells, 0.05 * cells);
-}
 
 INSTANTIATE_TEST_SUITE_P(Corners, RoundEnds, testing::Values(4, 5, 6, 8));
 

@@ -196,7 +196,6 @@ TEST_F(CoarseningAeroplane, leavesTheMeshWhereItMayOnlyCut)
   EXPECT_NE(outcome.warnings[0].find("Cut only"), std::string::npos);
 }
 
-/// A solver's indicator that moves through the mesh: fine there, coarse behind it.
 TEST(CoarseningHexahedra, isAnErrorWithoutSimplices)
 {
   const cadtest::TemporaryFolder folder;
@@ -210,6 +209,7 @@ TEST(CoarseningHexahedra, isAnErrorWithoutSimplices)
     << outcome.errors[0];
 }
 
+/// A solver's indicator that moves through the mesh: fine there, coarse behind it.
 TEST(CoarseningFront, keepsTheNumberOfCells)
 {
   const FilterRun filters(CADREFINE_DATA "/naca0012_sharp.igs");
@@ -253,9 +253,7 @@ TEST(CoarseningFront, keepsTheNumberOfCells)
   EXPECT_GT(*least, 4 * cells.front());
 }
 
-// The first mesh of the cylinder has one facet from side to side of a fillet that turns by 90
-// degrees, farther from the CAD's normals than coarsening leaves any; that of the wing is 228
-// cells.
+// The first mesh of the wing is 228 cells.
 INSTANTIATE_TEST_SUITE_P(Cases, Coarsening,
   testing::Values(Case{ "Cylinder", "cylinder_coarse.vtu", "cylinder.brep", 0.05 },
     Case{ "Wing", "naca0012_coarse.vtu", "naca0012_sharp.igs", 0.08 },

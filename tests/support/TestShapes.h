@@ -31,9 +31,9 @@ TopoDS_Shape longCylinder(double radius, double height);
 /// The lateral face of half a cylinder, where y is positive.
 TopoDS_Shape halfPipe(double radius, double height);
 /// The same of a cone with these radii at z = 0 and at the height.
+TopoDS_Shape halfCone(double radius, double upperRadius, double height);
 /// The side of a cylinder along z round an ellipse.
 TopoDS_Shape ellipticPipe(double halfLength, double halfHeight, double width);
-TopoDS_Shape halfCone(double radius, double upperRadius, double height);
 /// In the plane z = 0 round the origin; of its two edges one goes from the angle `turn` to pi -
 /// turn, where y is positive.
 TopoDS_Shape discOfTwoArcs(double radius, double turn);
