@@ -6,6 +6,7 @@
 
 #include <cadrefine/base/IndicesWhere.h>
 #include <cadrefine/base/LargeMemory.h>
+#include <cadrefine/classification/MidpointProjection.h>
 #include <cadrefine/error/GeometricError.h>
 
 #include <algorithm>
@@ -168,7 +169,7 @@ Answers<ClosestPoint> projectEdges(RankExchange& exchange, const BoundaryProject
 {
   return mapBalanced<ClosestPoint>(
     exchange, std::move(edges),
-    [&](const BoundaryEdge& edge) { return projector.projectMidpoint(edge); }, work);
+    [&](const BoundaryEdge& edge) { return projectMidpoint(projector, edge); }, work);
 }
 
 WorkBalance findMidpoints(RankExchange& exchange, const Mesh& mesh,
@@ -240,13 +241,13 @@ std::vector<MidpointOnCAD> projectMidpoints(RankExchange& exchange, const Mesh& 
   {
     midpoints[asking[i]].where = answers.values[i];
   }
-  const bool offCrease = edges.withOperations || exchange.any(mesh.hasOtherThanSimplices());
-  for (std::size_t i = 0; offCrease && i < midpoints.size(); ++i)
+  const bool keepsOff = edges.withOperations || exchange.any(mesh.hasOtherThanSimplices());
+  for (std::size_t i = 0; keepsOff && i < midpoints.size(); ++i)
   {
     const Index e = edgesOf[i];
     const BoundaryEdge edge =
       edgeOf(classOfCode(codes[e]), edges.table.edges[e], mesh, classification);
-    midpoints[i].where = classified.projector.offCrease(edge, midpoints[i].where);
+    midpoints[i].where = offCrease(classified.projector, edge, midpoints[i].where);
   }
   midpoints.erase(std::remove_if(midpoints.begin(), midpoints.end(),
                     [](const MidpointOnCAD& midpoint) { return !midpoint.where.entity; }),
@@ -312,7 +313,7 @@ void projectQuads(RankExchange& exchange, const Mesh& mesh, const MarkedQuads& q
   {
     if (answers.values[i].entity)
     {
-      hits.push_back({ asking[i], classified.projector.offCrease(queries[i], answers.values[i]) });
+      hits.push_back({ asking[i], offCrease(classified.projector, queries[i], answers.values[i]) });
     }
   }
 }

@@ -53,6 +53,12 @@ struct BoundaryEdge
   std::array<EntityId, 2> entities;
 };
 
+/// The nearer of two answers; on a tie the smaller entity.
+inline bool isNearer(const ClosestPoint& a, const ClosestPoint& b)
+{
+  return a.distance != b.distance ? a.distance < b.distance : a.entity < b.entity;
+}
+
 /// The rules by which mesh entities are classified on the CAD and their points are projected.
 /// All answers are pure functions of the arguments and the model.
 class BoundaryProjector
@@ -90,29 +96,16 @@ public:
   EdgeClass classify(const std::array<Point3, 2>& points, const std::array<EntityId, 2>& entities,
     const std::vector<FacetRecord>& facets) const;
 
-  /// The point of the CAD for the midpoint of an edge; with no entity for Straight. The same for
-  /// both directions of the edge. Where an end of the edge is nearest, as under a bow of the CAD
-  /// that is as high as it is wide, a point between the ends, as far from one as from the other.
-  /// The same on the CAD edge that both ends are on where another one is nearest, as to a diameter,
-  /// and on the face of the edge where another one is nearest, but by less than a fifth, as to a
-  /// diameter under a dome. Of a chord that cuts a nose off, its tip.
-  ClosestPoint projectMidpoint(const BoundaryEdge& edge) const;
-  /// The same for another point that stands for the edge, such as one of a curved edge.
+  /// The point of the CAD for a point that stands for a mesh edge, such as its middle: of the CAD
+  /// edge or face that the edge is on, or that its ends share; with no entity for Straight.
   ClosestPoint project(
     const EdgeClass& edgeClass, const Point3& point, const std::array<EntityId, 2>& entities) const;
-  /// Of a smooth edge whose midpoint is nearest to `where`: where the normals at its ends are more
-  /// than 90 degrees apart, as across the nose of a wing, the place before or behind the midpoint
-  /// whose normal lies between them, if that of `where` does not; else of no entity. Work: none
-  /// unless the CAD is higher than a twentieth of the edge; else two projections, and six on a
-  /// nose.
-  ClosestPoint onNose(const BoundaryEdge& edge, const ClosestPoint& where) const;
-  /// A place for the midpoint of an edge that is projected to `where`, in its face, or in those
-  /// that both ends share: not on another one that is nearer to a chord which leaves its face, and
-  /// not on a crease that the edge is not on, where it would meet the vertices of the crease's own
-  /// mesh edges. As far inside the crease as the midpoint is outside, or less where the face is
-  /// narrower. Work: none where `where` is on such a face; else a projection a face, and up to four
-  /// more.
-  ClosestPoint offCrease(const BoundaryEdge& edge, const ClosestPoint& where) const;
+  /// The face of a smooth edge, or else those (of a planar mesh: edges) that both ends share.
+  std::vector<std::int32_t> entitiesOf(
+    const EdgeClass& edgeClass, const std::array<EntityId, 2>& entities) const;
+  /// The nearest point of these; none where they have none.
+  ClosestPoint nearestOnShared(
+    const EdgeClass& edgeClass, const std::array<EntityId, 2>& entities, const Point3& point) const;
 
   /// CAD vertices that want a mesh vertex of their own: see findCorners.
   const std::vector<std::int32_t>& corners() const { return corners_; }
@@ -133,16 +126,7 @@ private:
     const std::array<EntityId, 2>& entities, const std::vector<FacetRecord>& onCAD) const;
   /// Whether the crease is part of a line of creases that the entity, an edge or a vertex, is on.
   bool isOnLineOf(std::int32_t crease, EntityId entity) const;
-  std::vector<double> parametersOn(std::int32_t edge, const Point3& point) const;
-  bool hasLeft(EntityId entity, const BoundaryEdge& edge, const ClosestPoint& where) const;
-  ClosestPoint betweenOnEdge(const BoundaryEdge& edge) const;
-  ClosestPoint betweenOnFaces(const BoundaryEdge& edge, double away) const;
   ClosestPoint projectOnEdge(std::int32_t edge, const Point3& point) const;
-  /// The face of a smooth edge, or else those (of a planar mesh: edges) that both ends share.
-  std::vector<std::int32_t> entitiesOf(
-    const EdgeClass& edgeClass, const std::array<EntityId, 2>& entities) const;
-  ClosestPoint nearestOnShared(
-    const EdgeClass& edgeClass, const std::array<EntityId, 2>& entities, const Point3& point) const;
 
   const CADModel& model_;
   BoundaryKind kind_;

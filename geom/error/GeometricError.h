@@ -67,7 +67,7 @@ struct ClassifiedSurface
 BoundaryEdge middleOfQuad(
   const std::array<Point3, 4>& points, const std::array<EntityId, 4>& entities, std::int32_t face);
 
-/// Finds the midpoints of edges (see BoundaryProjector::projectMidpoint), in their order.
+/// Finds the midpoints of edges (see MidpointProjection.h), in their order.
 using ProjectMidpoints = std::function<std::vector<ClosestPoint>(std::vector<BoundaryEdge>)>;
 
 /// The area between each boundary edge and the CAD: the triangle over the edge and the projection

@@ -1,6 +1,7 @@
 #include <cadrefine/operations/SurfaceRule.h>
 
 #include <cadrefine/classification/ClassificationTolerances.h>
+#include <cadrefine/classification/MidpointProjection.h>
 #include <cadrefine/error/GeometricError.h>
 #include <cadrefine/mesh/Quality.h>
 
@@ -256,7 +257,7 @@ double SurfaceRule::errorGain(const EditableMesh& mesh, const Cavity& cavity) co
   {
     std::vector<ClosestPoint> places;
     std::transform(edges.begin(), edges.end(), std::back_inserter(places),
-      [&](const BoundaryEdge& edge) { return projector_.projectMidpoint(edge); });
+      [&](const BoundaryEdge& edge) { return projectMidpoint(projector_, edge); });
     return places;
   };
   const auto errorOf = [&](const ClassifiedSurface& surface)
@@ -375,7 +376,7 @@ void SurfaceRule::widen(
     {
       const BoundaryEdge edge{ { EdgeClass::Smooth, -1 }, { p[k], p[next] },
         { mesh.vertex(facet[k]).entity, mesh.vertex(facet[next]).entity } };
-      const ClosestPoint nose = projector_.onNose(edge, where);
+      const ClosestPoint nose = onNose(projector_, edge, where);
       fit.distance = nose.entity ? std::max(fit.distance, nose.distance) : fit.distance;
     }
     if (mesh.dimension() == 2)
@@ -417,7 +418,7 @@ std::optional<ClosestPoint> SurfaceRule::placeOfMiddle(
   }
   const BoundaryEdge onCAD{ edgeClass, { mesh.vertex(a).wanted, mesh.vertex(b).wanted },
     { mesh.vertex(a).entity, mesh.vertex(b).entity } };
-  const ClosestPoint where = projector_.offCrease(onCAD, projector_.projectMidpoint(onCAD));
+  const ClosestPoint where = offCrease(projector_, onCAD, projectMidpoint(projector_, onCAD));
   return where.entity ? std::optional(where) : std::nullopt;
 }
 

@@ -13,7 +13,7 @@
 
 #include <cadrefine/cad/import/CADFile.h>
 #include <cadrefine/cad/model/CADModel.h>
-#include <cadrefine/classification/BoundaryProjector.h>
+#include <cadrefine/classification/MidpointProjection.h>
 
 #include <vtkMPIController.h>
 #include <vtkNew.h>
@@ -157,8 +157,8 @@ void run(RankExchange& exchange, char** arguments)
   compare(exchange, "refinement, known entity", middles,
     [&](const Middle& middle)
     {
-      return projector.projectMidpoint(
-        { { EdgeClass::Smooth, -1 }, { middle.point, middle.point }, middle.classes });
+      return projectMidpoint(
+        projector, { { EdgeClass::Smooth, -1 }, { middle.point, middle.point }, middle.classes });
     });
 }
 

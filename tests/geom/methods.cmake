@@ -6,6 +6,7 @@ cadrefine_geom_test(method_tests
   SOURCES
     classification/BoundaryProjectorTest.cxx
     classification/FaceFinderTest.cxx
+    classification/MidpointProjectionTest.cxx
     error/CurvedErrorTest.cxx
     error/GeometricErrorTest.cxx
     motion/CellStacksTest.cxx

@@ -1,6 +1,7 @@
 // The geometric error of one facet.
 #pragma once
 
+#include <cadrefine/classification/MidpointProjection.h>
 #include <cadrefine/error/GeometricError.h>
 
 #include <algorithm>
@@ -15,7 +16,7 @@ inline std::vector<cadrefine::ClosestPoint> projectEdges(
 {
   std::vector<cadrefine::ClosestPoint> midpoints(edges.size());
   std::transform(edges.begin(), edges.end(), midpoints.begin(),
-    [&](const cadrefine::BoundaryEdge& edge) { return projector.projectMidpoint(edge); });
+    [&](const cadrefine::BoundaryEdge& edge) { return projectMidpoint(projector, edge); });
   return midpoints;
 }
 

@@ -1,0 +1,296 @@
+#include <cadrefine/classification/MidpointProjection.h>
+
+#include <cadrefine/classification/CADAdjacency.h>
+#include <cadrefine/classification/ClassificationTolerances.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace cadrefine
+{
+namespace
+{
+
+/// How far inside its face a place is looked for, to the middle's distance from the border.
+constexpr std::array partsInside{ 1.0, 1.0 / 2, 1.0 / 4, 1.0 / 8 };
+/// A place on a face is taken instead of one on its border that is so many times nearer.
+constexpr double asNear = 1.25;
+/// Of a mesh edge's length: a place so near to one of its ends is not that of its middle.
+constexpr double atEnd = 0.1;
+
+/// A mesh edge may lead across a nose if the CAD is so high over its middle, in parts of its
+/// length.
+constexpr double noseHeight = 0.05;
+/// Of the sum of the normals at its ends: those of both sides of a plate tell no direction.
+constexpr double leastNoseSum = 0.1;
+/// Where the front of a nose, or the bottom of a groove, is looked for, in the same parts.
+constexpr std::array noseParts{ 0.5, 1.0, 2.0, -0.5, -1.0, -2.0 };
+/// It is as far from one end as from the other, but for this part of the length.
+constexpr double noseBalance = 0.5;
+/// Its normal is within 45 degrees of the direction between those at the ends.
+const double noseCosine = ClassificationTolerances::cosineOfDegrees(45);
+
+/// Unit vectors square to one, 45 degrees apart.
+std::array<Vector3, 8> directionsAcross(const Vector3& vector)
+{
+  const auto smallest = std::min_element(
+    vector.begin(), vector.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
+  Vector3 axis{};
+  axis[smallest - vector.begin()] = 1;
+  const Vector3 first = normalized(cross(vector, axis));
+  const Vector3 second = normalized(cross(vector, first));
+  const Vector3 sum = normalized(first + second);
+  const Vector3 difference = normalized(first - second);
+  return { first, sum, second, -1.0 * difference, -1.0 * first, -1.0 * sum, -1.0 * second,
+    difference };
+}
+
+/// Beyond a smooth border of a face the surface goes on; so does a line beyond the end of an edge,
+/// unless both ends of the mesh edge are on that.
+bool hasLeft(const BoundaryProjector& projector, EntityId entity, const BoundaryEdge& edge,
+  const ClosestPoint& where)
+{
+  if (isWithin(projector.model().nurbs(), entity, where.entity))
+  {
+    return false;
+  }
+  if (entity.dimension == 1)
+  {
+    const auto common =
+      commonEntities(projector.model().nurbs(), edge.entities[0], edge.entities[1], 1);
+    return std::binary_search(common.begin(), common.end(), entity.index);
+  }
+  if (where.entity.dimension < 2)
+  {
+    return true;
+  }
+  const ClosestPoint border = projector.nearestOn(entity, 0.5 * (edge.points[0] + edge.points[1]));
+  return border.entity.dimension != 1 || projector.model().nurbs().edges[border.entity.index].sharp;
+}
+
+/// Of the place of a point on a CAD edge its parameter; at an end of the edge that of the end, and
+/// of a closed edge both.
+std::vector<double> parametersOn(
+  const BoundaryProjector& projector, std::int32_t edge, const Point3& point)
+{
+  const NurbsEdge& curve = projector.model().nurbs().edges[edge];
+  const ClosestPoint where = projector.nearestOn({ 1, edge }, point);
+  if (where.entity.dimension == 1)
+  {
+    return { where.parameters[0] };
+  }
+  std::vector<double> ends;
+  if (where.entity == EntityId{ 0, curve.firstVertex })
+  {
+    ends.push_back(curve.segments.front().t0);
+  }
+  if (where.entity == EntityId{ 0, curve.lastVertex })
+  {
+    ends.push_back(curve.segments.back().t1);
+  }
+  return ends;
+}
+
+/// The point of the CAD edge between those nearest to the ends that is as far from one end as from
+/// the other, by bisection.
+ClosestPoint betweenOnEdge(const BoundaryProjector& projector, const BoundaryEdge& edge)
+{
+  const auto& [a, b] = edge.points;
+  const EntityId onEdge{ 1, edge.edgeClass.entity };
+  std::array<double, 2> range{ 0, std::numeric_limits<double>::infinity() };
+  for (const double ofA : parametersOn(projector, onEdge.index, a))
+  {
+    for (const double ofB : parametersOn(projector, onEdge.index, b))
+    {
+      if (std::abs(ofB - ofA) < std::abs(range[1] - range[0]))
+      {
+        range = { ofA, ofB };
+      }
+    }
+  }
+  ClosestPoint where;
+  if (range[1] == std::numeric_limits<double>::infinity())
+  {
+    return where;
+  }
+  const bool isAFirst = range[0] < range[1];
+  const Point3& first = isAFirst ? a : b;
+  const Point3& last = isAFirst ? b : a;
+  double low = isAFirst ? range[0] : range[1];
+  double high = isAFirst ? range[1] : range[0];
+  for (int k = 0; k < std::numeric_limits<double>::digits; ++k)
+  {
+    const double t = 0.5 * (low + high);
+    const Point3 point = projector.model().evaluate(onEdge, { t, 0 });
+    (distance(point, first) < distance(point, last) ? low : high) = t;
+  }
+  where.entity = onEdge;
+  where.parameters = { 0.5 * (low + high), 0 };
+  where.point = projector.model().evaluate(onEdge, where.parameters);
+  where.distance = distance(where.point, 0.5 * (a + b));
+  return where;
+}
+
+/// Of the places on faces of eight points round the middle, so far away from it, the one that is
+/// nearest to the middle and as far from one end as from the other: these two added.
+ClosestPoint betweenOnFaces(
+  const BoundaryProjector& projector, const BoundaryEdge& edge, double away)
+{
+  const Point3& a = std::min(edge.points[0], edge.points[1]);
+  const Point3& b = std::max(edge.points[0], edge.points[1]);
+  const Point3 middle = 0.5 * (a + b);
+  const bool haveFace = !projector.entitiesOf(edge.edgeClass, edge.entities).empty();
+  double least = std::numeric_limits<double>::infinity();
+  ClosestPoint best;
+  for (const Vector3& direction : directionsAcross(b - a))
+  {
+    const Point3 beside = middle + away * direction;
+    ClosestPoint where = haveFace ? projector.nearestOnShared(edge.edgeClass, edge.entities, beside)
+                                  : projector.nearest(beside, 4 * away);
+    where.distance = distance(where.point, middle);
+    const double off =
+      where.distance + std::abs(distance(where.point, a) - distance(where.point, b));
+    if (where.entity.dimension == 2 && off < least)
+    {
+      best = where;
+      least = off;
+    }
+  }
+  return best;
+}
+
+} // namespace
+
+ClosestPoint projectMidpoint(const BoundaryProjector& projector, const BoundaryEdge& edge)
+{
+  const auto& [a, b] = edge.points;
+  const EdgeClass& edgeClass = edge.edgeClass;
+  const ClosestPoint where = projector.project(edgeClass, 0.5 * (a + b), edge.entities);
+  if (!where.entity)
+  {
+    return where;
+  }
+  const ClosestPoint nose = onNose(projector, edge, where);
+  if (nose.entity)
+  {
+    return nose;
+  }
+  const bool isAtEnd =
+    std::min(distance(where.point, a), distance(where.point, b)) <= atEnd * distance(a, b);
+  const bool isOnEdge = edgeClass.kind == EdgeClass::OnEdge && edgeClass.entity >= 0;
+  const EntityId entity{ static_cast<std::int8_t>(isOnEdge ? 1 : 2), edgeClass.entity };
+  if (!isAtEnd && (edgeClass.entity < 0 || !hasLeft(projector, entity, edge, where)))
+  {
+    return where;
+  }
+  const ClosestPoint between =
+    isOnEdge ? betweenOnEdge(projector, edge) : betweenOnFaces(projector, edge, where.distance);
+  const double limit = isOnEdge ? distance(a, b) : asNear * where.distance;
+  return between.entity && (isAtEnd || between.distance <= limit) ? between : where;
+}
+
+ClosestPoint onNose(
+  const BoundaryProjector& projector, const BoundaryEdge& edge, const ClosestPoint& where)
+{
+  const auto& [a, b] = edge.points;
+  const double length = distance(a, b);
+  if (projector.kind() != BoundaryKind::Triangles || edge.edgeClass.kind != EdgeClass::Smooth ||
+      where.entity.dimension != 2 || where.distance <= noseHeight * length)
+  {
+    return {};
+  }
+  const auto common = projector.entitiesOf(edge.edgeClass, edge.entities);
+  const auto normalAt = [&](int end)
+  {
+    const EntityId entity = edge.entities[end];
+    const std::int32_t face = common.size() == 1      ? common[0]
+                              : entity.dimension == 2 ? entity.index
+                                                      : -1;
+    return face >= 0 ? projector.model().normalNear(face, edge.points[end]) : Vector3{};
+  };
+  const Vector3 first = normalAt(0);
+  const Vector3 second = normalAt(1);
+  const Vector3 sum = first + second;
+  if (dot(first, second) >= 0 || norm(sum) < leastNoseSum)
+  {
+    return {};
+  }
+  const Vector3 between = normalized(sum);
+  const auto fits = [&](const ClosestPoint& place)
+  {
+    return place.entity.dimension == 2 &&
+           dot(projector.model().normal(place.entity.index, place.parameters), between) >=
+             noseCosine;
+  };
+  ClosestPoint best;
+  if (fits(where))
+  {
+    return best;
+  }
+  const Point3 middle = 0.5 * (a + b);
+  for (const double part : noseParts)
+  {
+    const Point3 point = middle + part * length * between;
+    const ClosestPoint shared = projector.nearestOnShared(edge.edgeClass, edge.entities, point);
+    ClosestPoint place = shared.entity ? shared : projector.nearest(point, 2 * length);
+    place.distance = distance(place.point, middle);
+    const double off = std::abs(distance(place.point, a) - distance(place.point, b));
+    if (fits(place) && place.distance <= 2 * length && off <= noseBalance * length &&
+        isNearer(place, best))
+    {
+      best = place;
+    }
+  }
+  return best;
+}
+
+ClosestPoint offCrease(
+  const BoundaryProjector& projector, const BoundaryEdge& edge, const ClosestPoint& where)
+{
+  if (projector.kind() != BoundaryKind::Triangles || edge.edgeClass.kind != EdgeClass::Smooth)
+  {
+    return where;
+  }
+  const auto faces = projector.entitiesOf(edge.edgeClass, edge.entities);
+  if (where.entity.dimension == 2 &&
+      (faces.empty() || std::binary_search(faces.begin(), faces.end(), where.entity.index)))
+  {
+    return where;
+  }
+  const Point3 middle = 0.5 * (edge.points[0] + edge.points[1]);
+  ClosestPoint border = where; // that of the face where it is nearest, not of another one behind it
+  for (std::size_t f = 0; f < faces.size(); ++f)
+  {
+    const ClosestPoint onFace = projector.nearestOn({ 2, faces[f] }, middle);
+    border = f == 0 || isNearer(onFace, border) ? onFace : border;
+  }
+  if (border.entity.dimension != 1)
+  {
+    return border;
+  }
+  if (!projector.model().nurbs().edges[border.entity.index].sharp)
+  {
+    // Beyond a smooth edge the surface goes on.
+    const auto beside = entitiesAround(projector.model().nurbs(), border.entity, 2);
+    const bool isBeside = where.entity.dimension == 2 &&
+                          std::binary_search(beside.begin(), beside.end(), where.entity.index);
+    return isBeside ? where : border;
+  }
+  // As far inside as the middle is outside; where the face is narrower than that, less.
+  for (const double part : partsInside)
+  {
+    ClosestPoint inside = projector.nearestOnShared(
+      edge.edgeClass, edge.entities, border.point + part * (border.point - middle));
+    if (inside.entity)
+    {
+      inside.distance = distance(middle, inside.point);
+      return inside;
+    }
+  }
+  return border;
+}
+
+} // namespace cadrefine

@@ -1,0 +1,33 @@
+// Where the middles of a mesh's boundary edges belong on the CAD. All answers are pure functions of
+// the edge and the model, and the same for both directions of the edge.
+#pragma once
+
+#include <cadrefine/classification/BoundaryProjector.h>
+
+namespace cadrefine
+{
+
+/// The point of the CAD for the midpoint of an edge; with no entity for Straight. Where an end of
+/// the edge is nearest, as under a bow of the CAD that is as high as it is wide, a point between
+/// the ends, as far from one as from the other. The same on the CAD edge that both ends are on
+/// where another one is nearest, as to a diameter, and on the face of the edge where another one is
+/// nearest, but by less than a fifth, as to a diameter under a dome. Of a chord that cuts a nose
+/// off, its tip (see onNose).
+ClosestPoint projectMidpoint(const BoundaryProjector& projector, const BoundaryEdge& edge);
+
+/// Of a smooth edge whose midpoint is nearest to `where`: where the normals at its ends are more
+/// than 90 degrees apart, as across the nose of a wing, the place before or behind the midpoint
+/// whose normal lies between them, if that of `where` does not; else of no entity. Work: none
+/// unless the CAD is higher than a twentieth of the edge; else two projections, and six on a nose.
+ClosestPoint onNose(
+  const BoundaryProjector& projector, const BoundaryEdge& edge, const ClosestPoint& where);
+
+/// A place for the midpoint of an edge that is projected to `where`, in its face, or in those that
+/// both ends share: not on another one that is nearer to a chord which leaves its face, and not on
+/// a crease that the edge is not on, where it would meet the vertices of the crease's own mesh
+/// edges. As far inside the crease as the midpoint is outside, or less where the face is narrower.
+/// Work: none where `where` is on such a face; else a projection a face, and up to four more.
+ClosestPoint offCrease(
+  const BoundaryProjector& projector, const BoundaryEdge& edge, const ClosestPoint& where);
+
+} // namespace cadrefine
