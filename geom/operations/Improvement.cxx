@@ -156,7 +156,10 @@ private:
     best_ = {};
     forEdges(corners, false,
       [&](Index a, Index b)
-      { consider(proposeEdgeRemoval(mesh_, a, b, cavity_), &OperationCounts::edgeRemovals); });
+      {
+        consider(
+          proposeEdgeRemoval(mesh_, a, b, cavity_, Shape::NoWorse), &OperationCounts::edgeRemovals);
+      });
     for (int k = 0; k <= Dimension; ++k)
     {
       if constexpr (Dimension == 3)

@@ -2,6 +2,8 @@
 
 #include <cadrefine/operations/TriangleOperations.h>
 
+#include <boost/container/static_vector.hpp>
+
 #include <algorithm>
 #include <limits>
 #include <vector>
@@ -54,7 +56,7 @@ std::array<Index, 2> acrossEdge(const std::array<Index, 4>& cell, Index a, Index
 /// has as many as cells, one that ends at facets one more.
 struct Ring
 {
-  std::vector<Index> vertices;
+  boost::container::static_vector<Index, largestRing + 1> vertices;
   bool isClosed = true;
 };
 
@@ -65,8 +67,7 @@ Ring ringOf(const EditableMesh& mesh, const std::vector<Index>& cells, Index a, 
   {
     return {};
   }
-  std::vector<std::array<Index, 2>> links;
-  links.reserve(cells.size());
+  boost::container::static_vector<std::array<Index, 2>, largestRing> links;
   for (const Index cell : cells)
   {
     links.push_back(acrossEdge(mesh.cells()[cell].corners, a, b));
@@ -105,14 +106,14 @@ bool mayGoBeyond(const EditableMesh& mesh, const Ring& ring, Index a, Index b)
   return mesh.areOnRim(a, b) && !(isClosed && areBesideOthers);
 }
 
-/// The triangulation of a ring with the best worst cell.
+/// The triangulation of a ring with the best worst cell, if that is no worse than `least`.
 class RingTriangulation
 {
 public:
-  RingTriangulation(const EditableMesh& mesh, const std::vector<Index>& ring, Index a, Index b)
-    : mesh_(mesh), ring_(ring), a_(a), b_(b)
+  RingTriangulation(const EditableMesh& mesh, const Ring& ring, Index a, Index b, double least)
+    : mesh_(mesh), ring_(ring.vertices), a_(a), b_(b), least_(least)
   {
-    const std::size_t count = ring.size();
+    const std::size_t count = ring_.size();
     for (std::size_t length = 2; length < count; ++length)
     {
       for (std::size_t i = 0; i + length < count; ++i)
@@ -142,18 +143,20 @@ private:
     return j - i < 2 ? std::numeric_limits<double>::infinity() : best_[i][j];
   }
 
+  /// What costs least comes first.
   double worstAt(std::size_t i, std::size_t k, std::size_t j) const
   {
+    const auto cells = cellsAt(i, k, j);
     double worst = std::numeric_limits<double>::infinity();
-    for (const auto& cell : cellsAt(i, k, j))
+    for (const auto& cell : cells)
     {
-      worst = mesh_.isValid(cell) ? std::min(worst, mesh_.quality(cell)) : impossible;
-      if (worst == impossible)
+      worst = std::min(worst, mesh_.quality(cell));
+      if (worst < least_)
       {
-        return worst;
+        return impossible;
       }
     }
-    return worst;
+    return mesh_.isValid(cells[0]) && mesh_.isValid(cells[1]) ? worst : impossible;
   }
 
   void findBest(std::size_t i, std::size_t j)
@@ -185,9 +188,10 @@ private:
   }
 
   const EditableMesh& mesh_;
-  const std::vector<Index>& ring_;
+  const decltype(Ring::vertices)& ring_;
   Index a_;
   Index b_;
+  double least_;
   std::array<std::array<double, largestRing>, largestRing> best_{};
   std::array<std::array<std::size_t, largestRing>, largestRing> apex_{};
 };
@@ -311,7 +315,7 @@ void split(const SimplexStore<Corners>& store, Index a, Index b, Index middle,
 
 } // namespace
 
-bool proposeEdgeRemoval(const EditableMesh& mesh, Index a, Index b, Cavity& cavity)
+bool proposeEdgeRemoval(const EditableMesh& mesh, Index a, Index b, Cavity& cavity, Shape shape)
 {
   if (mesh.dimension() == 2)
   {
@@ -328,7 +332,7 @@ bool proposeEdgeRemoval(const EditableMesh& mesh, Index a, Index b, Cavity& cavi
   {
     return false;
   }
-  const std::vector<Index>& r = ring.vertices;
+  const auto& r = ring.vertices;
   mesh.facets().at(a, b, cavity.facets);
   if (cavity.facets.size() != (ring.isClosed ? 0 : 2) || (ring.isClosed && r.size() < 3))
   {
@@ -350,7 +354,8 @@ bool proposeEdgeRemoval(const EditableMesh& mesh, Index a, Index b, Cavity& cavi
     cavity.newFacets = { { { first, b, last }, one.label, isFirst ? one.parent : other.parent },
       { { first, last, a }, one.label, isFirst ? other.parent : one.parent } };
   }
-  const RingTriangulation triangulation(mesh, r, a, b);
+  const double least = shape == Shape::NoWorse ? mesh.worst(cavity.cells) : impossible;
+  const RingTriangulation triangulation(mesh, ring, a, b, least);
   if (!triangulation.isPossible())
   {
     return false;

@@ -26,7 +26,16 @@ namespace cadrefine
 /// polygonal domains", Ann. Discrete Math. 9, 1980; work cubic in the ring). Three cells round the
 /// edge become two; an edge between two facets becomes the other diagonal of these, so that one
 /// cell with two facets, as is flat where they are, is none. Of triangles: proposeSwap.
-bool proposeEdgeRemoval(const EditableMesh& mesh, Index a, Index b, Cavity& cavity);
+///
+/// `Shape::NoWorse` leaves out, of tetrahedra, what has a cell worse than all before, which takes
+/// less work.
+enum class Shape
+{
+  Any,
+  NoWorse
+};
+bool proposeEdgeRemoval(
+  const EditableMesh& mesh, Index a, Index b, Cavity& cavity, Shape shape = Shape::Any);
 constexpr std::size_t largestRing = 7;
 
 /// Two cells become three round the edge between the vertices opposite to their common face, which

@@ -3,6 +3,7 @@
 #include <cadrefine/operations/Operations.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -19,9 +20,15 @@ bool findSwap(const EditableMesh& mesh, Index middle, Cavity& best)
   const SimplexStore<Dimension + 1>& cells = mesh.cellsOf<Dimension>();
   double bestQuality = -std::numeric_limits<double>::infinity();
   Cavity cavity;
+  std::vector<std::array<Index, 2>> edges; // each is opposite in two cells
+  const auto isNew = [&](Index a, Index b)
+  {
+    return std::none_of(edges.begin(), edges.end(),
+      [&](const auto& edge) { return hasCorner(edge, a) && hasCorner(edge, b); });
+  };
   const auto consider = [&](Index a, Index b)
   {
-    if (!proposeEdgeRemoval(mesh, a, b, cavity))
+    if (!proposeEdgeRemoval(mesh, a, b, cavity, Shape::NoWorse))
     {
       return;
     }
@@ -44,8 +51,9 @@ bool findSwap(const EditableMesh& mesh, Index middle, Cavity& best)
     {
       for (std::size_t j = i + 1; j < corners.size(); ++j)
       {
-        if (corners[i] != middle && corners[j] != middle)
+        if (corners[i] != middle && corners[j] != middle && isNew(corners[i], corners[j]))
         {
+          edges.push_back({ corners[i], corners[j] });
           consider(corners[i], corners[j]);
         }
       }
