@@ -245,9 +245,10 @@ private:
       [](const Collapse& a, const Collapse& b) { return a.worst > b.worst; });
     const Collapse* best = nullptr;
     double leastGain = infinity;
+    before_.vertex = -1;
     for (const Collapse& way : ways)
     {
-      const double gain = isAllowed(way) ? errorGain() : infinity;
+      const double gain = isAllowed(way) ? errorGain(way.from) : infinity;
       if (gain < leastGain)
       {
         best = &way;
@@ -278,11 +279,18 @@ private:
                mesh_, cavity_, { limits_.distance, false, SurfaceLimits::Walls::LoseVertices }));
   }
 
-  /// What the collapse proposed adds to the error, where that is limited.
-  double errorGain() const
+  /// What the collapse of a vertex that is proposed adds to the error, where that is limited.
+  double errorGain(Index vertex)
   {
-    const bool counts = errorLeft_ < infinity && mesh_.touchesBoundary(cavity_);
-    return counts ? rule_.errorGain(mesh_, cavity_) : 0;
+    if (errorLeft_ == infinity || !mesh_.touchesBoundary(cavity_))
+    {
+      return 0;
+    }
+    if (before_.vertex != vertex)
+    {
+      before_ = { vertex, rule_.errorBefore(mesh_, cavity_) };
+    }
+    return rule_.errorGain(mesh_, cavity_, before_.error);
   }
 
   /// What remains may go in the place of others later.
@@ -314,6 +322,11 @@ private:
   bool costsTooMuch_ = false;        ///< The vertex last looked at.
   bool exchanges_ = false;
   Cavity cavity_;
+  struct
+  {
+    Index vertex = -1;
+    double error = 0;
+  } before_; ///< The error of the facets at the vertex last asked for.
   std::int64_t collapses_ = 0;
 };
 

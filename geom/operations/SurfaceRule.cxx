@@ -128,7 +128,7 @@ bool SurfaceRule::accepts(
   return keepsWalls &&
          (isPlane ? acceptsSegments(mesh, cavity, limits.distance)
                   : acceptsFacets(mesh, cavity, limits.distance)) &&
-         (!limits.keepsError || errorGain(mesh, cavity) <= 0);
+         (!limits.keepsError || errorGain(mesh, cavity, errorBefore(mesh, cavity)) <= 0);
 }
 
 bool SurfaceRule::acceptsFacets(
@@ -251,7 +251,7 @@ ClassifiedSurface SurfaceRule::surfaceOf(
   return surface;
 }
 
-double SurfaceRule::errorGain(const EditableMesh& mesh, const Cavity& cavity) const
+double SurfaceRule::errorOf(const ClassifiedSurface& surface) const
 {
   const auto project = [&](const std::vector<BoundaryEdge>& edges)
   {
@@ -260,26 +260,32 @@ double SurfaceRule::errorGain(const EditableMesh& mesh, const Cavity& cavity) co
       [&](const BoundaryEdge& edge) { return projectMidpoint(projector_, edge); });
     return places;
   };
-  const auto errorOf = [&](const ClassifiedSurface& surface)
+  double error = 0;
+  for (const FacetError& facet :
+    geometricErrors(surface, project(surface.allEdges()), errorDepth, 1, project))
   {
-    double error = 0;
-    for (const FacetError& facet :
-      geometricErrors(surface, project(surface.allEdges()), errorDepth, 1, project))
-    {
-      error += extrapolatedMeasure(facet);
-    }
-    return error;
-  };
-  const ClassifiedSurface before = surfaceOf(mesh, cavity, false);
-  const double gain = errorOf(surfaceOf(mesh, cavity, true)) - errorOf(before);
-  double length = 0; // of what is exchanged
-  for (const SurfaceEdge& edge : before.edges)
+    error += extrapolatedMeasure(facet);
+  }
+  return error;
+}
+
+double SurfaceRule::errorBefore(const EditableMesh& mesh, const Cavity& cavity) const
+{
+  return errorOf(surfaceOf(mesh, cavity, false));
+}
+
+double SurfaceRule::errorGain(const EditableMesh& mesh, const Cavity& cavity, double before) const
+{
+  const double gain = errorOf(surfaceOf(mesh, cavity, true)) - before;
+  const ClassifiedSurface exchanged = surfaceOf(mesh, cavity, false);
+  double length = 0;
+  for (const SurfaceEdge& edge : exchanged.edges)
   {
     length = std::max(
-      length, distance(before.points[edge.ends[0]].point, before.points[edge.ends[1]].point));
+      length, distance(exchanged.points[edge.ends[0]].point, exchanged.points[edge.ends[1]].point));
   }
   const double rounding = ClassificationTolerances::leastExact * projector_.model().size() *
-                          (before.kind == BoundaryKind::Segments ? length : length * length);
+                          (exchanged.kind == BoundaryKind::Segments ? length : length * length);
   return std::abs(gain) <= rounding ? 0 : gain;
 }
 

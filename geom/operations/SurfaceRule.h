@@ -64,10 +64,12 @@ public:
   bool accepts(
     const EditableMesh& mesh, const Cavity& cavity, const SurfaceLimits& limits = {}) const;
 
-  /// By how much the geometric error (see geometricErrors; extrapolated from depth 2) of the new
-  /// facets is larger than that of those before; 0 where that is rounding. Work: some 10
-  /// projections a facet.
-  double errorGain(const EditableMesh& mesh, const Cavity& cavity) const;
+  /// The geometric error of a cavity's facets (see geometricErrors; extrapolated from depth 2).
+  /// Work: some 10 projections a facet.
+  double errorBefore(const EditableMesh& mesh, const Cavity& cavity) const;
+  /// By how much that of the new facets is larger than `before`; 0 where that is rounding. The same
+  /// work.
+  double errorGain(const EditableMesh& mesh, const Cavity& cavity, double before) const;
 
   /// The place on the CAD of the middle of an edge of facets, between its ends where they are
   /// wanted; of no entity, halfway between its ends, where it is of the boundary off the CAD, or of
@@ -82,6 +84,7 @@ private:
   bool isOnCAD(const EditableMesh& mesh, const std::array<Index, 3>& facet) const;
   bool acceptsFacets(const EditableMesh& mesh, const Cavity& cavity, double distance) const;
   EdgeClass classOf(const EditableMesh& mesh, const Cavity& cavity, Index a, Index b) const;
+  double errorOf(const ClassifiedSurface& surface) const;
   ClassifiedSurface surfaceOf(const EditableMesh& mesh, const Cavity& cavity, bool isNew) const;
   void widen(const EditableMesh& mesh, const Cavity& cavity, const std::array<Index, 3>& facet,
     Fit& fit) const;
