@@ -24,7 +24,7 @@ RUN apt-get update \
   && rm -rf /tmp/cadrefine_*.deb /var/lib/apt/lists/*
 RUN useradd --create-home cadrefine && install --directory --owner=cadrefine /work
 # As containers are: no network between ranks, more ranks than cores, ranks that may not read each other's memory.
-ENV OMPI_MCA_btl=^tcp
+ENV OMPI_MCA_btl=^tcp,ofi
 ENV OMPI_MCA_rmaps_base_oversubscribe=1
 ENV OMPI_MCA_btl_vader_single_copy_mechanism=none
 ENV PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe

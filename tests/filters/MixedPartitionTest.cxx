@@ -104,12 +104,6 @@ Mesh hexahedralLayers()
   return layers(BoxKind::Hexahedron);
 }
 
-/// As VTK's documentation draws them.
-Mesh documentedWedges()
-{
-  return withTurnedWedges(wedgeLayers());
-}
-
 /// Columns from two walls meet, also on planes of symmetry, which are not in the CAD.
 Mesh gap()
 {
@@ -135,6 +129,12 @@ Mesh eighth(BoxKind kind)
 Mesh eighthOfWedges()
 {
   return eighth(BoxKind::Wedges);
+}
+
+/// As VTK's documentation draws them.
+Mesh documentedWedges()
+{
+  return withTurnedWedges(eighthOfWedges());
 }
 
 Mesh eighthOfHexahedra()
@@ -180,7 +180,7 @@ const std::array<Problem, 11> problems{ { { "HexahedralBall", gridOf<hexahedralB
   { "MixedBall", gridOf<mixedBall>, sphere, 0.01 },
   { "WedgeLayers", gridOf<wedgeLayers>, sphere, 0.01 },
   { "HexahedralLayers", gridOf<hexahedralLayers>, sphere, 0.01 },
-  { "DocumentedWedges", gridOf<documentedWedges>, sphere, 0.01 },
+  { "DocumentedWedges", gridOf<documentedWedges>, eighthOfShell, 0.01 },
   { "Gap", gridOf<gap>, twoSpheres, 0.01 }, { "ThinWall", gridOf<thinWall>, sidesOfThinWall, 0.01 },
   { "EighthOfWedges", gridOf<eighthOfWedges>, eighthOfShell, 0.01 },
   { "EighthOfHexahedra", gridOf<eighthOfHexahedra>, eighthOfShell, 0.01 },

@@ -78,7 +78,7 @@ class Server:
         self.log = open(os.path.join(folder, "log.txt"), "w", encoding="utf-8")
         environment = {**window.environment(self.display), "PV_PLUGIN_CONFIG_FILE": configuration_of(window.plugin),
                        "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
-                       "OMPI_MCA_btl_vader_single_copy_mechanism": "none", "OMPI_MCA_btl": "^tcp"}
+                       "OMPI_MCA_btl_vader_single_copy_mechanism": "none", "OMPI_MCA_btl": "^tcp,ofi"}
         self.process = subprocess.Popen(["mpirun", "-np", str(ranks), "--oversubscribe", "pvserver",
                                          f"--server-port={self.port}"],
                                         env=environment, stdout=self.log, stderr=subprocess.STDOUT)
