@@ -241,8 +241,8 @@ std::vector<MidpointOnCAD> projectMidpoints(RankExchange& exchange, const Mesh& 
   {
     midpoints[asking[i]].where = answers.values[i];
   }
-  const bool keepsOff = edges.withOperations || exchange.any(mesh.hasOtherThanSimplices());
-  for (std::size_t i = 0; keepsOff && i < midpoints.size(); ++i)
+  const bool staysOffCreases = edges.withOperations || exchange.any(mesh.hasOtherThanSimplices());
+  for (std::size_t i = 0; staysOffCreases && i < midpoints.size(); ++i)
   {
     const Index e = edgesOf[i];
     const BoundaryEdge edge =

@@ -5,8 +5,6 @@
 #include <cadrefine/mesh/Quality.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <limits>
 
 namespace cadrefine

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -109,6 +110,13 @@ private:
     double worst; ///< Of the cells after it.
     Index from;
     Index to;
+  };
+
+  /// The error of the facets at a vertex.
+  struct Measured
+  {
+    Index vertex;
+    SurfaceRule::MeasuredError error;
   };
 
   void tryAll(const std::vector<Index>& vertices)
@@ -245,10 +253,10 @@ private:
       [](const Collapse& a, const Collapse& b) { return a.worst > b.worst; });
     const Collapse* best = nullptr;
     double leastGain = infinity;
-    before_.vertex = -1;
+    std::optional<Measured> before;
     for (const Collapse& way : ways)
     {
-      const double gain = isAllowed(way) ? errorGain(way.from) : infinity;
+      const double gain = isAllowed(way) ? errorGain(way.from, before) : infinity;
       if (gain < leastGain)
       {
         best = &way;
@@ -280,17 +288,18 @@ private:
   }
 
   /// What the collapse of a vertex that is proposed adds to the error, where that is limited.
-  double errorGain(Index vertex)
+  /// `before`: of the vertex last asked for.
+  double errorGain(Index vertex, std::optional<Measured>& before) const
   {
     if (errorLeft_ == infinity || !mesh_.touchesBoundary(cavity_))
     {
       return 0;
     }
-    if (before_.vertex != vertex)
+    if (!before || before->vertex != vertex)
     {
-      before_ = { vertex, rule_.errorBefore(mesh_, cavity_) };
+      before = { vertex, rule_.errorBefore(mesh_, cavity_) };
     }
-    return rule_.errorGain(mesh_, cavity_, before_.error);
+    return rule_.errorGain(mesh_, cavity_, before->error);
   }
 
   /// What remains may go in the place of others later.
@@ -322,11 +331,6 @@ private:
   bool costsTooMuch_ = false;        ///< The vertex last looked at.
   bool exchanges_ = false;
   Cavity cavity_;
-  struct
-  {
-    Index vertex = -1;
-    double error = 0;
-  } before_; ///< The error of the facets at the vertex last asked for.
   std::int64_t collapses_ = 0;
 };
 

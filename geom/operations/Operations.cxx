@@ -2,8 +2,6 @@
 
 #include <cadrefine/operations/TriangleOperations.h>
 
-#include <boost/container/static_vector.hpp>
-
 #include <algorithm>
 #include <limits>
 #include <vector>
@@ -56,7 +54,7 @@ std::array<Index, 2> acrossEdge(const std::array<Index, 4>& cell, Index a, Index
 /// has as many as cells, one that ends at facets one more.
 struct Ring
 {
-  boost::container::static_vector<Index, largestRing + 1> vertices;
+  std::vector<Index> vertices;
   bool isClosed = true;
 };
 
@@ -67,7 +65,8 @@ Ring ringOf(const EditableMesh& mesh, const std::vector<Index>& cells, Index a, 
   {
     return {};
   }
-  boost::container::static_vector<std::array<Index, 2>, largestRing> links;
+  std::vector<std::array<Index, 2>> links;
+  links.reserve(cells.size());
   for (const Index cell : cells)
   {
     links.push_back(acrossEdge(mesh.cells()[cell].corners, a, b));
@@ -110,10 +109,11 @@ bool mayGoBeyond(const EditableMesh& mesh, const Ring& ring, Index a, Index b)
 class RingTriangulation
 {
 public:
-  RingTriangulation(const EditableMesh& mesh, const Ring& ring, Index a, Index b, double least)
-    : mesh_(mesh), ring_(ring.vertices), a_(a), b_(b), least_(least)
+  RingTriangulation(
+    const EditableMesh& mesh, const std::vector<Index>& ring, Index a, Index b, double least)
+    : mesh_(mesh), ring_(ring), a_(a), b_(b), least_(least)
   {
-    const std::size_t count = ring_.size();
+    const std::size_t count = ring.size();
     for (std::size_t length = 2; length < count; ++length)
     {
       for (std::size_t i = 0; i + length < count; ++i)
@@ -188,7 +188,7 @@ private:
   }
 
   const EditableMesh& mesh_;
-  const decltype(Ring::vertices)& ring_;
+  const std::vector<Index>& ring_;
   Index a_;
   Index b_;
   double least_;
@@ -332,7 +332,7 @@ bool proposeEdgeRemoval(const EditableMesh& mesh, Index a, Index b, Cavity& cavi
   {
     return false;
   }
-  const auto& r = ring.vertices;
+  const std::vector<Index>& r = ring.vertices;
   mesh.facets().at(a, b, cavity.facets);
   if (cavity.facets.size() != (ring.isClosed ? 0 : 2) || (ring.isClosed && r.size() < 3))
   {
@@ -355,7 +355,7 @@ bool proposeEdgeRemoval(const EditableMesh& mesh, Index a, Index b, Cavity& cavi
       { { first, last, a }, one.label, isFirst ? other.parent : one.parent } };
   }
   const double least = shape == Shape::NoWorse ? mesh.worst(cavity.cells) : impossible;
-  const RingTriangulation triangulation(mesh, ring, a, b, least);
+  const RingTriangulation triangulation(mesh, r, a, b, least);
   if (!triangulation.isPossible())
   {
     return false;

@@ -21,19 +21,19 @@ namespace cadrefine
 /// (L. Freitag, C. Ollivier-Gooch, "Tetrahedral mesh improvement using swapping and smoothing",
 /// Int. J. Numer. Meth. Engng 40, 1997.)
 
-/// Takes the edge out: the ring of up to `largestRing` vertices round it is triangulated anew, by
-/// all triangulations that which has the best worst cell (G. Klincsek, "Minimal triangulations of
-/// polygonal domains", Ann. Discrete Math. 9, 1980; work cubic in the ring). Three cells round the
-/// edge become two; an edge between two facets becomes the other diagonal of these, so that one
-/// cell with two facets, as is flat where they are, is none. Of triangles: proposeSwap.
-///
-/// `Shape::NoWorse` leaves out, of tetrahedra, what has a cell worse than all before, which takes
-/// less work.
+/// Which new tetrahedra are proposed: all that are valid, or, which takes less work, none where one
+/// is worse than all cells before.
 enum class Shape
 {
   Any,
   NoWorse
 };
+
+/// Takes the edge out: the ring of up to `largestRing` vertices round it is triangulated anew, by
+/// all triangulations that which has the best worst cell (G. Klincsek, "Minimal triangulations of
+/// polygonal domains", Ann. Discrete Math. 9, 1980; work cubic in the ring). Three cells round the
+/// edge become two; an edge between two facets becomes the other diagonal of these, so that one
+/// cell with two facets, as is flat where they are, is none. Of triangles: proposeSwap.
 bool proposeEdgeRemoval(
   const EditableMesh& mesh, Index a, Index b, Cavity& cavity, Shape shape = Shape::Any);
 constexpr std::size_t largestRing = 7;

@@ -269,24 +269,26 @@ double SurfaceRule::errorOf(const ClassifiedSurface& surface) const
   return error;
 }
 
-double SurfaceRule::errorBefore(const EditableMesh& mesh, const Cavity& cavity) const
+SurfaceRule::MeasuredError SurfaceRule::errorBefore(
+  const EditableMesh& mesh, const Cavity& cavity) const
 {
-  return errorOf(surfaceOf(mesh, cavity, false));
-}
-
-double SurfaceRule::errorGain(const EditableMesh& mesh, const Cavity& cavity, double before) const
-{
-  const double gain = errorOf(surfaceOf(mesh, cavity, true)) - before;
-  const ClassifiedSurface exchanged = surfaceOf(mesh, cavity, false);
+  const ClassifiedSurface surface = surfaceOf(mesh, cavity, false);
   double length = 0;
-  for (const SurfaceEdge& edge : exchanged.edges)
+  for (const SurfaceEdge& edge : surface.edges)
   {
     length = std::max(
-      length, distance(exchanged.points[edge.ends[0]].point, exchanged.points[edge.ends[1]].point));
+      length, distance(surface.points[edge.ends[0]].point, surface.points[edge.ends[1]].point));
   }
   const double rounding = ClassificationTolerances::leastExact * projector_.model().size() *
-                          (exchanged.kind == BoundaryKind::Segments ? length : length * length);
-  return std::abs(gain) <= rounding ? 0 : gain;
+                          (surface.kind == BoundaryKind::Segments ? length : length * length);
+  return { errorOf(surface), rounding };
+}
+
+double SurfaceRule::errorGain(
+  const EditableMesh& mesh, const Cavity& cavity, const MeasuredError& before) const
+{
+  const double gain = errorOf(surfaceOf(mesh, cavity, true)) - before.value;
+  return std::abs(gain) <= before.rounding ? 0 : gain;
 }
 
 SurfaceRule::Fit SurfaceRule::fitAt(const EditableMesh& mesh, Index vertex) const

@@ -64,12 +64,18 @@ public:
   bool accepts(
     const EditableMesh& mesh, const Cavity& cavity, const SurfaceLimits& limits = {}) const;
 
-  /// The geometric error of a cavity's facets (see geometricErrors; extrapolated from depth 2).
+  /// The geometric error of some facets, and what of it is rounding.
+  struct MeasuredError
+  {
+    double value = 0;
+    double rounding = 0;
+  };
+  /// Of a cavity's facets before an operation (see geometricErrors; extrapolated from depth 2).
   /// Work: some 10 projections a facet.
-  double errorBefore(const EditableMesh& mesh, const Cavity& cavity) const;
-  /// By how much that of the new facets is larger than `before`; 0 where that is rounding. The same
-  /// work.
-  double errorGain(const EditableMesh& mesh, const Cavity& cavity, double before) const;
+  MeasuredError errorBefore(const EditableMesh& mesh, const Cavity& cavity) const;
+  /// By how much that of the new facets is larger; 0 where that is rounding. The same work.
+  double errorGain(
+    const EditableMesh& mesh, const Cavity& cavity, const MeasuredError& before) const;
 
   /// The place on the CAD of the middle of an edge of facets, between its ends where they are
   /// wanted; of no entity, halfway between its ends, where it is of the boundary off the CAD, or of

@@ -16,7 +16,7 @@ ENVIRONMENT = {
     "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
     "OMPI_MCA_rmaps_base_oversubscribe": "1",
     "OMPI_MCA_btl_vader_single_copy_mechanism": "none",
-    "OMPI_MCA_btl": "^tcp,ofi",  # Open MPI 5 complains where there is no network.
+    "OMPI_MCA_btl": "^tcp,ofi",  # Open MPI 5 complains where there is no network; ofi sleeps as a process leaves.
     "PRTE_MCA_rmaps_default_mapping_policy": ":oversubscribe",
 }
 

@@ -124,6 +124,23 @@ TEST_P(Ring, edgeRemovalFindsTheBestTriangulation)
   EXPECT_TRUE(mesh.cells().at(0, 1).empty());
 }
 
+/// A long edge is the better for it, a short one has a worse cell.
+TEST_P(Ring, edgeRemovalLeavesWorseCellsIfTold)
+{
+  for (const double height : { 0.3, 3.0 })
+  {
+    const EditableMesh mesh = ringMesh(GetParam(), false, height);
+    Cavity any;
+    Cavity noWorse;
+    ASSERT_TRUE(proposeEdgeRemoval(mesh, 0, 1, any));
+    ASSERT_EQ(proposeEdgeRemoval(mesh, 0, 1, noWorse, Shape::NoWorse), height > 1) << height;
+    for (std::size_t c = 0; height > 1 && c < any.newCells.size(); ++c)
+    {
+      EXPECT_EQ(noWorse.newCells.at(c).corners, any.newCells[c].corners);
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Corners, Ring, testing::Range(3, 8));
 
 TEST(EdgeRemoval, leavesLargeRingsAlone)
