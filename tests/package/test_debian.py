@@ -48,6 +48,7 @@ class Debian(unittest.TestCase):
         self.assertEqual(set(runtime) & set(development), set())
         for name in ("usr/bin/cadrefine", "usr/share/cadrefine/plugin/cadrefine.py", "usr/lib/libCADRefineFilters.so",
                      "usr/lib/cadrefine/cadrefine-read-cad", "usr/lib/cadrefine/python",
+                     "usr/lib/cadrefine/CADRefine/CADRefineWindow/CADRefineWindow.so",
                      "usr/share/doc/cadrefine/copyright"):
             self.assertIn(name, runtime)
         for name in ("usr/include/cadrefine/cad/model/CADModel.h", "usr/lib/cmake/CADRefine/CADRefineConfig.cmake"):

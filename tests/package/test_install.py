@@ -48,6 +48,7 @@ class Install(unittest.TestCase):
                              [os.path.realpath(self.plugin)])
             self.assertEqual([path for path in libraries if path.endswith("cadrefine-read-cad")],
                              [os.path.realpath(self.installation.path("lib", "cadrefine", "cadrefine-read-cad"))])
+            self.assertEqual([path for path in libraries if "/libQt" in path], [], "only the window needs them")
             with open(report, encoding="utf-8") as file:
                 written = json.load(file)
             self.assertEqual(written["ranks"], ranks)

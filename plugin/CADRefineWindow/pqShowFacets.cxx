@@ -31,15 +31,15 @@ from cadrefine import ready_view
 ready_view.show()
 )";
 
-/// As a literal of Python: the folder `python` beside that of the plugin.
+/// As a literal of Python: the folder `python` beside that of the plugin CADRefine, in which this
+/// one is.
 QString driverFolder()
 {
   Dl_info info{};
   dladdr(reinterpret_cast<const void*>(&driverFolder), &info);
   std::error_code error;
   const auto plugin = std::filesystem::canonical(info.dli_fname ? info.dli_fname : "", error);
-  const auto folder =
-    std::filesystem::canonical(plugin.parent_path().parent_path() / "python", error);
+  const auto folder = std::filesystem::canonical(plugin.parent_path() / "../../python", error);
   QString text = QString::fromStdString(folder.string());
   return '"' + text.replace('\\', "\\\\").replace('"', "\\\"") + '"';
 }
