@@ -1,6 +1,7 @@
 #include "ClosestPointCase.h"
 
 #include <cadrefine/cad/import/CADFile.h>
+#include <cadrefine/cad/model/ModelDrawing.h>
 
 #include <algorithm>
 #include <chrono>
@@ -62,10 +63,11 @@ bool contains(const std::optional<Region>& region, const Point3& p)
 std::vector<FaceDrawing> drawFaces(const CADModel& model, const std::optional<Region>& region)
 {
   constexpr double relativeDeflection = 1e-3;
+  ModelDrawing whole = drawModel(model, relativeDeflection * model.size());
   std::vector<FaceDrawing> drawings;
   for (int f = 0; f < model.count(2); ++f)
   {
-    Tessellation drawing = model.tessellate({ 2, f }, relativeDeflection * model.size());
+    Tessellation& drawing = whole.faces[f];
     if (!drawing.triangles.empty() && contains(region, middleOf(drawing)))
     {
       const int face = region ? static_cast<int>(drawings.size()) : f;

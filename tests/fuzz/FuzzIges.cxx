@@ -4,8 +4,8 @@
 #include "MemoryFile.h"
 
 #include <cadrefine/base/Error.h>
-#include <cadrefine/cad/import/iges/IgesRepair.h>
-#include <cadrefine/cad/import/iges/IgesTopLevel.h>
+#include <cadrefine/cad/readers/iges/IgesRepair.h>
+#include <cadrefine/cad/readers/iges/IgesTopLevel.h>
 
 #include <cstdlib>
 

@@ -13,7 +13,7 @@ add_library(badcad STATIC
   cad/TestFiles.cxx)
 target_include_directories(badcad PUBLIC badcad cad)
 target_include_directories(badcad SYSTEM PUBLIC ${OpenCASCADE_INCLUDE_DIR})
-target_link_libraries(badcad PUBLIC CADRefineCad ${data_exchange} TKXSBase TKPrim TKTopAlgo TKBRep GTest::gtest
+target_link_libraries(badcad PUBLIC CADRefineCad ${CADREFINE_IGES} ${CADREFINE_STEP} TKXSBase TKPrim TKTopAlgo TKBRep GTest::gtest
   PRIVATE CADRefineWarnings)
 add_dependencies(badcad cadrefine-read-cad)
 

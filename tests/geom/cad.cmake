@@ -22,7 +22,7 @@ cadrefine_geom_test(cad_tests
     cad/TestFiles.cxx
     cad/UnitsTest.cxx
     cad/UnreadTest.cxx
-  LINKS CADRefineFloatingPoint CADRefineCad ${CADREFINE_IGES} ${CADREFINE_STEP} TKXSBase TKPrim TKBO TKTopAlgo TKBRep
+  LINKS CADRefineFloatingPoint CADRefineReaders ${CADREFINE_IGES} ${CADREFINE_STEP} TKXSBase TKPrim TKBO TKTopAlgo TKBRep
   PACKAGED "RealFiles[.]")
 target_include_directories(cad_tests SYSTEM PRIVATE ${OpenCASCADE_INCLUDE_DIR})
 target_compile_definitions(cad_tests PRIVATE CADREFINE_TEST_READER="$<TARGET_FILE:cad_test_reader>")

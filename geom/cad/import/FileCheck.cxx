@@ -1,7 +1,7 @@
 #include <cadrefine/cad/import/FileCheck.h>
 
 #include <cadrefine/base/Error.h>
-#include <cadrefine/cad/import/iges/IgesSections.h>
+#include <cadrefine/cad/readers/iges/IgesSections.h>
 
 #include <algorithm>
 #include <cctype>

@@ -2,7 +2,6 @@
 
 #include <cadrefine/cad/extraction/NurbsExtraction.h>
 #include <cadrefine/cad/extraction/ShapeIndex.h>
-#include <cadrefine/cad/extraction/ShapeTessellation.h>
 #include <cadrefine/cad/import/OccGuard.h>
 #include <cadrefine/cad/model/CADModelBuilder.h>
 #include <cadrefine/cad/model/ModelBytes.h>
@@ -343,17 +342,6 @@ Vector3 CADModel::tangent(int edge, double t) const
     tangent = normalized(evaluateDerivatives(segment, t + step * inward).t);
   }
   return tangent;
-}
-
-Tessellation CADModel::tessellate(EntityId entity, double deflection) const
-{
-  checkIndex(nurbs(), entity);
-  if (!(deflection > 0))
-  {
-    throw Error("the deflection of a tessellation must be positive");
-  }
-  return cadrefine::tessellate(implementation_->index, implementation_->scale,
-    { entity, firstFaceAt(nurbs(), entity) }, deflection);
 }
 
 } // namespace cadrefine

@@ -24,17 +24,6 @@ struct EntityAttributes
   std::optional<std::array<float, 3>> colour; ///< RGB in [0, 1].
 };
 
-/// Triangles or line segments that show one entity.
-struct Tessellation
-{
-  std::vector<Point3> points;
-  /// Outward normals at the points, of the face, or the first face that holds the edge; zero where
-  /// there is none. Empty for an edge outside of faces.
-  std::vector<Vector3> normals;
-  std::vector<std::array<int, 3>> triangles; ///< Of a face.
-  std::vector<int> line;                     ///< Of an edge, a polyline.
-};
-
 /// An immutable CAD model, safe from many threads at once. Coordinates are the file's own numbers,
 /// or in the unit that was asked for (see readCADFile).
 class CADModel
@@ -85,10 +74,6 @@ public:
   Vector3 normalNear(int face, const Point3& point) const;
   /// Unit tangent of an edge in the direction of growing t.
   Vector3 tangent(int edge, double t) const;
-
-  /// Drawing of a face or an edge, to `deflection` (a length). A vertex has none. Depends on the
-  /// entity and the deflection alone. Open CASCADE may crash on it, or never end: see drawModel.
-  Tessellation tessellate(EntityId entity, double deflection) const;
 
 private:
   friend class CADModelBuilder;

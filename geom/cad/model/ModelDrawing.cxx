@@ -1,25 +1,14 @@
 #include <cadrefine/cad/model/ModelDrawing.h>
 
-#include <cadrefine/cad/extraction/ShapeIndex.h>
-#include <cadrefine/cad/extraction/ShapeTessellation.h>
-#include <cadrefine/cad/import/OwnThreads.h>
 #include <cadrefine/cad/import/ReadAttempts.h>
-#include <cadrefine/cad/import/ReadJobs.h>
-#include <cadrefine/cad/model/ByteRecords.h>
-#include <cadrefine/cad/model/ModelBytes.h>
+#include <cadrefine/cad/model/DrawnEntity.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace cadrefine
 {
 namespace
 {
-
-bool isFinite(const Point3& p)
-{
-  return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
-}
 
 /// The items of ReadStep::Drawing.
 std::vector<DrawnEntity> drawnEntities(const CADModel& model, const DrawingShare& share)
@@ -52,67 +41,6 @@ std::vector<DrawnEntity> drawnEntities(const CADModel& model, const DrawingShare
   return entities;
 }
 
-/// What became of one item.
-struct DrawnItem
-{
-  Tessellation drawing; ///< Empty where there is a fault.
-  std::string fault;
-};
-
-DrawnItem drawItem(
-  const ShapeIndex& index, const LengthScale& scale, const DrawnEntity& drawn, double deflection)
-{
-  try
-  {
-    Tessellation drawing = tessellate(index, scale, drawn, deflection);
-    const bool finite = std::all_of(drawing.points.begin(), drawing.points.end(), isFinite);
-    return finite ? DrawnItem{ std::move(drawing), "" } : DrawnItem{ {}, "a point is not finite" };
-  }
-  catch (const Error& error)
-  {
-    return { {}, error.what() };
-  }
-}
-
-std::vector<DrawnItem> drawItems(const ModelContent& content,
-  const std::vector<DrawnEntity>& entities, double deflection, const ReadOptions& options)
-{
-  const ShapeIndex index(content.shape);
-  std::vector<DrawnItem> items(entities.size());
-  forEachIndex(forOnOwnThreads(options.threads), entities.size(), 1,
-    [&](std::size_t i)
-    {
-      const int item = static_cast<int>(i);
-      options.noteItem(ReadStep::Drawing, item);
-      const auto leftOut = options.withoutDrawings.find(item);
-      items[i] = leftOut != options.withoutDrawings.end()
-                   ? DrawnItem{ {}, leftOut->second }
-                   : drawItem(index, content.scale, entities[i], deflection);
-    });
-  noteStep(static_cast<int>(ReadStep::Other));
-  return items;
-}
-
-void write(ByteWriter& writer, const DrawnItem& item)
-{
-  writer.array(item.drawing.points);
-  writer.array(item.drawing.normals);
-  writer.array(item.drawing.triangles);
-  writer.array(item.drawing.line);
-  writer.text(item.fault);
-}
-
-DrawnItem readItem(ByteReader& reader)
-{
-  DrawnItem item;
-  item.drawing.points = reader.array<Point3>();
-  item.drawing.normals = reader.array<Vector3>();
-  item.drawing.triangles = reader.array<std::array<int, 3>>();
-  item.drawing.line = reader.array<int>();
-  item.fault = reader.text();
-  return item;
-}
-
 /// Puts what became of an entity into its place.
 void take(DrawnItem item, EntityId entity, ModelDrawing& drawing)
 {
@@ -139,19 +67,6 @@ RunLimits limitsFor(std::size_t bytes)
 }
 
 } // namespace
-
-std::vector<char> drawJob(const std::string& /*context*/, ByteReader& input)
-{
-  const ReadOptions options = takeOptions(input);
-  const auto deflection = input.number<double>();
-  const auto entities = input.array<DrawnEntity>();
-  const ModelContent content = decodeModel(input.array<char>());
-  ByteWriter writer;
-  writer.list(drawItems(content, entities, deflection, options),
-    [&](const DrawnItem& item) { write(writer, item); });
-  writer.list(options.notes(), [&](const std::string& line) { writer.text(line); });
-  return std::move(writer.bytes);
-}
 
 ModelDrawing drawModel(
   const CADModel& model, double deflection, const DrawingShare& share, int threads)

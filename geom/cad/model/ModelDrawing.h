@@ -9,6 +9,17 @@
 namespace cadrefine
 {
 
+/// Triangles or line segments that show one entity.
+struct Tessellation
+{
+  std::vector<Point3> points;
+  /// Outward normals at the points, of the face, or the first face that holds the edge; zero where
+  /// there is none. Empty for an edge outside of faces.
+  std::vector<Vector3> normals;
+  std::vector<std::array<int, 3>> triangles; ///< Of a face.
+  std::vector<int> line;                     ///< Of an edge, a polyline.
+};
+
 /// The entities with the indices rank, rank + size, ...
 struct DrawingShare
 {

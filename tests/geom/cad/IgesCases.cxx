@@ -3,6 +3,7 @@
 #include "TestFiles.h"
 
 #include <cadrefine/cad/import/CADFile.h>
+#include <cadrefine/cad/model/ModelDrawing.h>
 
 #include <gtest/gtest.h>
 
@@ -32,11 +33,11 @@ void expectCase(const CADModel& model, const IgesCase& expected)
   EXPECT_EQ(model.count(2), expected.faces);
   EXPECT_EQ(model.count(1), expected.edges);
   const double fine = 1e-7 * model.size();
-  for (const std::int8_t dimension : { 1, 2 })
+  const ModelDrawing drawings = drawModel(model, 0.01 * model.size());
+  for (const auto* ofDimension : { &drawings.edges, &drawings.faces })
   {
-    for (int entity = 0; entity < model.count(dimension); ++entity)
+    for (const Tessellation& drawing : *ofDimension)
     {
-      const Tessellation drawing = model.tessellate({ dimension, entity }, 0.01 * model.size());
       EXPECT_GE(drawing.points.size(), 2u);
       double off = 0, away = 0;
       for (const Point3& p : drawing.points)
@@ -44,8 +45,8 @@ void expectCase(const CADModel& model, const IgesCase& expected)
         off = std::max(off, std::abs(expected.off(p)));
         away = std::max(away, model.nearest(p).distance);
       }
-      EXPECT_LT(off, fine) << "entity " << entity << " of dimension " << +dimension;
-      EXPECT_LT(away, fine) << "entity " << entity << " of dimension " << +dimension;
+      EXPECT_LT(off, fine) << (ofDimension == &drawings.edges ? "an edge" : "a face");
+      EXPECT_LT(away, fine) << (ofDimension == &drawings.edges ? "an edge" : "a face");
     }
   }
   for (const IgesCase::Known& known : expected.known)

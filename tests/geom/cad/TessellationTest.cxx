@@ -1,4 +1,4 @@
-// Drawings of single entities.
+// Drawings of models.
 
 #include "TestFiles.h"
 
@@ -47,7 +47,7 @@ void expectSame(const Tessellation& a, const Tessellation& b)
 TEST(Tessellation, followsASphereOutward)
 {
   const auto model = readShape(BRepPrimAPI_MakeSphere(2).Shape());
-  const Tessellation mesh = model->tessellate({ 2, 0 }, 1e-3);
+  const Tessellation mesh = drawModel(*model, 1e-3).faces.at(0);
   EXPECT_NEAR(volumeInside(mesh), 4.0 / 3 * M_PI * 8, 0.1);
   ASSERT_EQ(mesh.normals.size(), mesh.points.size());
   for (std::size_t i = 0; i < mesh.points.size(); ++i)
@@ -57,23 +57,11 @@ TEST(Tessellation, followsASphereOutward)
   }
 }
 
-TEST(Tessellation, doesNotDependOnWhatWasDrawnBefore)
+TEST(Tessellation, drawsEdges)
 {
   const auto model = readShape(BRepPrimAPI_MakeCylinder(1, 2).Shape());
-  const Tessellation before = model->tessellate({ 2, 0 }, 1e-2);
-  model->tessellate({ 2, 1 }, 1e-4);
-  model->tessellate({ 1, 0 }, 1e-4);
-  const Tessellation after = model->tessellate({ 2, 0 }, 1e-2);
-  EXPECT_EQ(before.points, after.points);
-  EXPECT_EQ(before.triangles, after.triangles);
-}
-
-TEST(Tessellation, drawsEdgesAndNothingForVertices)
-{
-  const auto model = readShape(BRepPrimAPI_MakeCylinder(1, 2).Shape());
-  for (int e = 0; e < model->count(1); ++e)
+  for (const Tessellation& drawing : drawModel(*model, 1e-3).edges)
   {
-    const Tessellation drawing = model->tessellate({ 1, e }, 1e-3);
     EXPECT_EQ(drawing.line.size(), drawing.points.size());
     EXPECT_EQ(drawing.normals.size(), drawing.points.size());
     EXPECT_GE(drawing.points.size(), 2u);
@@ -82,26 +70,23 @@ TEST(Tessellation, drawsEdgesAndNothingForVertices)
       EXPECT_NEAR(std::hypot(p[0], p[1]), 1, 1e-9);
     }
   }
-  EXPECT_TRUE(model->tessellate({ 0, 0 }, 1e-3).points.empty());
 }
 
 TEST(Tessellation, ofAWholeModelIsTheSameOnAnyNumberOfThreads)
 {
   const auto model = readShape(BRepPrimAPI_MakeCylinder(1, 2).Shape());
-  for (const int threads : { 1, 3 })
+  const ModelDrawing drawing = drawModel(*model, 1e-3, {}, 3);
+  EXPECT_TRUE(drawing.undrawn.empty());
+  const ModelDrawing onOne = drawModel(*model, 1e-3, {}, 1);
+  ASSERT_EQ(drawing.faces.size(), 3u);
+  for (int f = 0; f < 3; ++f)
   {
-    const ModelDrawing drawing = drawModel(*model, 1e-3, {}, threads);
-    EXPECT_TRUE(drawing.undrawn.empty());
-    ASSERT_EQ(drawing.faces.size(), 3u);
-    for (int f = 0; f < 3; ++f)
-    {
-      expectSame(drawing.faces[f], model->tessellate({ 2, f }, 1e-3));
-    }
-    ASSERT_EQ(drawing.edges.size(), static_cast<std::size_t>(model->count(1)));
-    for (int e = 0; e < model->count(1); ++e)
-    {
-      expectSame(drawing.edges[e], model->tessellate({ 1, e }, 1e-3));
-    }
+    expectSame(drawing.faces[f], onOne.faces[f]);
+  }
+  ASSERT_EQ(drawing.edges.size(), static_cast<std::size_t>(model->count(1)));
+  for (int e = 0; e < model->count(1); ++e)
+  {
+    expectSame(drawing.edges[e], onOne.edges[e]);
   }
   EXPECT_THROW(drawModel(*model, 0), Error);
 }
@@ -131,15 +116,6 @@ TEST(Tessellation, ofAShareHasItsFacesItsEdgesAndOneAtEachOfItsVertices)
   {
     expectSame(part.edges[e], edges.count(e) > 0 ? whole.edges[e] : Tessellation());
   }
-}
-
-TEST(Tessellation, refusesWhatIsNotThere)
-{
-  const auto model = readShape(BRepPrimAPI_MakeCylinder(1, 2).Shape());
-  EXPECT_THROW(model->tessellate({ 2, 3 }, 1e-3), Error);
-  EXPECT_THROW(model->tessellate({ 2, -1 }, 1e-3), Error);
-  EXPECT_THROW(model->tessellate({ 3, 0 }, 1e-3), Error);
-  EXPECT_THROW(model->tessellate({ 2, 0 }, 0), Error);
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 
 #include <cadrefine/base/Error.h>
 #include <cadrefine/cad/import/CADFile.h>
+#include <cadrefine/cad/model/ModelDrawing.h>
 
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
@@ -102,7 +103,7 @@ TEST_P(Units, areConverted)
       EXPECT_LT(distance(model->evaluate(found.entity, found.parameters), found.point),
         1e-12 * model->size());
     }
-    const auto drawing = model->tessellate({ 2, 0 }, 1e-3 * model->size());
+    const Tessellation drawing = drawModel(*model, 1e-3 * model->size()).faces.at(0);
     ASSERT_FALSE(drawing.points.empty());
     for (const auto& point : drawing.points)
     {
