@@ -157,7 +157,10 @@ private:
     exchange_.progress().say(static_cast<double>(round) / maximumRounds,
       "taking out vertices, round " + std::to_string(round + 1) + " of at most " +
         std::to_string(maximumRounds));
-    const CoarseningLimits limits = findLimits();
+    const std::int64_t count = countMesh(exchange_, state_.mesh).vertices;
+    wanted_ = round == 0 ? count - left : wanted_;
+    const CoarseningLimits limits =
+      findLimits(static_cast<double>(count - wanted_) / static_cast<double>(left));
     const auto work = [&](BlockMesh& block, const SurfaceRule& rule)
     {
       VertexFate* ofPiece = fates();
@@ -182,10 +185,11 @@ private:
   }
 
   /// Collective.
-  CoarseningLimits findLimits()
+  CoarseningLimits findLimits(double share)
   {
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    CoarseningLimits limits{ options_.minimumQuality, options_.maximumDistance, infinity };
+    CoarseningLimits limits{ options_.minimumQuality, options_.maximumDistance, infinity,
+      std::clamp(share, 0.0, 1.0) };
     if (options_.targetError > 0)
     {
       ClassifiedBoundary& boundary = boundaryOf(context_, state_);
@@ -206,7 +210,8 @@ private:
   RankExchange& exchange_;
   MeshState& state_;
   const CoarseningOptions& options_;
-  std::int64_t left_ = 0; ///< Flagged vertices before the last round of the level.
+  std::int64_t left_ = 0;   ///< Flagged vertices before the last round of the level.
+  std::int64_t wanted_ = 0; ///< Vertices of the mesh, were all flagged ones gone.
   std::int64_t gone_ = 0;
 };
 

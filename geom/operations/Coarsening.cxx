@@ -3,6 +3,7 @@
 #include <cadrefine/operations/Improvement.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -56,6 +57,18 @@ std::vector<Index> candidates(const EditableMesh& mesh, const std::vector<Vertex
   return vertices;
 }
 
+/// Those that cells have.
+template<int Dimension>
+std::int64_t countVertices(const EditableMesh& mesh)
+{
+  std::int64_t count = 0;
+  for (std::size_t v = 0; v < mesh.vertexCount(); ++v)
+  {
+    count += mesh.cellsOf<Dimension>().at(static_cast<Index>(v)).empty() ? 0 : 1;
+  }
+  return count;
+}
+
 /// So that no operation moves them or takes them out.
 void holdStaying(const std::vector<VertexFate>& fates, EditableMesh& mesh)
 {
@@ -81,11 +94,12 @@ public:
   {
   }
 
-  /// `exchanges`: where a vertex cannot go, a neighbour may go into it. Returns the number of
-  /// collapses.
-  std::int64_t run(bool exchanges)
+  /// `exchanges`: where a vertex cannot go, a neighbour may go into it; as long as fewer than
+  /// `excess` have gone, also elsewhere. Returns the number of collapses.
+  std::int64_t run(bool exchanges, std::int64_t excess)
   {
     exchanges_ = exchanges;
+    excess_ = excess;
     const std::vector<Index> vertices = candidates(mesh_, fates_);
     const auto ofBoundary = std::count_if(vertices.begin(), vertices.end(),
       [&](Index vertex) { return mesh_.freedomOf(vertex) != Freedom::Space; });
@@ -212,37 +226,48 @@ private:
       [&](const auto& cell) { return mesh_.presentQuality(cell.corners) >= before; });
   }
 
-  bool takeOut(Index vertex)
+  /// Those of a vertex into neighbours.
+  void addWays(Index from, const std::vector<Index>& neighbours, std::vector<Collapse>& ways) const
   {
-    const std::vector<Index> neighbours = remainingNeighbours(vertex);
-    std::vector<Collapse> ways;
-    const auto add = [&](Index from, Index to, double least)
+    const double least = worstAt(from);
+    for (const Index to : neighbours)
     {
       const double worst = worstAfter(from, to, least);
       if (worst >= 0)
       {
         ways.push_back({ worst, from, to });
       }
-    };
-    const double least = worstAt(vertex);
-    for (const Index to : neighbours)
-    {
-      add(vertex, to, least);
     }
-    const bool goes = collapseByBest(ways);
-    if (goes || !exchanges_)
-    {
-      return goes;
-    }
-    ways.clear();
+  }
+
+  bool takeOut(Index vertex)
+  {
+    const std::vector<Index> neighbours = remainingNeighbours(vertex);
+    std::vector<Collapse> ways;
+    addWays(vertex, neighbours, ways);
+    return collapseByBest(ways) ||
+           (exchanges_ && (takeOutNeighbour(vertex, neighbours, false) ||
+                            (collapses_ < excess_ && takeOutNeighbour(vertex, neighbours, true))));
+  }
+
+  /// A neighbour in the place of the vertex: into it, or elsewhere.
+  bool takeOutNeighbour(Index vertex, const std::vector<Index>& neighbours, bool elsewhere)
+  {
+    std::vector<Collapse> ways;
     for (const Index from : neighbours)
     {
       if (mesh_.freedomOf(from) != Freedom::None)
       {
-        add(from, vertex, worstAt(from));
+        addWays(from, elsewhere ? remainingNeighbours(from) : std::vector<Index>{ vertex }, ways);
       }
     }
-    return collapseByBest(ways);
+    const bool goes = collapseByBest(ways);
+    if (goes)
+    {
+      fates_[vertex] = VertexFate::MayGo;
+      waits_[vertex] = elsewhere ? 1 : 0; // There may be room for the vertex itself now.
+    }
+    return goes;
   }
 
   /// By the way that adds least to the error; of those that add nothing, by the one with the best
@@ -302,16 +327,11 @@ private:
     return rule_.errorGain(mesh_, cavity_, before->error);
   }
 
-  /// What remains may go in the place of others later.
   void carryOut(const Collapse& way)
   {
     mesh_.replace(cavity_);
     ++collapses_;
     fates_[way.from] = VertexFate::Stays;
-    if (fates_[way.to] == VertexFate::Goes)
-    {
-      fates_[way.to] = VertexFate::MayGo;
-    }
     for (const auto& cell : cavity_.newCellsOf<Dimension>())
     {
       for (const Index corner : cell.corners)
@@ -330,6 +350,7 @@ private:
   double mostGain_ = infinity;       ///< Of the error, by a collapse.
   bool costsTooMuch_ = false;        ///< The vertex last looked at.
   bool exchanges_ = false;
+  std::int64_t excess_ = 0; ///< Vertices more than there should be in the end.
   Cavity cavity_;
   std::int64_t collapses_ = 0;
 };
@@ -341,8 +362,10 @@ OperationResult coarsen(EditableMesh& mesh, const SurfaceRule& rule, std::vector
   holdStaying(fates, mesh);
   double errorLeft =
     limits.errorPerFacet < infinity ? limits.errorPerFacet * countFacetsOnCAD(mesh) : infinity;
+  const auto flagged = static_cast<double>(candidates(mesh, fates).size());
+  const std::int64_t wanted = countVertices<Dimension>(mesh) - std::llround(limits.share * flagged);
   const std::int64_t collapses =
-    Coarsener<Dimension>(mesh, rule, fates, limits, errorLeft).run(false);
+    Coarsener<Dimension>(mesh, rule, fates, limits, errorLeft).run(false, 0);
   if (candidates(mesh, fates).empty())
   {
     OperationResult result;
@@ -359,7 +382,8 @@ OperationResult coarsen(EditableMesh& mesh, const SurfaceRule& rule, std::vector
     fates[v] = isThere ? fates[v] : VertexFate::Stays;
   }
   fates.resize(mesh.vertexCount(), VertexFate::MayGo);
-  result.counts.collapses += Coarsener<Dimension>(mesh, rule, fates, limits, errorLeft).run(true);
+  result.counts.collapses += Coarsener<Dimension>(mesh, rule, fates, limits, errorLeft)
+                               .run(true, countVertices<Dimension>(mesh) - wanted);
   return result;
 }
 

@@ -20,6 +20,8 @@ struct CoarseningLimits
   /// What the sum of the geometric errors of facets on the CAD may gain for each facet that is
   /// there at first; infinite: not looked at.
   double errorPerFacet = 0;
+  /// How many vertices have to go, as a part of those that are to: improvement takes out others.
+  double share = 1;
 };
 
 /// What is to become of a vertex.
@@ -32,12 +34,13 @@ enum class VertexFate : unsigned char
 
 /// Collapses the vertices that are to go (`fates`, one for each vertex) into neighbours that are
 /// not; where some are left, improves badly shaped cells (see improveCells) and tries these again:
-/// now a neighbour that may go can go into them instead. Those inside the mesh come first, then
-/// those on facets and on CAD edges, in the order of their numbers; each takes the way that adds
-/// least to the geometric error, or else leaves the best worst cell, if all cells are valid and the
-/// limits are kept. What finds no way is tried again when its surroundings have changed. A vertex
-/// on a CAD edge goes along that, one on a CAD face along the surface. The result depends on the
-/// order of vertices and cells alone. `fates` tells afterwards what is still to go.
+/// now a neighbour that may go can go into them instead, or elsewhere as long as too few vertices
+/// have gone. Those inside the mesh come first, then those on facets and on CAD edges, in the order
+/// of their numbers; each takes the way that adds least to the geometric error, or else leaves the
+/// best worst cell, if all cells are valid and the limits are kept. What finds no way is tried
+/// again when its surroundings have changed. A vertex on a CAD edge goes along that, one on a CAD
+/// face along the surface. The result depends on the order of vertices and cells alone. `fates`
+/// tells afterwards what is still to go.
 ///
 /// Where the error is limited, vertices first go at their share of it, the same for each, then at
 /// three times that, then at all that is left: so what would take much does not come before what
