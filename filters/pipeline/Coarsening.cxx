@@ -58,6 +58,7 @@ private:
     addFates(mayGo, verticesToRemove(exchange_, state_.mesh, *state_.classification,
                       boundaryOf(context_, state_), mayGo));
     left_ = std::numeric_limits<std::int64_t>::max();
+    wanted_ = before;
     for (int round = 0; round < maximumRounds && takeOut(round); ++round)
     {
     }
@@ -153,14 +154,12 @@ private:
     {
       return false;
     }
+    wanted_ -= round == 0 ? left : 0;
     left_ = left;
     exchange_.progress().say(static_cast<double>(round) / maximumRounds,
       "taking out vertices, round " + std::to_string(round + 1) + " of at most " +
         std::to_string(maximumRounds));
-    const std::int64_t count = countMesh(exchange_, state_.mesh).vertices;
-    wanted_ = round == 0 ? count - left : wanted_;
-    const CoarseningLimits limits =
-      findLimits(static_cast<double>(count - wanted_) / static_cast<double>(left));
+    const CoarseningLimits limits = findLimits(round > 0 ? shareOf(left) : 0);
     const auto work = [&](BlockMesh& block, const SurfaceRule& rule)
     {
       VertexFate* ofPiece = fates();
@@ -184,12 +183,23 @@ private:
     return true;
   }
 
+  /// Of so many flagged vertices, how many have to go. None where some cells stay, or the boundary
+  /// may not change as a level would change it: there they are to be left. Collective.
+  double shareOf(std::int64_t left)
+  {
+    if (!options_.criteria.empty() || options_.targetError <= 0)
+    {
+      return 0;
+    }
+    const std::int64_t excess = countMesh(exchange_, state_.mesh).vertices - wanted_;
+    return std::clamp(static_cast<double>(excess) / static_cast<double>(left), 0.0, 1.0);
+  }
+
   /// Collective.
   CoarseningLimits findLimits(double share)
   {
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    CoarseningLimits limits{ options_.minimumQuality, options_.maximumDistance, infinity,
-      std::clamp(share, 0.0, 1.0) };
+    CoarseningLimits limits{ options_.minimumQuality, options_.maximumDistance, infinity, share };
     if (options_.targetError > 0)
     {
       ClassifiedBoundary& boundary = boundaryOf(context_, state_);

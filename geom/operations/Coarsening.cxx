@@ -265,7 +265,7 @@ private:
     if (goes)
     {
       fates_[vertex] = VertexFate::MayGo;
-      waits_[vertex] = elsewhere ? 1 : 0; // There may be room for the vertex itself now.
+      waits_[vertex] = 0;
     }
     return goes;
   }
