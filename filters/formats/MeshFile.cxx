@@ -4,6 +4,7 @@
 
 #include "formats/MeshFile.h"
 
+#include <cadrefine/base/CodeFolder.h>
 #include <cadrefine/base/Error.h>
 
 #include <vtkUnstructuredGrid.h>
@@ -13,7 +14,6 @@
 #include <vtkPythonUtil.h>
 #include <vtkSmartPyObject.h>
 
-#include <dlfcn.h>
 #include <filesystem>
 #endif
 
@@ -28,11 +28,9 @@ namespace
 /// The folder with the package: build and installation both have it beside the library.
 std::filesystem::path packageFolder()
 {
-  Dl_info info{};
-  dladdr(reinterpret_cast<const void*>(&packageFolder), &info);
+  const auto own = folderOfCode(reinterpret_cast<const void*>(&packageFolder));
   std::error_code error;
-  const auto own = std::filesystem::canonical(info.dli_fname ? info.dli_fname : "", error);
-  return std::filesystem::canonical(own.parent_path() / "cadrefine" / "python", error);
+  return std::filesystem::canonical(own / "cadrefine" / "python", error);
 }
 
 std::string textOf(PyObject* object)

@@ -36,6 +36,11 @@ inline Vector3 cross(const Vector3& a, const Vector3& b)
   return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
 }
 
+inline bool isFinite(const Vector3& a)
+{
+  return std::isfinite(a[0]) && std::isfinite(a[1]) && std::isfinite(a[2]);
+}
+
 inline double squaredNorm(const Vector3& a)
 {
   return dot(a, a);

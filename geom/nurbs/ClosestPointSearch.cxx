@@ -68,11 +68,6 @@ void visitTree(const SearchStructure& structure, BoundingBoxTree::Root root, con
 constexpr double tooFar = 1e8;
 constexpr double asFar = 1e7;
 
-bool isFinite(const Point3& q)
-{
-  return std::isfinite(q[0]) && std::isfinite(q[1]) && std::isfinite(q[2]);
-}
-
 } // namespace
 
 struct ClosestPointSearch::Implementation

@@ -1,5 +1,7 @@
 #include "pqShowFacets.h"
 
+#include <cadrefine/base/CodeFolder.h>
+
 #include <QAction>
 #include <QCoreApplication>
 #include <pqActiveObjects.h>
@@ -12,7 +14,6 @@
 #include <vtkDataObject.h>
 #include <vtkPVDataInformation.h>
 
-#include <dlfcn.h>
 #include <filesystem>
 #include <string>
 
@@ -35,11 +36,9 @@ ready_view.show()
 /// one is.
 QString driverFolder()
 {
-  Dl_info info{};
-  dladdr(reinterpret_cast<const void*>(&driverFolder), &info);
+  const auto own = cadrefine::folderOfCode(reinterpret_cast<const void*>(&driverFolder));
   std::error_code error;
-  const auto plugin = std::filesystem::canonical(info.dli_fname ? info.dli_fname : "", error);
-  const auto folder = std::filesystem::canonical(plugin.parent_path() / "../../python", error);
+  const auto folder = std::filesystem::canonical(own / "../../python", error);
   QString text = QString::fromStdString(folder.string());
   return '"' + text.replace('\\', "\\\\").replace('"', "\\\"") + '"';
 }

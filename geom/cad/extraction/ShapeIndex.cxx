@@ -7,26 +7,30 @@
 namespace cadrefine
 {
 
-ShapeIndex::ShapeIndex(const TopoDS_Shape& shape)
+TopTools_IndexedMapOfShape entitiesOf(const TopoDS_Shape& shape, TopAbs_ShapeEnum type)
 {
   TopTools_IndexedMapOfShape map;
-  TopExp::MapShapes(shape, TopAbs_FACE, map);
-  for (int i = 1; i <= map.Extent(); ++i)
+  TopExp::MapShapes(shape, type, map);
+  return map;
+}
+
+ShapeIndex::ShapeIndex(const TopoDS_Shape& shape) : vertexMap_(entitiesOf(shape, TopAbs_VERTEX))
+{
+  const auto faces = entitiesOf(shape, TopAbs_FACE);
+  for (int i = 1; i <= faces.Extent(); ++i)
   {
-    this->faces_.push_back(TopoDS::Face(map(i)));
+    this->faces_.push_back(TopoDS::Face(faces(i)));
   }
-  map.Clear();
-  TopExp::MapShapes(shape, TopAbs_EDGE, map);
-  for (int i = 1; i <= map.Extent(); ++i)
+  const auto edges = entitiesOf(shape, TopAbs_EDGE);
+  for (int i = 1; i <= edges.Extent(); ++i)
   {
-    const TopoDS_Edge edge = TopoDS::Edge(map(i));
+    const TopoDS_Edge edge = TopoDS::Edge(edges(i));
     if (!BRep_Tool::Degenerated(edge))
     {
       this->edges_.push_back(edge);
       this->edgeMap_.Add(edge);
     }
   }
-  TopExp::MapShapes(shape, TopAbs_VERTEX, this->vertexMap_);
   for (int i = 1; i <= this->vertexMap_.Extent(); ++i)
   {
     this->vertices_.push_back(TopoDS::Vertex(this->vertexMap_(i)));

@@ -11,6 +11,9 @@
 namespace cadrefine
 {
 
+/// The entities of `shape`; unlike TopExp_Explorer, each once.
+TopTools_IndexedMapOfShape entitiesOf(const TopoDS_Shape& shape, TopAbs_ShapeEnum type);
+
 /// Entities of `shape` in the order in which TopExp::MapShapes meets them, which depends on the
 /// shape alone; degenerated edges are left out (they are only their vertex).
 class ShapeIndex

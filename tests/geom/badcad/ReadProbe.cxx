@@ -22,12 +22,8 @@ namespace
 {
 
 using cadrefine::CADModel;
+using cadrefine::isFinite;
 using cadrefine::Point3;
-
-bool isFinite(const Point3& p)
-{
-  return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
-}
 
 /// Points of the model (each entity's middle) and others around it, at most some `most`.
 std::vector<Point3> queryPoints(const CADModel& model, int most)

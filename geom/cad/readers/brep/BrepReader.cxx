@@ -1,5 +1,6 @@
 // Open CASCADE's own files, text or binary. They carry no unit.
 
+#include <cadrefine/cad/extraction/ShapeIndex.h>
 #include <cadrefine/cad/import/OccGuard.h>
 #include <cadrefine/cad/readers/OccProgress.h>
 #include <cadrefine/cad/readers/ShapeReaders.h>
@@ -9,9 +10,7 @@
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <BinTools.hxx>
-#include <TopExp.hxx>
 #include <TopLoc_Location.hxx>
-#include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Face.hxx>
 
@@ -22,13 +21,6 @@ namespace cadrefine
 {
 namespace
 {
-
-TopTools_IndexedMapOfShape entitiesOf(const TopoDS_Shape& shape, TopAbs_ShapeEnum type)
-{
-  TopTools_IndexedMapOfShape map;
-  TopExp::MapShapes(shape, type, map);
-  return map;
-}
 
 /// Faces and edges are known by their order in the file.
 void numberEntities(ReadShape& read)

@@ -8,17 +8,11 @@
 #include <cadrefine/cad/readers/drawing/ShapeTessellation.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace cadrefine
 {
 namespace
 {
-
-bool isFinite(const Point3& p)
-{
-  return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
-}
 
 DrawnItem drawItem(
   const ShapeIndex& index, const LengthScale& scale, const DrawnEntity& drawn, double deflection)

@@ -70,14 +70,6 @@ std::vector<std::string> findFaults(
   return faults;
 }
 
-/// The entities of `shape`; unlike TopExp_Explorer, each once.
-TopTools_IndexedMapOfShape entitiesOf(const TopoDS_Shape& shape, TopAbs_ShapeEnum type)
-{
-  TopTools_IndexedMapOfShape map;
-  TopExp::MapShapes(shape, type, map);
-  return map;
-}
-
 /// The faces that `face` becomes where it is healed.
 TopoDS_Shape healFace(const TopoDS_Face& face)
 {

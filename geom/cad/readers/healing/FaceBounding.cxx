@@ -1,13 +1,13 @@
 #include <cadrefine/cad/readers/healing/ShapePreparation.h>
 
+#include <cadrefine/cad/extraction/ShapeIndex.h>
+
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepTools_ReShape.hxx>
 #include <BRep_Tool.hxx>
 #include <Geom_Surface.hxx>
 #include <Precision.hxx>
-#include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
-#include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Face.hxx>
 
@@ -40,8 +40,7 @@ bool isBounded(const Geom_Surface& surface)
 
 BoundedFaces boundFaces(const TopoDS_Shape& shape, AttributeMap& attributeMap)
 {
-  TopTools_IndexedMapOfShape faces;
-  TopExp::MapShapes(shape, TopAbs_FACE, faces);
+  const auto faces = entitiesOf(shape, TopAbs_FACE);
   BRepTools_ReShape changes;
   BoundedFaces result{ shape, {} };
   for (int i = 1; i <= faces.Extent(); ++i)

@@ -1,11 +1,10 @@
+#include <cadrefine/cad/extraction/ShapeIndex.h>
 #include <cadrefine/cad/readers/OccProgress.h>
 #include <cadrefine/cad/readers/healing/ShapePreparation.h>
 
 #include <BRepBndLib.hxx>
 #include <BRepBuilderAPI_Sewing.hxx>
 #include <Bnd_Box.hxx>
-#include <TopExp.hxx>
-#include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS_Compound.hxx>
 #include <TopoDS_Iterator.hxx>
 
@@ -15,13 +14,6 @@ namespace cadrefine
 {
 namespace
 {
-
-TopTools_IndexedMapOfShape mapOf(const TopoDS_Shape& shape, TopAbs_ShapeEnum type)
-{
-  TopTools_IndexedMapOfShape map;
-  TopExp::MapShapes(shape, type, map);
-  return map;
-}
 
 double diagonal(const TopoDS_Shape& shape)
 {
@@ -49,12 +41,12 @@ void followSewing(
   {
     return;
   }
-  const auto faces = mapOf(unsewn, TopAbs_FACE);
+  const auto faces = entitiesOf(unsewn, TopAbs_FACE);
   for (int i = 1; i <= faces.Extent(); ++i)
   {
     attributeMap.follow(faces(i), sewing.Modified(faces(i)));
   }
-  const auto edges = mapOf(unsewn, TopAbs_EDGE);
+  const auto edges = entitiesOf(unsewn, TopAbs_EDGE);
   for (int i = 1; i <= edges.Extent(); ++i)
   {
     attributeMap.follow(edges(i), sewing.ModifiedSubShape(edges(i)));
@@ -79,7 +71,7 @@ SewnFaces sewFaces(const std::vector<TopoDS_Shape>& faces, AttributeMap& attribu
     const Handle(BRepBuilderAPI_Sewing) sewing = sewWith(unsewn, tolerance);
     const TopoDS_Shape& sewn = sewing->SewedShape();
     const bool complete =
-      !sewn.IsNull() && mapOf(sewn, TopAbs_FACE).Extent() == static_cast<int>(faces.size());
+      !sewn.IsNull() && entitiesOf(sewn, TopAbs_FACE).Extent() == static_cast<int>(faces.size());
     if (complete && (bestSewing.IsNull() || sewing->NbFreeEdges() < bestSewing->NbFreeEdges()))
     {
       best = { sewn, tolerance };

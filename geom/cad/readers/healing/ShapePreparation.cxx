@@ -9,6 +9,7 @@
 
 #include <cadrefine/cad/readers/healing/ShapePreparation.h>
 
+#include <cadrefine/cad/extraction/ShapeIndex.h>
 #include <cadrefine/cad/readers/OccProgress.h>
 
 #include <BRepCheck_Analyzer.hxx>
@@ -34,13 +35,6 @@ namespace cadrefine
 {
 namespace
 {
-
-int countOf(const TopoDS_Shape& shape, TopAbs_ShapeEnum type)
-{
-  TopTools_IndexedMapOfShape map;
-  TopExp::MapShapes(shape, type, map);
-  return map.Extent();
-}
 
 /// Shapes of `type` that are in none of type `avoid`, each once.
 std::vector<TopoDS_Shape> freeShapes(
@@ -71,8 +65,7 @@ void followFix(const TopoDS_Shape& shape, ShapeBuild_ReShape& changes, Attribute
   }
   for (const TopAbs_ShapeEnum type : { TopAbs_FACE, TopAbs_EDGE })
   {
-    TopTools_IndexedMapOfShape map;
-    TopExp::MapShapes(shape, type, map);
+    const auto map = entitiesOf(shape, type);
     for (int i = 1; i <= map.Extent(); ++i)
     {
       attributeMap.follow(map(i), changes.Apply(map(i)));
@@ -90,7 +83,8 @@ TopoDS_Shape heal(const TopoDS_Shape& shape, AttributeMap& attributeMap)
   const Handle(OccProgress) progress = new OccProgress;
   fix.Perform(progress->Start());
   const TopoDS_Shape fixed = fix.Shape();
-  const bool lost = fixed.IsNull() || countOf(fixed, TopAbs_FACE) < countOf(shape, TopAbs_FACE);
+  const bool lost = fixed.IsNull() || entitiesOf(fixed, TopAbs_FACE).Extent() <
+                                        entitiesOf(shape, TopAbs_FACE).Extent();
   if (lost)
   {
     return shape;
