@@ -3,6 +3,11 @@
 # (filters/CMakeLists.txt is that of the VTK module.)
 set(BUILD_SHARED_LIBS ON)
 
+cadrefine_precompiled_headers(CADRefineFilterHeaders LINKS VTK::CommonDataModel VTK::ParallelCore
+  HEADERS <algorithm> <array> <cmath> <functional> <limits> <map> <memory> <numeric> <set> <sstream> <string> <vector>
+    <vtkCellData.h> <vtkDoubleArray.h> <vtkMultiProcessController.h> <vtkNew.h> <vtkPointData.h> <vtkPolyData.h>
+    <vtkUnstructuredGrid.h>)
+
 # cadrefine_filters_library(<folder> SOURCES ... DEPENDS ...): CADRefineFilters<Folder>, static, so that the module and
 # the tests link it without exporting its classes. Its headers are included as "FOLDER/Name.h".
 function (cadrefine_filters_library folder)
@@ -11,6 +16,7 @@ function (cadrefine_filters_library folder)
   add_library(${name} STATIC ${arg_SOURCES})
   target_include_directories(${name} PUBLIC "${CMAKE_SOURCE_DIR}/filters")
   target_link_libraries(${name} PUBLIC ${arg_DEPENDS} PRIVATE CADRefineWarnings ${arg_PRIVATE_DEPENDS})
+  target_precompile_headers(${name} REUSE_FROM CADRefineFilterHeaders)
 endfunction ()
 
 # Each sees only those above it.

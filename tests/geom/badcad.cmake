@@ -7,15 +7,9 @@ add_library(badcad STATIC
   badcad/Mutation.cxx
   badcad/ReadProbe.cxx
   badcad/ShapeText.cxx
-  badcad/Tally.cxx
-  cad/IgesCases.cxx
-  cad/IgesWriter.cxx
-  cad/TestFiles.cxx)
-target_include_directories(badcad PUBLIC badcad cad)
-target_include_directories(badcad SYSTEM PUBLIC ${OpenCASCADE_INCLUDE_DIR})
-target_link_libraries(badcad PUBLIC CADRefineCad ${CADREFINE_IGES} ${CADREFINE_STEP} TKXSBase TKPrim TKTopAlgo TKBRep GTest::gtest
-  PRIVATE CADRefineWarnings)
-add_dependencies(badcad cadrefine-read-cad)
+  badcad/Tally.cxx)
+target_include_directories(badcad PUBLIC badcad)
+target_link_libraries(badcad PUBLIC CADRefineTestSupport PRIVATE CADRefineWarnings)
 
 add_executable(badcad_table badcad/BadCADTable.cxx)
 target_link_libraries(badcad_table PRIVATE badcad CADRefineWarnings)

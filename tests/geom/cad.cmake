@@ -5,12 +5,10 @@ cadrefine_geom_test(cad_tests
     cad/CurveModelTest.cxx
     cad/FileErrorsTest.cxx
     cad/GapsTest.cxx
-    cad/IgesCases.cxx
     cad/IgesCurvesTest.cxx
     cad/IgesRepairTest.cxx
     cad/IgesStatusTest.cxx
     cad/IgesSurfacesTest.cxx
-    cad/IgesWriter.cxx
     cad/IsolatedRunTest.cxx
     cad/AttributesTest.cxx
     cad/LossTest.cxx
@@ -19,14 +17,12 @@ cadrefine_geom_test(cad_tests
     cad/RealFilesTest.cxx
     cad/SurfaceConversionTest.cxx
     cad/TessellationTest.cxx
-    cad/TestFiles.cxx
     cad/UnitsTest.cxx
     cad/UnreadTest.cxx
-  LINKS CADRefineFloatingPoint CADRefineReaders ${CADREFINE_IGES} ${CADREFINE_STEP} TKXSBase TKPrim TKBO TKTopAlgo TKBRep
+  LINKS CADRefineFloatingPoint CADRefineTestSupport CADRefineReaders
   PACKAGED "RealFiles[.]")
-target_include_directories(cad_tests SYSTEM PRIVATE ${OpenCASCADE_INCLUDE_DIR})
 target_compile_definitions(cad_tests PRIVATE CADREFINE_TEST_READER="$<TARGET_FILE:cad_test_reader>")
-add_dependencies(cad_tests cad_test_reader cadrefine-read-cad)
+add_dependencies(cad_tests cad_test_reader)
 
 # What is read of CAD files, beside what Open CASCADE's plain reader reads: for any folder, see cad_files.py.
 add_executable(cad_file_probe cad/CADFileProbe.cxx)

@@ -5,10 +5,7 @@ cadrefine_geom_test(exact_tests
     exact/OccOracle.cxx
     exact/SamplePoints.cxx
     exact/WholeModelTest.cxx
-    cad/TestFiles.cxx
-    ../support/TestShapes.cxx
-  LINKS CADRefineFloatingPoint CADRefineCad ${CADREFINE_IGES} ${CADREFINE_STEP} TKXSBase TKPrim TKBO TKTopAlgo TKBRep TKGeomBase TKShHealing
+  LINKS CADRefineFloatingPoint CADRefineTestSupport TKGeomBase TKShHealing
   SLOW "data_aeroplane_igs|packaged_(terrain_brep|shell1_brep|bearing_iges|MAT_brep)"
   PACKAGED "/packaged_")
-target_include_directories(exact_tests PRIVATE cad nurbs ../support)
-target_include_directories(exact_tests SYSTEM PRIVATE ${OpenCASCADE_INCLUDE_DIR})
+target_include_directories(exact_tests PRIVATE nurbs)

@@ -1,7 +1,3 @@
-if (NOT TARGET CADRefineTestSupport)
-  add_subdirectory("${CMAKE_SOURCE_DIR}/tests/support" "${CMAKE_BINARY_DIR}/tests/support")
-endif ()
-
 cadrefine_geom_test(method_tests
   SOURCES
     classification/BoundaryProjectorTest.cxx
