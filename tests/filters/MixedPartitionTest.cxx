@@ -210,10 +210,12 @@ std::vector<Case> cases()
   std::vector<Case> result;
   for (std::size_t problem = 0; problem < problems.size(); ++problem)
   {
+    // Those of the documented order are cut as the others are, and that takes long.
+    const bool kept = problems[problem].name == "DocumentedWedges";
     result.push_back({ problem, Dealing::Blocks, true, true, false, true });
-    result.push_back({ problem, Dealing::Random, false, false, true, true });
-    result.push_back({ problem, Dealing::KdTree, false, true, true, false });
-    result.push_back({ problem, Dealing::EmptyRank, true, false, false, false });
+    result.push_back({ problem, Dealing::EmptyRank, true, false, false, true });
+    result.push_back({ problem, Dealing::Random, false, false, true, kept });
+    result.push_back({ problem, Dealing::KdTree, false, true, true, kept });
   }
   return result;
 }
@@ -239,9 +241,12 @@ class MixedPartition
   , public testing::WithParamInterface<Case>
 {
 protected:
+  static inline cadtest::SerialSteps serial;
   const Problem& problem = problems[GetParam().problem];
   cadtest::TemporaryFolder folder;
   const std::string cadFile = cadtest::writeInto(folder, problem.cad(), ".brep");
+
+  static void TearDownTestSuite() { serial = {}; }
 
   vtkSmartPointer<vtkPointSet> wholeMesh() const
   {
@@ -285,7 +290,8 @@ INSTANTIATE_TEST_SUITE_P(Problems, MixedPartition, testing::ValuesIn(cases()),
 TEST_P(MixedPartition, givesTheSameMeshAsOneRank)
 {
   const cadtest::Steps pieces =
-    cadtest::expectSameSteps(exchange, wholeMesh(), GetParam().dealing, GetParam().ghosts,
+    cadtest::expectSameSteps(exchange, serial, problem.name + (GetParam().ids ? "Ids" : ""),
+      wholeMesh(), GetParam().dealing, GetParam().ghosts,
       [&](vtkPointSet* mesh, vtkMultiProcessController* controller)
       {
         return cadtest::refinementSteps(cadtest::FilterRun(cadFile, controller), mesh,
@@ -339,21 +345,21 @@ INSTANTIATE_TEST_SUITE_P(Problems, MixedCoarsening, testing::ValuesIn(coarsenedC
 
 TEST_P(MixedCoarsening, leavesOtherCells)
 {
-  const cadtest::Steps steps =
-    cadtest::expectSameSteps(exchange, wholeMesh(), GetParam().dealing, GetParam().ghosts,
-      [&](vtkPointSet* mesh, vtkMultiProcessController* controller)
-      {
-        const cadtest::FilterRun filters(cadFile, controller);
-        const auto refined = filters.run<vtkRefineWithCAD>(filters.project(mesh),
-          [](vtkRefineWithCAD* filter)
-          {
-            filter->SetMethod(vtkRefineWithCAD::UNIFORM_BISECTION);
-            filter->SetLevels(2);
-          });
-        return cadtest::Steps{ refined,
-          filters.run<vtkCoarsenWithCAD>(
-            refined, [](vtkCoarsenWithCAD* filter) { filter->SetMaximumDistance(0.2); }) };
-      });
+  const cadtest::Steps steps = cadtest::expectSameSteps(exchange, serial, problem.name, wholeMesh(),
+    GetParam().dealing, GetParam().ghosts,
+    [&](vtkPointSet* mesh, vtkMultiProcessController* controller)
+    {
+      const cadtest::FilterRun filters(cadFile, controller);
+      const auto refined = filters.run<vtkRefineWithCAD>(filters.project(mesh),
+        [](vtkRefineWithCAD* filter)
+        {
+          filter->SetMethod(vtkRefineWithCAD::UNIFORM_BISECTION);
+          filter->SetLevels(2);
+        });
+      return cadtest::Steps{ refined,
+        filters.run<vtkCoarsenWithCAD>(
+          refined, [](vtkCoarsenWithCAD* filter) { filter->SetMaximumDistance(0.2); }) };
+    });
   expectSound(steps.back());
   EXPECT_EQ(cadtest::fieldValue(steps.back(), "UnprojectedVertices"), 0);
   const Counts before = countCells(steps.front());

@@ -47,9 +47,12 @@ class MixedQuadraticPartition
   , public testing::WithParamInterface<std::tuple<Problem, cadtest::Dealing>>
 {
 protected:
+  static inline cadtest::SerialSteps serial;
   cadtest::TemporaryFolder folder;
   const Problem& problem = std::get<0>(GetParam());
   const std::string cadFile = cadtest::writeInto(folder, problem.shape(), ".brep");
+
+  static void TearDownTestSuite() { serial = {}; }
 
   using Steps = cadtest::Steps;
 
@@ -87,9 +90,10 @@ TEST_P(MixedQuadraticPartition, givesTheSameMeshAsOneRank)
 {
   const auto whole = problem.mesh();
   cadtest::addArrays(whole);
-  const Steps pieces = cadtest::expectSameSteps(exchange, whole, std::get<1>(GetParam()), true,
-    [&](vtkPointSet* mesh, vtkMultiProcessController* controller)
-    { return run(mesh, controller); });
+  const Steps pieces =
+    cadtest::expectSameSteps(exchange, serial, problem.name, whole, std::get<1>(GetParam()), true,
+      [&](vtkPointSet* mesh, vtkMultiProcessController* controller)
+      { return run(mesh, controller); });
   EXPECT_EQ(cadtest::fieldValue(pieces.back(), "InvalidCells"), 0);
   EXPECT_GT(cadtest::fieldValue(pieces.back(), "CADVertices"), 0);
 }

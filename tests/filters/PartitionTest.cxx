@@ -243,12 +243,12 @@ std::vector<Case> cases()
   for (std::size_t problem = 0; problem < problems.size(); ++problem)
   {
     result.push_back({ problem, Dealing::Blocks, true, false, true });
-    result.push_back({ problem, Dealing::Blocks, false, true, false });
     result.push_back({ problem, Dealing::Random, true, true, false });
-    result.push_back({ problem, Dealing::Random, false, false, true });
     result.push_back({ problem, Dealing::KdTree, true, false, true });
-    result.push_back({ problem, Dealing::KdTree, false, true, false });
     result.push_back({ problem, Dealing::EmptyRank, true, false, true });
+    result.push_back({ problem, Dealing::Blocks, false, true, false });
+    result.push_back({ problem, Dealing::Random, false, false, true });
+    result.push_back({ problem, Dealing::KdTree, false, true, false });
     result.push_back({ problem, Dealing::EmptyRank, false, false, false });
   }
   return result;
@@ -259,8 +259,11 @@ class Partition
   , public testing::WithParamInterface<Case>
 {
 protected:
+  static inline cadtest::SerialSteps serial;
   const Problem& problem = problems[GetParam().problem];
   cadtest::TemporaryFolder folder;
+
+  static void TearDownTestSuite() { serial = {}; }
 
   /// The CAD file; rank 0 alone reads it.
   std::string cadFile() const
@@ -286,8 +289,8 @@ protected:
   template<class RunSteps>
   Steps expectSameAsOnOneRank(const RunSteps& runSteps)
   {
-    return cadtest::expectSameSteps(
-      exchange, wholeMesh(), GetParam().dealing, GetParam().ghosts, runSteps);
+    return cadtest::expectSameSteps(exchange, serial, problem.name + (GetParam().ids ? "Ids" : ""),
+      wholeMesh(), GetParam().dealing, GetParam().ghosts, runSteps);
   }
 
   /// Of the mesh put together from all ranks.
