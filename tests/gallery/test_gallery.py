@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Runs every case of docs/gallery.md as people do, with two adaptive steps at most, and that of the first page whole:
+"""Runs every case of docs/gallery.md as people do, with one adaptive step, and that of the first page whole:
 test_gallery.py FOLDER"""
 
 import json
@@ -29,7 +29,7 @@ WITH_PICTURES = ["tee", "ball"]
 MEASURED = re.compile(r"^\| +0 \|.*\|\n\| +\d+ \|.*\|$", re.MULTILINE)
 
 
-def gallery(*arguments, steps="2"):
+def gallery(*arguments, steps="1"):
     """Runs the gallery's script. Returns the commands that it says it runs."""
     command = ["/usr/bin/python3", "-B", os.path.join(ROOT, "docs", "gallery", "gallery.py"), "--output", FOLDER,
                *(["--steps", steps] if steps else []), *arguments]

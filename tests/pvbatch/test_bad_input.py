@@ -105,12 +105,8 @@ class BadFiles(Case):
         self.assert_fails(self.file("image.vtk", text), self.cad, names="image.vtk: holds a vtkImageData")
 
 
-class BadInput(Case):
-    def test_options(self):
-        self.assert_fails(self.mesh, self.cad, "--steps", "many", names="--steps")
-        self.assert_fails(self.mesh, self.cad, "--indicator", "error", names="--indicator-threshold")
-        self.assert_fails(self.mesh, self.cad, "--indicator-marking", "bulk", names="--indicator")
-        self.assert_fails(self.mesh, self.cad, "--no-such-option", names="--no-such-option")
+class BadOptions(Case):
+    """Found before anything is read."""
 
     def test_values_out_of_range(self):
         """Are told before anything is read: there are no such files."""
@@ -199,6 +195,18 @@ class BadInput(Case):
                    "a.png: is given twice, by --plot and --screenshot")]
         self.assert_refused(cases)
 
+    def test_folder_of_output_is_missing(self):
+        path = os.path.join(self.folder, "none", "out.vtu")
+        self.assert_fails(self.mesh, self.cad, "--output", path, names="out.vtu: there is no folder")
+
+
+class BadInput(Case):
+    def test_options(self):
+        self.assert_fails(self.mesh, self.cad, "--steps", "many", names="--steps")
+        self.assert_fails(self.mesh, self.cad, "--indicator", "error", names="--indicator-threshold")
+        self.assert_fails(self.mesh, self.cad, "--indicator-marking", "bulk", names="--indicator")
+        self.assert_fails(self.mesh, self.cad, "--no-such-option", names="--no-such-option")
+
     def test_coordinates_that_are_too_large(self):
         """Where the ranges that VTK writes with them cannot be read."""
         text = """<VTKFile type="UnstructuredGrid" version="1.0"><UnstructuredGrid>
@@ -220,10 +228,6 @@ class BadInput(Case):
         meshio.write(path, meshio.Mesh(mesh.points, {"triangle": mesh.cells_dict["triangle"].astype("int32")}),
                      binary=False)
         self.assert_fails(path, driver.data("three_arcs.igs"), "--quadratic", names="arcs.ply: poly data cannot hold")
-
-    def test_folder_of_output_is_missing(self):
-        path = os.path.join(self.folder, "none", "out.vtu")
-        self.assert_fails(self.mesh, self.cad, "--output", path, names="out.vtu: there is no folder")
 
     def test_region_beside_the_mesh(self):
         """What a filter says of its property is said of the option."""

@@ -1,5 +1,5 @@
 """CAD faces are selected in the view of the real ParaView window, by a frame or a click, and put into the list Faces of
-a filter by the buttons below it; in the plane CAD edges. With --server the same on two ranks too.
+a filter by the buttons below it; in the plane CAD edges. With --server the first on two ranks.
 
 usage: test_faces.py PLUGIN DATA OUTPUT [--server]
 """
@@ -134,19 +134,17 @@ def check_cylinder(notes):
 
 def main():
     plugin, data, output = map(os.path.abspath, sys.argv[1:4])
-    alone = Window(plugin, output)
-    play_cad(alone, data)
-    play_meshes(alone)
-    play_plane(alone, data)
-    notes = notes_of(alone)
-    check_cylinder(notes)
-    assert notes["in the plane"] == {"faces": [ARC], "on": [int(ARC)]}, notes["in the plane"]
+    window = Window(plugin, output)
+    play_cad(window, data)
+    play_meshes(window)
     if sys.argv[4:] == ["--server"]:
-        client = Window(plugin, alone.path("client"))
-        play_cad(client, data)
-        play_meshes(client)
-        with Server(client, RANKS) as server:
-            check_cylinder(notes_of(client, "--server-url", f"cs://localhost:{server.port}"))
+        with Server(window, RANKS) as server:
+            notes = notes_of(window, "--server-url", f"cs://localhost:{server.port}")
+    else:
+        play_plane(window, data)
+        notes = notes_of(window)
+        assert notes["in the plane"] == {"faces": [ARC], "on": [int(ARC)]}, notes["in the plane"]
+    check_cylinder(notes)
     print(f"the pictures are in {output}")
 
 
