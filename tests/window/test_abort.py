@@ -1,5 +1,5 @@
 """The abort button of the real ParaView window stops Adapt To CAD: the mouse is moved there and pressed while the filter
-is at work. It keeps its last whole step.
+is at work. It keeps its last whole step. The plugin is loaded later, as Tools > Manage Plugins does.
 
 usage: test_abort.py PLUGIN DATA OUTPUT
 """
@@ -11,7 +11,7 @@ import sys
 import time
 
 from test_window import APPLY, PANEL, choose_from_menu, open_file
-from window import Picture, Window, event, python
+from window import Picture, Window, check, event, python
 
 TIMEOUT = 150
 STATUS_BAR = 30  # Height at most.
@@ -53,14 +53,16 @@ def press_abort(window, display):
 
 def main():
     plugin, data, output = map(os.path.abspath, sys.argv[1:])
-    window = Window(plugin, output)
+    window = Window(None, output)
     window.clicked_at = None
     result = window.path("output", "steps.json")
-    window.play(*open_file(os.path.join(data, "cylinder.brep")), APPLY,
+    window.play(python("from paraview import simple"), python(f"simple.LoadPlugin({plugin!r}, remote=False)"),
+                check("CAD Refinement/1QToolButton0", "visible", "true"),
+                *open_file(os.path.join(data, "cylinder.brep")), APPLY,
                 *open_file(os.path.join(data, "cylinder_coarse.vtu")), APPLY, *choose_from_menu("AdaptToCAD"),
                 event(PANEL + "MaximumSteps/LineEdit0", "set_string", "100"), APPLY)
     window.picture("aborted")
-    window.play(python("import json; from paraview import simple, servermanager"),
+    window.play(python("import json; from paraview import servermanager"),
                 python("table = servermanager.Fetch(simple.FindSource('AdaptToCAD1'), idx=1)"),
                 python("reason = table.GetFieldData().GetAbstractArray('StopReason').GetValue(0)"),
                 python(f"json.dump([table.GetNumberOfRows() - 1, reason], open({result!r}, 'w'))"))

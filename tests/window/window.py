@@ -42,7 +42,8 @@ def python(statement):
 
 
 class Window:
-    """One run of the window; `folder` is emptied and takes events, settings, log and pictures."""
+    """One run of the window; it loads `plugin`, if any, as it starts. `folder` is emptied and takes events, settings,
+    log and pictures."""
 
     def __init__(self, plugin, folder, size=(1600, 1100)):
         self.size = size
@@ -128,9 +129,10 @@ class Window:
             file.write(SETTINGS.format(*self.size))
 
     def command(self):
-        folder, name = os.path.split(self.plugin)
-        return ["paraview", "--plugin-search-paths", folder, "--plugins", os.path.splitext(name)[0],
-                "--test-directory", self.path("output"), "--test-script", self.path("events.xml"), "--exit"]
+        folder, name = os.path.split(self.plugin or "")
+        plugins = ["--plugin-search-paths", folder, "--plugins", os.path.splitext(name)[0]] if self.plugin else []
+        return ["paraview", *plugins, "--test-directory", self.path("output"), "--test-script",
+                self.path("events.xml"), "--exit"]
 
     def environment(self, display):
         return {**os.environ, "DISPLAY": display.name, "HOME": self.path("settings"),
