@@ -5,15 +5,8 @@ JOBS := $(shell nproc)
 PREFIX := /usr/local
 SOURCES = $(shell find data docs filters geom plugin tests -name '*.h' -o -name '*.cxx' -o -name '*.cpp')
 
-# Open MPI (4 and 5): run as root, as containers do; more ranks than cores; no complaint where the kernel forbids
-# ranks to read each other's memory, or where Open MPI 5 finds no network: shared memory is enough here. The transport
-# ofi sleeps for a second whenever a process leaves.
-export OMPI_ALLOW_RUN_AS_ROOT := 1
-export OMPI_ALLOW_RUN_AS_ROOT_CONFIRM := 1
-export OMPI_MCA_rmaps_base_oversubscribe := 1
-export OMPI_MCA_btl_vader_single_copy_mechanism := none
-export OMPI_MCA_btl := ^tcp,ofi
-export PRTE_MCA_rmaps_default_mapping_policy := :oversubscribe
+include tests/support/open_mpi
+export $(shell sed -n 's/=.*//p' tests/support/open_mpi)
 
 .PHONY: help
 help: ## Show this list

@@ -20,18 +20,15 @@ import tempfile
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
+sys.path.insert(0, os.path.join(ROOT, "tests", "pvbatch"))
+
+import driver
+
 TESTS = os.path.join(ROOT, "build", "release", "tests", "filters", "TestDistributedFilters")
 RANKS = 64
 FEW = 1e-3
 ON_RANKS = "Problems/Partition.*/Ring*:Problems/Partition.*/Surface*:Problems/Partition.*/WingKdTree*"
-ENVIRONMENT = {
-    "OMPI_ALLOW_RUN_AS_ROOT": "1",
-    "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
-    "OMPI_MCA_rmaps_base_oversubscribe": "1",
-    "OMPI_MCA_btl_vader_single_copy_mechanism": "none",
-    "OMPI_MCA_mpi_yield_when_idle": "1",
-    "PRTE_MCA_rmaps_default_mapping_policy": ":oversubscribe",
-}
+ENVIRONMENT = {**driver.ENVIRONMENT, "OMPI_MCA_mpi_yield_when_idle": "1"}
 
 
 def mpirun(ranks):

@@ -11,14 +11,8 @@ DRIVER = os.path.join(ROOT, "plugin", "cadrefine.py")
 DATA = os.path.join(ROOT, "data")
 TIMEOUT = 240  # Seconds after which a run counts as hanging.
 
-ENVIRONMENT = {
-    "OMPI_ALLOW_RUN_AS_ROOT": "1",
-    "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
-    "OMPI_MCA_rmaps_base_oversubscribe": "1",
-    "OMPI_MCA_btl_vader_single_copy_mechanism": "none",
-    "OMPI_MCA_btl": "^tcp,ofi",  # Open MPI 5 complains where there is no network; ofi sleeps as a process leaves.
-    "PRTE_MCA_rmaps_default_mapping_policy": ":oversubscribe",
-}
+with open(os.path.join(ROOT, "tests", "support", "open_mpi"), encoding="ascii") as settings:
+    ENVIRONMENT = dict(line.strip().split("=", 1) for line in settings if not line.startswith("#"))
 
 
 def data(name):

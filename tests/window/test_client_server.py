@@ -12,6 +12,8 @@ import subprocess
 import sys
 import time
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "pvbatch"))
+import driver
 from test_session import read_json
 from test_window import APPLY, choose_from_menu, open_file, panel
 from window import Display, Window, python
@@ -77,10 +79,8 @@ class Server:
         self.display = Display(folder)
         self.log = open(os.path.join(folder, "log.txt"), "w", encoding="utf-8")
         environment = {**window.environment(self.display), "PV_PLUGIN_CONFIG_FILE": configuration_of(window.plugin),
-                       "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
-                       "OMPI_MCA_btl_vader_single_copy_mechanism": "none", "OMPI_MCA_btl": "^tcp,ofi"}
-        self.process = subprocess.Popen(["mpirun", "-np", str(ranks), "--oversubscribe", "pvserver",
-                                         f"--server-port={self.port}"],
+                       **driver.ENVIRONMENT}
+        self.process = subprocess.Popen(["mpirun", "-np", str(ranks), "pvserver", f"--server-port={self.port}"],
                                         env=environment, stdout=self.log, stderr=subprocess.STDOUT)
 
     def __enter__(self):
