@@ -1,7 +1,6 @@
 #include <cadrefine/cad/import/FileCheck.h>
 
 #include <cadrefine/base/Error.h>
-#include <cadrefine/cad/readers/iges/IgesSections.h>
 
 #include <algorithm>
 #include <cctype>
@@ -67,9 +66,10 @@ std::string beginning(const std::string& path)
 bool looksLikeIges(const std::string& text)
 {
   constexpr std::size_t column = 72;
+  constexpr std::size_t columns = 80;
   const std::size_t end = text.find_first_of("\r\n");
-  const bool endless = end == std::string::npos && text.size() > igesLineColumns;
-  const std::string line = text.substr(0, endless ? igesLineColumns : end);
+  const bool endless = end == std::string::npos && text.size() > columns;
+  const std::string line = text.substr(0, endless ? columns : end);
   return line.size() > column && std::strchr("SCB", line[column]) != nullptr &&
          std::all_of(line.begin() + column + 1, line.end(),
            [](unsigned char c) { return std::isdigit(c) || std::isspace(c); });
