@@ -92,3 +92,17 @@ def many(ranks, folder, runs):
     os.remove(told)
     os.remove(results)
     return failures, result.stdout
+
+
+def reports_of(ranks, runs):
+    """The reports of runs, each a list of arguments, that must succeed, in one process."""
+    with tempfile.TemporaryDirectory() as folder:
+        paths = [os.path.join(folder, f"report{number}.json") for number in range(len(runs))]
+        told = [{"arguments": [*map(str, arguments), "--report", path]} for arguments, path in zip(runs, paths)]
+        failures, _ = many(ranks, folder, told)
+        assert not any(failures), failures
+        reports = []
+        for path in paths:
+            with open(path, encoding="utf-8") as file:
+                reports.append(json.load(file))
+    return reports

@@ -176,16 +176,17 @@ class Options(Case):
         """The default is within 5% of the closed form at any step; the published estimate is 3/4 of it."""
         meshes.write_ball(self.folder)
         ball = self.path("ball.msh"), self.path("ball.brep"), "--method", "uniform"
-        for depth, part, tolerance in (([], 1, 0.05), (["--recursion-depth", "1"], 0.75, 0.05),
-                                       (["--recursion-depth", "3"], 0.984, 0.01)):
-            for steps in (0, 2):
-                output = self.path("out.vtu")
-                report = driver.report_of(RANKS, *ball, "--steps", steps, *depth, "--output", output)
-                mesh = meshio.read(output)
-                corners = mesh.points[mesh.cells_dict["tetra"]]
-                volume = np.linalg.det(corners[:, 1:] - corners[:, :1]).sum() / 6
-                missing = 4 / 3 * np.pi - volume
-                self.assertAlmostEqual(report["steps"][-1]["global_error"] / missing, part, delta=tolerance)
+        cases = [(steps, *case) for steps in (0, 2) for case in (
+            ([], 1, 0.05), (["--recursion-depth", "1"], 0.75, 0.05), (["--recursion-depth", "3"], 0.984, 0.01))]
+        outputs = [self.path(f"out{number}.vtu") for number in range(len(cases))]
+        reports = driver.reports_of(RANKS, [[*ball, "--steps", steps, *depth, "--output", output]
+                                            for (steps, depth, _, _), output in zip(cases, outputs)])
+        for (_, _, part, tolerance), output, report in zip(cases, outputs, reports):
+            mesh = meshio.read(output)
+            corners = mesh.points[mesh.cells_dict["tetra"]]
+            volume = np.linalg.det(corners[:, 1:] - corners[:, :1]).sum() / 6
+            missing = 4 / 3 * np.pi - volume
+            self.assertAlmostEqual(report["steps"][-1]["global_error"] / missing, part, delta=tolerance)
 
     def test_triangles_in_space(self):
         mesh = meshio.read(self.tagged_wing())
@@ -306,29 +307,28 @@ class Options(Case):
         return self.path("wing.pvtu")
 
     def test_stops(self):
-        many = driver.report_of(RANKS, *WING, "--method", "uniform", "--maximum-cells", "2000", "--steps", "5")
-        self.assertEqual(many["steps"][-1]["cells"], 8 * 228)
+        limited = "--method", "uniform", "--maximum-cells", "8000", "--steps", "3"
+        many, tagged, pieces, bisected, none, marked, target = driver.reports_of(RANKS, [
+            [*WING, "--method", "uniform", "--maximum-cells", "2000", "--steps", "5"],
+            [self.tagged_wing(), WING[1], *limited],
+            [self.wing_after_an_empty_piece(), WING[1], *limited],
+            [*WING, "--maximum-cells", "3000", "--steps", "9", "--output", self.path("bisected.vtu")],
+            [*WING, "--maximum-cells", "0", "--quadratic"],
+            [*WING, "--threshold", "1e9"],
+            [*WING, "--target-error", "1e9"]])
+        for report in (many, tagged, pieces):
+            self.assertEqual(report["steps"][-1]["cells"], 8 * 228)
         self.assertIn("2000 cells", many["stopped"])
-        options = "--method", "uniform", "--maximum-cells", "8000", "--steps", "3"
-        tagged = driver.report_of(RANKS, self.tagged_wing(), WING[1], *options)
-        self.assertEqual(tagged["steps"][-1]["cells"], 8 * 228)
-        pieces = driver.report_of(RANKS, self.wing_after_an_empty_piece(), WING[1], *options)
-        self.assertEqual(pieces["steps"][-1]["cells"], 8 * 228)
-        bisected = driver.report_of(RANKS, *WING, "--maximum-cells", "3000", "--steps", "9", "--output",
-                                    self.path("bisected.vtu"))
         self.assertIn("3000 cells", bisected["stopped"])
         self.assertGreater(bisected["steps"][-1]["cells"], 228)
         self.assertLessEqual(bisected["steps"][-1]["cells"], 3000)
         written = meshio.read(self.path("bisected.vtu"))
         self.assertEqual(len(written.cells_dict["tetra"]), bisected["steps"][-1]["cells"])
-        none = driver.report_of(RANKS, *WING, "--maximum-cells", "0", "--quadratic")
         self.assertEqual([step["cells"] for step in none["steps"]], [228, 228])
         self.assertEqual(none["stopped"], "there would be more than 0 cells")
-        marked = driver.report_of(RANKS, *WING, "--threshold", "1e9")
         self.assertEqual(len(marked["steps"]), 1)
         self.assertRegex(marked["stopped"], r"^no cell is marked: the largest GeometricError is 0\.00\d+, "
                          r"the threshold 1e\+09$")
-        target = driver.report_of(RANKS, *WING, "--target-error", "1e9")
         self.assertEqual(len(target["steps"]), 1)
 
 
