@@ -79,8 +79,9 @@ class Gallery(unittest.TestCase):
         coarse, fine = groups_of("coarse.msh"), groups_of("mesh.vtu")
         self.assertEqual(set(coarse), {1, 2, 3, 4})
         self.assertEqual(set(fine), set(coarse))
-        for tag in coarse:
-            self.assertGreater(fine[tag], coarse[tag])
+        for tag in coarse:  # A step need not cut all of them.
+            self.assertGreaterEqual(fine[tag], coarse[tag])
+        self.assertGreater(sum(fine.values()), sum(coarse.values()))
 
     def test_pictures_are_drawn(self):
         names = [(name, file) for name in WITH_PICTURES for file in ("first.png", "last.png")] + [("tee", "groups.png")]
