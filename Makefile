@@ -46,7 +46,7 @@ test: lint build-all ## Run the tests, but for the slow ones
 
 .PHONY: test-slow
 test-slow: build-all ## Run the slow tests
-	@ctest --preset release-slow --parallel $(JOBS)
+	@ctest --preset release-slow --parallel $(JOBS) $(CTEST_ARGUMENTS)
 
 .PHONY: test-all
 test-all: lint build-all ## Run all tests
@@ -84,7 +84,7 @@ load: build ## Run very large cases, many ranks, many cycles: a table of time an
 .PHONY: sanitizers
 sanitizers: ## Run the tests of geom/ and filters/ with address and undefined behaviour sanitizers; coverage
 	@.ci/install-packages plugin tests gcovr
-	@cmake --preset sanitizers
+	@cmake --preset sanitizers $(CMAKE_ARGUMENTS)
 	@cmake --build --preset sanitizers --parallel $(JOBS)
 	@.ci/sanitizers --parallel $(JOBS) $(CTEST_ARGUMENTS)
 
