@@ -1,6 +1,7 @@
 #include <cadrefine/cad/import/FileCheck.h>
 
 #include <cadrefine/base/Error.h>
+#include <cadrefine/cad/import/IgesLine.h>
 
 #include <algorithm>
 #include <cctype>
@@ -65,13 +66,12 @@ std::string beginning(const std::string& path)
 /// number after it. Some files have no line ends.
 bool looksLikeIges(const std::string& text)
 {
-  constexpr std::size_t column = 72;
-  constexpr std::size_t columns = 80;
   const std::size_t end = text.find_first_of("\r\n");
-  const bool endless = end == std::string::npos && text.size() > columns;
-  const std::string line = text.substr(0, endless ? columns : end);
-  return line.size() > column && std::strchr("SCB", line[column]) != nullptr &&
-         std::all_of(line.begin() + column + 1, line.end(),
+  const bool endless = end == std::string::npos && text.size() > igesLineColumns;
+  const std::string line = text.substr(0, endless ? igesLineColumns : end);
+  return line.size() > igesSectionColumn &&
+         std::strchr("SCB", line[igesSectionColumn]) != nullptr &&
+         std::all_of(line.begin() + igesSectionColumn + 1, line.end(),
            [](unsigned char c) { return std::isdigit(c) || std::isspace(c); });
 }
 

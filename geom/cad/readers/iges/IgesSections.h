@@ -1,15 +1,13 @@
 // The lines of an IGES file (fixed 80 column form), sorted into its sections. Private to geom/cad.
 #pragma once
 
+#include <cadrefine/cad/import/IgesLine.h>
+
 #include <string>
 #include <vector>
 
 namespace cadrefine
 {
-
-constexpr std::size_t igesLineColumns = 80;
-constexpr std::size_t igesDataColumns = 64;   ///< Of a parameter line.
-constexpr std::size_t igesSectionColumn = 72; ///< Where the section's letter stands.
 
 struct IgesSections
 {
