@@ -201,9 +201,6 @@ class BadOptions(Case):
 
 
 class BadInput(Case):
-    def test_one_file_is_missing(self):
-        self.assert_fails(self.mesh, "missing.igs", names="missing.igs: no such file")
-
     def test_options(self):
         self.assert_fails(self.mesh, self.cad, "--steps", "many", names="--steps")
         self.assert_fails(self.mesh, self.cad, "--indicator", "error", names="--indicator-threshold")

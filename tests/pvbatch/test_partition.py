@@ -10,10 +10,6 @@ import unittest
 import driver
 import meshio
 
-CASES = {  # And the numbers of ranks.
-    "wing": ([driver.data("naca0012_coarse.vtu"), driver.data("naca0012_sharp.igs"), "--threshold", "1e-6"], (2, 4)),
-    "arcs": ([driver.data("three_arcs_coarse.vtu"), driver.data("three_arcs.igs"), "--threshold", "1e-4"], (3,)),
-}
 CRANK_ARM = "/usr/share/opencascade/data/occ/CrankArm.brep"  # Of the package occt-misc.
 MESHER = """
 import sys, gmsh
@@ -39,15 +35,20 @@ class Partition(unittest.TestCase):
         arrays = {**mesh.point_data, **{name: values[0] for name, values in mesh.cell_data.items()}}
         return mesh.points, mesh.cells[0].data, arrays, [[s[key] for key in COUNTED] for s in report["steps"]]
 
-    def test_same_on_any_number_of_ranks(self):
-        for name, (arguments, several) in CASES.items():
-            self.compare(name, arguments, several)
+    def test_wing(self):
+        self.compare((driver.data("naca0012_coarse.vtu"), driver.data("naca0012_sharp.igs"), "--threshold", "1e-6"))
 
-    def compare(self, name, arguments, several, steps=3):
+    def test_blunt_wing(self):
+        self.compare((driver.data("naca0012_blunt_coarse.vtu"), driver.data("naca0012_blunt.igs"), "--threshold", "1e-6"))
+
+    def test_arcs(self):
+        self.compare((driver.data("three_arcs_coarse.vtu"), driver.data("three_arcs.igs"), "--threshold", "1e-4"))
+
+    def compare(self, arguments, several=(2, 3, 4), steps=3):
         """A run on one rank and on several; the counted numbers of its steps."""
         points, cells, arrays, counted = self.result(1, arguments, steps)
         for ranks in several:
-            with self.subTest(case=name, ranks=ranks):
+            with self.subTest(ranks=ranks):
                 other_points, other_cells, other_arrays, other_counted = self.result(ranks, arguments, steps)
                 self.assertEqual(counted, other_counted)
                 self.assertEqual(points.tobytes(), other_points.tobytes())
@@ -58,12 +59,12 @@ class Partition(unittest.TestCase):
                         self.assertEqual(values.tobytes(), other_arrays[array].tobytes(), array)
         return counted
 
-    def test_same_with_operations(self):
+    def test_operations(self):
         """A part meshed so coarsely that vertices do not reach it by moving alone."""
         with tempfile.TemporaryDirectory() as folder:
             mesh = os.path.join(folder, "coarse.msh")
             subprocess.run([sys.executable, "-c", MESHER, CRANK_ARM, "17.48", mesh], check=True)
-            with_operations = self.compare("crank arm", (mesh, CRANK_ARM), (3,), steps=2)
+            with_operations = self.compare((mesh, CRANK_ARM), (2, 3), steps=2)
             _, _, _, cut_only = self.result(1, (mesh, CRANK_ARM, "--operations", "cut-only"), steps=2)
         off, quality = COUNTED.index("unprojected_vertices"), COUNTED.index("minimum_quality")
         self.assertEqual([step[off] for step in with_operations], [0] * len(with_operations))

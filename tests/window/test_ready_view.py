@@ -1,6 +1,6 @@
 """The button Show CAD Facets of the real ParaView window: after Adapt To CAD of the air round an aeroplane, the facets on
 the aeroplane alone, in colour, as large as they fit; of a cavity in a CAD block its face alone; in the plane the cells
-that carry error. With --server the first on two ranks.
+that carry error. With --server the first alone, on two ranks too.
 
 usage: test_ready_view.py PLUGIN DATA OUTPUT [--server]
 """
@@ -144,16 +144,22 @@ def check_others(notes):
 
 def main():
     plugin, data, output = map(os.path.abspath, sys.argv[1:4])
-    window = Window(plugin, output)
-    play_aeroplane(window, data)
-    if sys.argv[4:] == ["--server"]:
-        with Server(window, RANKS) as server:
-            notes, pictures = run(window, "--server-url", f"cs://localhost:{server.port}")
-    else:
-        play_others(window, data)
-        notes, pictures = run(window)
-        check_others(notes)
+    with_server = sys.argv[4:] == ["--server"]
+    alone = Window(plugin, output)
+    play_aeroplane(alone, data)
+    if not with_server:
+        play_others(alone, data)
+    notes, pictures = run(alone)
     check_aeroplane(notes, pictures)
+    if not with_server:
+        check_others(notes)
+    else:
+        client = Window(plugin, alone.path("client"))
+        play_aeroplane(client, data)
+        with Server(client, RANKS) as server:
+            remote, pictures = run(client, "--server-url", f"cs://localhost:{server.port}")
+        check_aeroplane(remote, pictures)
+        assert remote["aeroplane"]["cells"] == notes["aeroplane"]["cells"], remote
     print(f"the pictures are in {output}")
 
 
