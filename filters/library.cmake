@@ -3,10 +3,10 @@
 # (filters/CMakeLists.txt is that of the VTK module.)
 set(BUILD_SHARED_LIBS ON)
 
+set(CADREFINE_VTK_HEADERS <vtkCellData.h> <vtkDoubleArray.h> <vtkMultiProcessController.h> <vtkNew.h> <vtkPointData.h>
+  <vtkPolyData.h> <vtkUnstructuredGrid.h>)
 cadrefine_precompiled_headers(CADRefineFilterHeaders LINKS VTK::CommonDataModel VTK::ParallelCore
-  HEADERS <algorithm> <array> <cmath> <functional> <limits> <map> <memory> <numeric> <set> <sstream> <string> <vector>
-    <vtkCellData.h> <vtkDoubleArray.h> <vtkMultiProcessController.h> <vtkNew.h> <vtkPointData.h> <vtkPolyData.h>
-    <vtkUnstructuredGrid.h>)
+  HEADERS ${CADREFINE_VTK_HEADERS})
 
 # cadrefine_filters_library(<folder> SOURCES ... DEPENDS ...): CADRefineFilters<Folder>, static, so that the module and
 # the tests link it without exporting its classes. Its headers are included as "FOLDER/Name.h".
