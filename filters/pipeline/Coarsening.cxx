@@ -159,7 +159,7 @@ private:
     exchange_.progress().say(static_cast<double>(round) / maximumRounds,
       "taking out vertices, round " + std::to_string(round + 1) + " of at most " +
         std::to_string(maximumRounds));
-    const CoarseningLimits limits = findLimits(round > 0 ? shareOf(left) : 0);
+    const CoarseningLimits limits = findLimits(shareOf(left));
     const auto work = [&](BlockMesh& block, const SurfaceRule& rule)
     {
       VertexFate* ofPiece = fates();
@@ -183,20 +183,20 @@ private:
     return true;
   }
 
-  /// Of so many flagged vertices, how many have to go. None where some cells stay, or the boundary
+  /// Of so many flagged vertices, how many have to go. Empty where some cells stay, or the boundary
   /// may not change as a level would change it: there they are to be left. Collective.
-  double shareOf(std::int64_t left)
+  std::optional<double> shareOf(std::int64_t left)
   {
     if (!options_.criteria.empty() || options_.targetError <= 0)
     {
-      return 0;
+      return {};
     }
     const std::int64_t excess = countMesh(exchange_, state_.mesh).vertices - wanted_;
     return std::clamp(static_cast<double>(excess) / static_cast<double>(left), 0.0, 1.0);
   }
 
   /// Collective.
-  CoarseningLimits findLimits(double share)
+  CoarseningLimits findLimits(std::optional<double> share)
   {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     CoarseningLimits limits{ options_.minimumQuality, options_.maximumDistance, infinity, share };

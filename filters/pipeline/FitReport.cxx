@@ -180,7 +180,8 @@ std::string warningOfMisfit(const Fit& fit, const std::string& cadUnit, bool isW
   }
   return describeShares(fit) + "; " +
          (cause.empty() ? "check that mesh and CAD have the same position and unit of length (" +
-                            describeBoxes(fit, cadUnit) + ")"
+                            describeBoxes(fit, cadUnit) +
+                            "; Unit of the CAD Reader, driver: --cad-unit, converts the CAD)"
                         : cause);
 }
 

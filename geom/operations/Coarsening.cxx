@@ -94,9 +94,10 @@ public:
   {
   }
 
-  /// `exchanges`: where a vertex cannot go, a neighbour may go into it; as long as fewer than
-  /// `excess` have gone, also elsewhere. Returns the number of collapses.
-  std::int64_t run(bool exchanges, std::int64_t excess)
+  /// `exchanges`: where a vertex cannot go, a neighbour may go into it. `excess`: so many vertices
+  /// have to go, and no more do; of exchanges, a neighbour may also go elsewhere. Returns the
+  /// number of collapses.
+  std::int64_t run(bool exchanges, std::optional<std::int64_t> excess)
   {
     exchanges_ = exchanges;
     excess_ = excess;
@@ -142,7 +143,7 @@ private:
       changes = false;
       for (const Index vertex : vertices)
       {
-        if (waits_[vertex])
+        if (waits_[vertex] && collapses_ < excess_.value_or(collapses_ + 1))
         {
           waits_[vertex] = 0;
           costsTooMuch_ = false;
@@ -247,7 +248,7 @@ private:
     addWays(vertex, neighbours, ways);
     return collapseByBest(ways) ||
            (exchanges_ && (takeOutNeighbour(vertex, neighbours, false) ||
-                            (collapses_ < excess_ && takeOutNeighbour(vertex, neighbours, true))));
+                            (excess_ && takeOutNeighbour(vertex, neighbours, true))));
   }
 
   /// A neighbour in the place of the vertex: into it, or elsewhere.
@@ -350,7 +351,7 @@ private:
   double mostGain_ = infinity;       ///< Of the error, by a collapse.
   bool costsTooMuch_ = false;        ///< The vertex last looked at.
   bool exchanges_ = false;
-  std::int64_t excess_ = 0; ///< Vertices more than there should be in the end.
+  std::optional<std::int64_t> excess_; ///< Vertices more than there should be in the end.
   Cavity cavity_;
   std::int64_t collapses_ = 0;
 };
@@ -362,10 +363,15 @@ OperationResult coarsen(EditableMesh& mesh, const SurfaceRule& rule, std::vector
   holdStaying(fates, mesh);
   double errorLeft =
     limits.errorPerFacet < infinity ? limits.errorPerFacet * countFacetsOnCAD(mesh) : infinity;
+  const std::int64_t before = countVertices<Dimension>(mesh);
   const auto flagged = static_cast<double>(candidates(mesh, fates).size());
-  const std::int64_t wanted = countVertices<Dimension>(mesh) - std::llround(limits.share * flagged);
+  std::optional<std::int64_t> excess;
+  if (limits.share)
+  {
+    excess = std::llround(*limits.share * flagged);
+  }
   const std::int64_t collapses =
-    Coarsener<Dimension>(mesh, rule, fates, limits, errorLeft).run(false, 0);
+    Coarsener<Dimension>(mesh, rule, fates, limits, errorLeft).run(false, excess);
   if (candidates(mesh, fates).empty())
   {
     OperationResult result;
@@ -382,8 +388,12 @@ OperationResult coarsen(EditableMesh& mesh, const SurfaceRule& rule, std::vector
     fates[v] = isThere ? fates[v] : VertexFate::Stays;
   }
   fates.resize(mesh.vertexCount(), VertexFate::MayGo);
-  result.counts.collapses += Coarsener<Dimension>(mesh, rule, fates, limits, errorLeft)
-                               .run(true, countVertices<Dimension>(mesh) - wanted);
+  if (excess)
+  {
+    *excess -= before - countVertices<Dimension>(mesh);
+  }
+  result.counts.collapses +=
+    Coarsener<Dimension>(mesh, rule, fates, limits, errorLeft).run(true, excess);
   return result;
 }
 

@@ -5,6 +5,7 @@
 #include <cadrefine/operations/Operations.h>
 #include <cadrefine/operations/SurfaceRule.h>
 
+#include <optional>
 #include <vector>
 
 namespace cadrefine
@@ -20,8 +21,9 @@ struct CoarseningLimits
   /// What the sum of the geometric errors of facets on the CAD may gain for each facet that is
   /// there at first; infinite: not looked at.
   double errorPerFacet = 0;
-  /// How many vertices have to go, as a part of those that are to: improvement takes out others.
-  double share = 1;
+  /// How many vertices have to go, as a part of those that are to (improvement takes out others):
+  /// so many go, if need be others. Empty: each goes that can.
+  std::optional<double> share = {};
 };
 
 /// What is to become of a vertex.

@@ -10,7 +10,7 @@ length of its edges. Of a wing with a blunt trailing edge, which is thinner than
 solid that is read from a file, writes FOLDER/SOLID.vtu, with its nodes where gmsh put them. Point arrays:
 TruthDimension and TruthTag, the dimension and tag of gmsh's entity that the node belongs to (3: inside);
 ExactPosition, where gmsh had put it. Of surfaces that are read from files, writes FOLDER/SURFACE.vtu with triangles,
-where nodes of different faces that lie in one place are one.
+where nodes of different faces that lie in one place are one; of solids in TAGGED, the boundary triangles as well.
 """
 
 import math
@@ -147,7 +147,9 @@ FILES = {
     "bottle": ("/usr/share/opencascade/data/occ/bottle.brep", 4.7),
     "crank_arm": ("/usr/share/opencascade/data/occ/CrankArm.brep", 7.7),
     "crank_arm_coarse": ("/usr/share/opencascade/data/occ/CrankArm.brep", 12.25),
+    "crank_arm_tagged": ("/usr/share/opencascade/data/occ/CrankArm.brep", 12.25),
 }
+TAGGED = ("crank_arm_tagged",)
 
 
 # Surface: its file, the size of cells in parts of the size of the surface, and whether gmsh is to sew its faces (which
@@ -166,7 +168,7 @@ def write_cad(path, make):
 
 
 def mesh_domain(make, size, graded):
-    """Points, tetrahedra, and the entity of each point."""
+    """Points, tetrahedra, the entity of each point, boundary triangles, and the face of each."""
     gmsh.clear()
     make()
     occ.synchronize()
@@ -186,8 +188,11 @@ def mesh_domain(make, size, graded):
     for dimension, tag in gmsh.model.getEntities():
         for node in gmsh.model.mesh.getNodes(dimension, tag)[0]:
             truth[number[node]] = dimension, tag
-    corners = gmsh.model.mesh.getElementsByType(4)[1].reshape(-1, 4)
-    return coordinates.reshape(-1, 3), np.vectorize(number.get)(corners), truth
+    cells, triangles = [np.vectorize(number.get)(gmsh.model.mesh.getElementsByType(kind)[1].reshape(-1, corners))
+                        for kind, corners in ((4, 4), (2, 3))]
+    faces = np.concatenate([np.full(len(gmsh.model.mesh.getElementsByType(2, tag)[0]), tag, dtype=np.int32)
+                            for _, tag in gmsh.model.getEntities(2)])
+    return coordinates.reshape(-1, 3), cells, truth, triangles, faces
 
 
 def mean_edge_lengths(points, cells):
@@ -211,14 +216,19 @@ def moved(points, cells, seed, largest):
     return points + lengths[:, None] * directions
 
 
-def write_mesh(path, make, size, graded=False, seed=None, largest=LARGEST_MOVE):
-    """Moves the nodes where there is a seed."""
-    points, cells, truth = mesh_domain(make, size, graded)
+def write_mesh(path, make, size, graded=False, seed=None, largest=LARGEST_MOVE, tagged=False):
+    """Moves the nodes where there is a seed. `tagged`: lists the boundary triangles, with the tags of their faces."""
+    points, cells, truth, triangles, faces = mesh_domain(make, size, graded)
     used, cells = np.unique(cells, return_inverse=True)  # No nodes of curves that the mesh does not use.
     points, truth, cells = points[used], truth[used], cells.reshape(-1, 4)
     cells[volumes(points, cells) < 0] = cells[volumes(points, cells) < 0][:, [1, 0, 2, 3]]
     after = points if seed is None else moved(points, cells, seed, largest)
-    meshio.write(path, meshio.Mesh(after, [("tetra", cells)], point_data={
+    blocks = [("tetra", cells)]
+    tags = {}
+    if tagged:
+        blocks.append(("triangle", np.searchsorted(used, triangles)))
+        tags = {"gmsh:geometrical": [np.ones(len(cells), dtype=np.int32), faces]}
+    meshio.write(path, meshio.Mesh(after, blocks, cell_data=tags, point_data={
         "TruthDimension": truth[:, 0], "TruthTag": truth[:, 1], "ExactPosition": points}))
     print(f"{os.path.basename(path)}: {len(points)} vertices, {np.count_nonzero(truth[:, 0] < 3)} on the boundary, "
           f"{len(cells)} tetrahedra, {np.count_nonzero(volumes(after, cells) <= 0)} inverted")
@@ -267,7 +277,8 @@ def main():
     for name in sys.argv[2:] or FILES:
         if name in FILES:
             file, size = FILES[name]
-            write_mesh(os.path.join(folder, f"{name}.vtu"), lambda file=file: occ.importShapes(file), size)
+            write_mesh(os.path.join(folder, f"{name}.vtu"), lambda file=file: occ.importShapes(file), size,
+                       tagged=name in TAGGED)
     for name in sys.argv[2:] or SURFACES:
         if name in SURFACES:
             write_surface(os.path.join(folder, f"{name}.vtu"), *SURFACES[name])
