@@ -3,12 +3,12 @@
 #include <cadrefine/mesh/CellJacobian.h>
 #include <cadrefine/mesh/Orientation.h>
 #include <cadrefine/quadratic/BernsteinProduct.h>
+#include <cadrefine/quadratic/SerendipityMap.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <vector>
 
 namespace cadrefine
 {
@@ -17,9 +17,6 @@ namespace
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double errorOfCoefficients = 12 * epsilon;
-/// Rounding errors below this may be larger than they seem, by underflow.
-constexpr double smallestRounding = std::numeric_limits<double>::min() / epsilon;
-constexpr int maximumPieces = 256;
 
 /// Local numbers of the mid nodes between corners; of a corner and itself the corner.
 constexpr int nodeBetween[4][4] = { { 0, 4, 5, 6 }, { 4, 1, 7, 8 }, { 5, 7, 2, 9 },
@@ -59,150 +56,6 @@ double determinant(const Vector3& a, const Vector3& b, const Vector3& c)
   return dot(a, cross(b, c));
 }
 
-/// Whether a polynomial on a product of simplices is positive, with rounding errors.
-template<class Basis>
-class PositivityTest
-{
-public:
-  using Coefficients = typename Basis::Coefficients;
-
-  explicit PositivityTest(const BezierForm<Basis::count()>& form)
-  {
-    // Corners of the parameters, so that all edges are equally long.
-    Corners corners{};
-    for (auto& ofFactor : corners)
-    {
-      for (int k = 0; k < mostCorners; ++k)
-      {
-        ofFactor[k][k] = 1;
-      }
-    }
-    largest_ = 0;
-    for (const double coefficient : form.coefficients)
-    {
-      largest_ = std::max(largest_, std::abs(coefficient));
-    }
-    pieces_.push_back({ form.coefficients, corners, form.rounding });
-  }
-
-  bool run()
-  {
-    for (int count = 1; !pieces_.empty(); ++count)
-    {
-      const Piece piece = pieces_.back();
-      pieces_.pop_back();
-      const auto isPositive = [&](double coefficient) { return coefficient > piece.rounding; };
-      if (std::all_of(piece.coefficients.begin(), piece.coefficients.end(), isPositive))
-      {
-        continue;
-      }
-      if (count == maximumPieces || !isPositiveAtCorners(piece))
-      {
-        return false;
-      }
-      halve(piece);
-    }
-    return true;
-  }
-
-private:
-  static constexpr int mostCorners = 4;
-  /// Of the piece in each factor.
-  using Corners =
-    std::array<std::array<std::array<double, mostCorners>, mostCorners>, Basis::factors>;
-
-  struct Piece
-  {
-    Coefficients coefficients;
-    Corners corners;
-    double rounding;
-  };
-
-  /// An edge of a piece, in one of the factors.
-  struct Edge
-  {
-    std::size_t factor;
-    int a;
-    int b;
-  };
-
-  static bool isPositiveAtCorners(const Piece& piece)
-  {
-    for (int t = 0; t < Basis::count(); ++t)
-    {
-      if (Basis::isAtCorner(t) && !(piece.coefficients[t] > piece.rounding))
-      {
-        return false;
-      }
-    }
-    return true;
-  }
-
-  static double squaredLength(const Piece& piece, const Edge& edge)
-  {
-    double sum = 0;
-    for (int k = 0; k < mostCorners; ++k)
-    {
-      const auto& corners = piece.corners[edge.factor];
-      const double difference = corners[edge.a][k] - corners[edge.b][k];
-      sum += difference * difference;
-    }
-    return sum;
-  }
-
-  static Edge longestEdge(const Piece& piece)
-  {
-    Edge longest{ 0, 0, 1 };
-    for (std::size_t factor = 0; factor < Basis::factors; ++factor)
-    {
-      for (int a = 0; a < Basis::corners[factor]; ++a)
-      {
-        for (int b = a + 1; b < Basis::corners[factor]; ++b)
-        {
-          if (squaredLength(piece, { factor, a, b }) > squaredLength(piece, longest))
-          {
-            longest = { factor, a, b };
-          }
-        }
-      }
-    }
-    return longest;
-  }
-
-  /// A coefficient takes part in as many means as the degree says, which round by half of epsilon
-  /// of the result.
-  void halve(const Piece& piece)
-  {
-    const auto [factor, a, b] = longestEdge(piece);
-    for (const auto& [kept, lost] : { std::array<int, 2>{ a, b }, std::array<int, 2>{ b, a } })
-    {
-      Piece half{ Basis::half(piece.coefficients, factor, kept, lost), piece.corners,
-        piece.rounding + Basis::degrees[factor] * epsilon * largest_ };
-      const auto& corners = piece.corners[factor];
-      for (int k = 0; k < mostCorners; ++k)
-      {
-        half.corners[factor][lost][k] = 0.5 * (corners[a][k] + corners[b][k]);
-      }
-      pieces_.push_back(half);
-    }
-  }
-
-  std::vector<Piece> pieces_;
-  double largest_ = 0;
-};
-
-template<class Basis>
-bool isPositive(const BezierForm<Basis::count()>& form)
-{
-  const auto isCertain = [&](double coefficient) { return coefficient > form.rounding; };
-  if (!(form.rounding > smallestRounding && form.rounding <= std::numeric_limits<double>::max()))
-  {
-    return false;
-  }
-  return std::all_of(form.coefficients.begin(), form.coefficients.end(), isCertain) ||
-         PositivityTest<Basis>(form).run();
-}
-
 template<class Shape>
 std::array<Point3, Shape::corners> cornersOf(Shape, const CurvedCell<Shape>& nodes)
 {
@@ -240,94 +93,6 @@ bool isValidCell(
   const auto corners = cornersOf(shape, nodes);
   return nodes == straightCell(shape, corners) ? isValidStraight(shape, corners, side)
                                                : isPositive();
-}
-
-template<int Degree>
-using OnSegment = BernsteinSimplex<2, Degree>;
-template<int Degree>
-using OnTriangle = BernsteinSimplex<3, Degree>;
-
-/// Where the Bezier points of serendipity cells are, and the degree of the determinant.
-template<class Shape>
-struct SerendipityMap;
-
-template<>
-struct SerendipityMap<shapes::Quadrilateral>
-{
-  using Basis = BernsteinProduct<OnSegment<2>, OnSegment<2>>;
-  using Jacobian = BernsteinProduct<OnSegment<3>, OnSegment<3>>;
-  static constexpr int quadrilaterals[1][4] = { { 0, 1, 2, 3 } };
-
-  /// Place of the point halfway between those at two corners.
-  static constexpr int placeBetween(int a, int b)
-  {
-    constexpr int places[4] = { 0, 6, 8, 2 };
-    return (places[a] + places[b]) / 2;
-  }
-};
-
-template<>
-struct SerendipityMap<shapes::Hexahedron>
-{
-  using Basis = BernsteinProduct<OnSegment<2>, OnSegment<2>, OnSegment<2>>;
-  using Jacobian = BernsteinProduct<OnSegment<5>, OnSegment<5>, OnSegment<5>>;
-  static constexpr auto& quadrilaterals = shapes::Hexahedron::faces;
-
-  static constexpr int placeBetween(int a, int b)
-  {
-    constexpr int places[8] = { 0, 18, 24, 6, 2, 20, 26, 8 };
-    return (places[a] + places[b]) / 2;
-  }
-};
-
-template<>
-struct SerendipityMap<shapes::Wedge>
-{
-  using Basis = BernsteinProduct<OnTriangle<2>, OnSegment<2>>;
-  using Jacobian = BernsteinProduct<OnTriangle<4>, OnSegment<5>>;
-  static constexpr int quadrilaterals[3][4] = { { 0, 1, 4, 3 }, { 1, 2, 5, 4 }, { 2, 0, 3, 5 } };
-
-  static constexpr int placeBetween(int a, int b)
-  {
-    constexpr int places[3][3] = { { 0, 1, 2 }, { 1, 3, 4 }, { 2, 4, 5 } };
-    return 3 * places[a % 3][b % 3] + a / 3 + b / 3;
-  }
-};
-
-template<class Shape>
-using BezierPoints = BezierPolynomial<typename SerendipityMap<Shape>::Basis, Vector3>;
-
-/// Less the first node.
-template<class Shape>
-BezierPoints<Shape> bezierPointsOf(Shape, const CurvedCell<Shape>& nodes)
-{
-  using Map = SerendipityMap<Shape>;
-  BezierPoints<Shape> result;
-  const auto at = [&](int a, int b) -> Vector3&
-  { return result.coefficients[Map::placeBetween(a, b)]; };
-  Vector3 sumOfCorners{};
-  Vector3 sumOfEdges{};
-  for (int c = 0; c < static_cast<int>(Shape::corners); ++c)
-  {
-    at(c, c) = nodes[c] - nodes[0];
-    sumOfCorners = sumOfCorners + at(c, c);
-  }
-  std::size_t node = Shape::corners;
-  for (const auto& [a, b] : Shape::edges)
-  {
-    at(a, b) = 2.0 * (nodes[node++] - nodes[0]) - 0.5 * (at(a, a) + at(b, b));
-    sumOfEdges = sumOfEdges + at(a, b);
-  }
-  for (const auto& [a, b, c, d] : Map::quadrilaterals)
-  {
-    at(a, c) = 0.25 * (2.0 * (at(a, b) + at(b, c) + at(c, d) + at(d, a)) -
-                        (at(a, a) + at(b, b) + at(c, c) + at(d, d)));
-  }
-  if constexpr (Shape::corners == 8)
-  {
-    at(0, 6) = 0.25 * (sumOfEdges - sumOfCorners);
-  }
-  return result;
 }
 
 double oneNorm(const Vector3& vector)

@@ -3,6 +3,7 @@
 
 #include <cadrefine/base/Vector3.h>
 #include <cadrefine/mesh/Mesh.h>
+#include <cadrefine/quadratic/BezierForm.h>
 
 #include <algorithm>
 #include <array>
@@ -22,20 +23,6 @@ using CurvedTetrahedron = CurvedCell<shapes::Tetrahedron>;
 using CurvedPyramid = CurvedCell<shapes::Pyramid>;
 using CurvedWedge = CurvedCell<shapes::Wedge>;
 using CurvedHexahedron = CurvedCell<shapes::Hexahedron>;
-
-/// A polynomial on a simplex in Bezier form: sum over the multi-indices of coefficient times
-/// Bernstein polynomial. Coefficients are in the order of the ascending index tuples: of degree 2
-/// on a triangle 00 01 02 11 12 22, of degree 3 on a tetrahedron 000 001 002 003 011 ... 333. On a
-/// square, a cube or a prism (see BernsteinProduct) there is one for each combination of those of
-/// the segments and the triangle that these are products of. The polynomial lies between the
-/// smallest and the largest of them, and is equal to those with one index at the corners. Its mean
-/// is theirs.
-template<std::size_t Count>
-struct BezierForm
-{
-  std::array<double, Count> coefficients{};
-  double rounding = 0; ///< No coefficient is farther from that of exact arithmetic.
-};
 
 /// The Jacobian determinant of x(l) = sum N_i(l) x_i with respect to the barycentric coordinates
 /// l_1, l_2, l_3: six times the volume where the cell is straight. Its derivatives are linear in l
@@ -74,13 +61,9 @@ BezierForm<16> jacobianOf(const CurvedQuadrilateral& nodes, const Vector3& side)
 BezierForm<90> jacobianOf(const CurvedWedge& nodes);
 BezierForm<216> jacobianOf(const CurvedHexahedron& nodes);
 
-/// Whether the Jacobian determinant is positive on all of the cell, for certain: its smallest
-/// Bezier coefficient is larger than the rounding errors in it. Where it is not, and no corner
-/// tells that the cell is invalid, the cell is halved at the longest edge of its parameters, with
-/// the coefficients of the halves by de Casteljau's algorithm, which converge to the polynomial at
-/// second order: a valid cell is not refused because its bounds are loose. A cell is refused if it
-/// takes more than 256 pieces to tell. About 0.2 microseconds without a halving, and
-/// 0.1 for each; of a hexahedron ten times that.
+/// Whether the Jacobian determinant is positive on all of the cell, for certain (see isPositive):
+/// halving sees to it that a valid cell is not refused because its bounds are loose. About 0.2
+/// microseconds without a halving, and 0.1 for each; of a hexahedron ten times that.
 ///
 /// A cell all of whose mid nodes are the middles of its edges, to the last bit, is straight: it is
 /// valid by its corners (see CellJacobian.h), of a simplex by its exact orientation. Others whose
