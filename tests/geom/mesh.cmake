@@ -1,6 +1,7 @@
 cadrefine_geom_test(mesh_tests
   SOURCES
     mesh/CellJacobianTest.cxx
+    mesh/CellSizeTest.cxx
     mesh/EdgeTableTest.cxx
     mesh/FacetsTest.cxx
     mesh/OrientationTest.cxx

@@ -1,21 +1,17 @@
 // Small meshes of hexahedra, wedges, pyramids, tetrahedra, quadrilaterals and triangles.
 #pragma once
 
+#include "HexahedralMeshes.h"
+
 #include <cadrefine/mesh/Mesh.h>
 
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <random>
 #include <vector>
 
 namespace cadtest
 {
-
-/// The unit cube as n * n * n hexahedra, and the unit square as n * n quadrilaterals; inner
-/// vertices are moved at random by up to `jitter` / n in each direction. Ids are in a random order.
-cadrefine::Mesh hexahedraMesh(int n, double jitter, std::uint64_t seed);
-cadrefine::Mesh quadrilateralsMesh(int n, double jitter, std::uint64_t seed);
 
 /// What becomes of a hexahedron.
 enum class BoxKind
@@ -34,19 +30,6 @@ cadrefine::Mesh mixedMesh(const cadrefine::Mesh& hexahedra,
 /// Every hexahedron cut in any way; some quadrilaterals halved.
 cadrefine::Mesh randomlyMixedMesh(const cadrefine::Mesh& hexahedra, std::uint64_t seed);
 
-/// Ball round the origin: n * n * n hexahedra in the middle, and shells on its six sides that end
-/// at these parts of the way to the sphere (the last one is 1). Vertices lie off the sphere by up
-/// to `offset` times the radius.
-cadrefine::Mesh hexahedralBallMesh(
-  double radius, double offset, int n, const std::vector<double>& parts);
-/// Shells of hexahedra round that sphere, at these heights over its vertices, the last one at three
-/// times the radius. They stand on it with their side 0, 1, 2, 3, the lowest shell first.
-cadrefine::Mesh hexahedralShellMesh(
-  double radius, double offset, int n, const std::vector<double>& heights);
-/// The shells at these heights round a sphere alone, of n x n hexahedra on each side of a cube.
-cadrefine::Mesh hexahedralWallMesh(double radius, int n, const std::vector<double>& heights);
-/// Those of these hexahedra where no coordinate is negative.
-cadrefine::Mesh eighthOf(const cadrefine::Mesh& hexahedra);
 /// Rings of quadrilaterals round a polygon near a circle at these heights; outside, to three times
 /// the radius, a ring of quadrilaterals and triangles.
 cadrefine::Mesh quadrilateralRingMesh(
