@@ -9,7 +9,6 @@
 
 #include <cadrefine/base/Error.h>
 
-#include <vtkCellData.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
 #include <vtkNew.h>

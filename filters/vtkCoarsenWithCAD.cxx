@@ -42,7 +42,7 @@ cadrefine::PipelineResult vtkCoarsenWithCAD::Execute(
   const cadrefine::Mesh& mesh = state.mesh.mesh();
   const auto isEmpty = [](const auto& cells) { return cells.empty(); };
   if (exchange.any(mesh.hasOtherThanSimplices()) &&
-      !exchange.any(!cadrefine::visitCells(mesh, isEmpty)))
+      !exchange.any(!cadrefine::visitOwnSimplices(mesh, isEmpty)))
   {
     throw cadrefine::Error(
       "only triangles and tetrahedra are coarsened, and all cells of the mesh are others; the "

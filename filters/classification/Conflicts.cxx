@@ -35,7 +35,7 @@ public:
     {
       conflicts_[v] = takesPart(v) && (taken_[v] ? hasLineElsewhere(v) : isBetweenEntities(v));
     }
-    if (task_.triangles())
+    if (task_.ofFaces())
     {
       lookAtFacets();
       lookAtEdges();

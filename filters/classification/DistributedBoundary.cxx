@@ -7,7 +7,6 @@
 #include "comm/Threads.h"
 #include "mesh/BoundaryFacets.h"
 
-#include <cadrefine/classification/CADAdjacency.h>
 #include <cadrefine/mesh/Quality.h>
 
 #include <algorithm>
@@ -83,9 +82,8 @@ BoundaryKind kindOfBoundary(
   RankExchange& exchange, const DistributedMesh& mesh, const CADModel& model)
 {
   const Mesh& piece = mesh.mesh();
-  return piece.dimension == 2 && isPlanar(findBounds(exchange, piece), model)
-           ? BoundaryKind::Segments
-           : BoundaryKind::Triangles;
+  return piece.dimension == 2 && isPlanar(findBounds(exchange, piece), model) ? BoundaryKind::Edges
+                                                                              : BoundaryKind::Faces;
 }
 
 DistributedBoundary findBoundary(RankExchange& exchange, const DistributedMesh& mesh,
@@ -94,7 +92,7 @@ DistributedBoundary findBoundary(RankExchange& exchange, const DistributedMesh& 
   DistributedBoundary boundary;
   const Mesh& piece = mesh.mesh();
   boundary.kind = kindOfBoundary(exchange, mesh, model);
-  if (piece.dimension == 3 || boundary.kind == BoundaryKind::Segments)
+  if (piece.dimension == 3 || boundary.kind == BoundaryKind::Edges)
   {
     boundary.facets = findBoundaryFacets(exchange, mesh, among);
   }
@@ -162,7 +160,7 @@ ClassifiedFacet classifiedFacet(
 FacetRecord makeRecord(const BoundaryProjector& projector, const ClassifiedFacet& facet)
 {
   FacetRecord record;
-  if (projector.kind() == BoundaryKind::Triangles)
+  if (projector.kind() == BoundaryKind::Faces)
   {
     const Vector3 twofoldArea = twofoldAreaVector(facet.points, facet.corners);
     record.normal = normalized(twofoldArea);
@@ -237,7 +235,7 @@ BoundaryClasses classifyBoundary(RankExchange& exchange, const Mesh& mesh,
       record.onCAD = isClassified(facet);
     }
     record.odd = !record.onCAD && facet.corners > 2 && isClassified(facet);
-    if (boundary.kind == BoundaryKind::Triangles)
+    if (boundary.kind == BoundaryKind::Faces)
     {
       record.face = record.onCAD ? projector.faceOf(facet) : -1;
       record.ear = projector.earOf(facet);

@@ -21,7 +21,7 @@ class BoundaryCache;
 /// which vertices lie on that boundary. Refers to the mesh it was made from.
 struct DistributedBoundary
 {
-  BoundaryKind kind = BoundaryKind::Triangles;
+  BoundaryKind kind = BoundaryKind::Faces;
   /// The facets are the cells of a mesh of area in space.
   bool ofSurface = false;
   std::vector<Facet> facets;
@@ -37,7 +37,7 @@ struct DistributedBoundary
   /// Length of the shortest boundary edge at each vertex, over all ranks; infinite elsewhere.
   std::vector<double> shortestEdge;
 
-  int facetDimension() const { return kind == BoundaryKind::Triangles ? 2 : 1; }
+  int facetDimension() const { return kind == BoundaryKind::Faces ? 2 : 1; }
 };
 
 /// Whether a mesh of triangles within these bounds is planar, and compared with the edges of the

@@ -224,8 +224,8 @@ std::vector<std::int32_t> findCADEdges(const ProjectionTask& task,
   const std::vector<ClosestPoint>& hits, const std::vector<FacetRecord>& records,
   const std::vector<unsigned char>& settled)
 {
-  return task.triangles() ? edgesOfMeshEdges(task, hits, records, settled)
-                          : edgesOfSegments(task, records);
+  return task.ofFaces() ? edgesOfMeshEdges(task, hits, records, settled)
+                        : edgesOfSegments(task, records);
 }
 
 } // namespace cadrefine

@@ -8,7 +8,6 @@
 #include <cadrefine/classification/ClassificationTolerances.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 
 namespace cadrefine
@@ -215,7 +214,7 @@ FacetClasses classifyFacets(const ProjectionTask& task, const std::vector<Closes
   auto& records = classes.records;
   const ParallelFor parallelFor = forOnThreads(task.exchange);
   agreeOnFailure(task.exchange, [&] { records = makeRecords(task, hits, parallelFor); });
-  if (!task.triangles())
+  if (!task.ofFaces())
   {
     return classes;
   }

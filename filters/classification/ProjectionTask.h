@@ -28,7 +28,7 @@ struct ProjectionOptions
   std::optional<double> maximumDistance;
   /// Cells that are inverted or flat are to be mended (see MoveSettings).
   bool mendCells = false;
-  /// See improveCells; none: no local operations.
+  /// See improveMesh; none: no local operations.
   std::optional<double> minimumQuality;
 
   bool inRegion(const Point3& p) const
@@ -49,7 +49,7 @@ struct ProjectionTask
 
   const std::vector<Point3>& points() const { return mesh.mesh().points; }
   const CADModel& model() const { return projector.model(); }
-  bool triangles() const { return boundary.kind == BoundaryKind::Triangles; }
+  bool ofFaces() const { return boundary.kind == BoundaryKind::Faces; }
   /// How far a vertex may be from the CAD.
   double limit(std::size_t vertex) const
   {

@@ -115,7 +115,7 @@ void addFaces(const ProjectionTask& task, const std::vector<ClosestPoint>& hits,
     {
       if (record.face < 0)
       {
-        meeting.undecided[vertex] = task.triangles();
+        meeting.undecided[vertex] = task.ofFaces();
         continue;
       }
       meeting.faces[vertex].add(record.face);
@@ -168,7 +168,7 @@ VertexClassification classifyVertices(
 void placeVertices(
   const ProjectionTask& task, const VertexClassification& meeting, std::vector<ClosestPoint>& hits)
 {
-  if (!task.triangles())
+  if (!task.ofFaces())
   {
     return;
   }

@@ -55,7 +55,7 @@ void visitSides(
     {
       continue;
     }
-    if (boundary.kind == BoundaryKind::Segments)
+    if (boundary.kind == BoundaryKind::Edges)
     {
       visit(v[0], points[v[1]] - points[v[0]]);
       visit(v[1], points[v[0]] - points[v[1]]);
@@ -77,13 +77,13 @@ std::vector<Meeting> findMeetings(
   RankExchange& exchange, const DistributedMesh& mesh, const ClassifiedBoundary& classified)
 {
   const DistributedBoundary& boundary = classified.boundary;
-  const bool triangles = boundary.kind == BoundaryKind::Triangles;
+  const bool ofFaces = boundary.kind == BoundaryKind::Faces;
   std::vector<Meeting> meetings(
-    triangles ? boundary.edges.edges().size() : mesh.mesh().points.size());
+    ofFaces ? boundary.edges.edges().size() : mesh.mesh().points.size());
   visitSides(mesh.mesh().points, classified,
     [&](Index place, const Vector3& into)
     { meetings[place] = joined(meetings[place], meetingWith(into)); });
-  combineShared(exchange, triangles ? boundary.sharedEdges : mesh.shared, meetings, joined);
+  combineShared(exchange, ofFaces ? boundary.sharedEdges : mesh.shared, meetings, joined);
   return meetings;
 }
 
@@ -100,19 +100,19 @@ std::vector<double> neighbourAngles(RankExchange& exchange, const DistributedMes
   const ClassifiedBoundary& classified, const Classification& classification)
 {
   const DistributedBoundary& boundary = classified.boundary;
-  const bool triangles = boundary.kind == BoundaryKind::Triangles;
+  const bool ofFaces = boundary.kind == BoundaryKind::Faces;
   const auto meetings = findMeetings(exchange, mesh, classified);
   const auto isSmoothAt = [&](Index place)
   {
-    return triangles ? isSmooth(classified.classes.ofEdges[place], classified.projector.model())
-                     : classification.entities[place].dimension != 0;
+    return ofFaces ? isSmooth(classified.classes.ofEdges[place], classified.projector.model())
+                   : classification.entities[place].dimension != 0;
   };
   std::vector<double> result(boundary.facets.size(), 0.0);
   for (std::size_t f = 0; f < result.size(); ++f)
   {
     if (classified.classes.facets[f].onCAD)
     {
-      const auto& sides = triangles ? boundary.facetEdges[f] : boundary.facets[f].vertices;
+      const auto& sides = ofFaces ? boundary.facetEdges[f] : boundary.facets[f].vertices;
       for (int k = 0; k < boundary.facets[f].corners(); ++k)
       {
         if (isSmoothAt(sides[k]))

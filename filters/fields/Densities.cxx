@@ -6,7 +6,6 @@
 #include <cadrefine/mesh/CellState.h>
 #include <cadrefine/mesh/Overlap.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -93,7 +92,7 @@ double sizeOfCurved(Shape, const CurvedCell<Shape>& nodes, const Vector3& plane)
 WeightedRows densitiesOfCurved(const Mesh& mesh, const MidNodes& nodes, const Vector3& plane)
 {
   WeightedRows rows;
-  if (mesh.dimension == 2 && plane == Vector3{})
+  if (isSurface(mesh, plane))
   {
     return rows;
   }

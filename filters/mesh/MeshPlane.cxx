@@ -7,6 +7,10 @@ namespace cadrefine
 
 Vector3 planeNormal(RankExchange& exchange, const Mesh& mesh)
 {
+  if (mesh.dimension != 2)
+  {
+    return {};
+  }
   std::vector<std::int64_t> turns(3, 0);
   std::vector<std::int64_t> outside(3, 0);
   visitShapes(mesh, 2,

@@ -8,9 +8,9 @@
 namespace cadrefine
 {
 
-/// Unit normal of the coordinate plane in which all triangles and quadrilaterals lie, turned the
-/// way most of them turn; zero where there is no such plane. Collective; two reductions of three
-/// numbers, work linear in their number.
+/// Unit normal of the coordinate plane in which all cells of a mesh of area lie, turned the way
+/// most of them turn; zero where there is no such plane, and of other meshes. Collective; two
+/// reductions of three numbers, work linear in the cells.
 Vector3 planeNormal(RankExchange& exchange, const Mesh& mesh);
 
 } // namespace cadrefine

@@ -18,9 +18,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <iterator>
 #include <string>
-#include <utility>
 
 namespace cadrefine
 {

@@ -72,7 +72,7 @@ std::vector<Index> movingVertices(const Moves& moves)
 bool isInvalid(const Mesh& mesh, const Vector3& plane, Index cell)
 {
   bool invalid = false;
-  if (mesh.dimension == 3 || plane != Vector3{})
+  if (!isSurface(mesh, plane))
   {
     visitOwnCell(mesh, cell,
       [&](auto shape, const auto& corners)
@@ -86,12 +86,6 @@ std::vector<Index> invalidCells(
 {
   return indicesWhere(parallelFor, mesh.cellCount(mesh.dimension),
     [&](std::size_t c) { return isInvalid(mesh, plane, static_cast<Index>(c)); });
-}
-
-/// See planeNormal. Collective.
-Vector3 planeOf(RankExchange& exchange, const Mesh& mesh)
-{
-  return mesh.dimension == 2 ? planeNormal(exchange, mesh) : Vector3{};
 }
 
 /// Collective.
@@ -315,9 +309,9 @@ void smooth(Motion& motion, const MoveGuard& guard)
   {
     flags[vertex] = 1;
   }
-  const bool isSurface = motion.mesh().dimension == 2 && motion.plane == Vector3{};
+  const bool slides = isSurface(motion.mesh(), motion.plane);
   const double fair = motion.settings.smoothWorst ? fairQuality : noQuality;
-  moveTo(motion, untangleRound(motion, std::move(flags), motion.mesh().points, 1, isSurface, fair));
+  moveTo(motion, untangleRound(motion, std::move(flags), motion.mesh().points, 1, slides, fair));
 }
 
 /// Writes where vertices slid to, and how far those that were to move are from their targets.
@@ -346,7 +340,7 @@ void moveOntoCAD(RankExchange& exchange, DistributedMesh& mesh, Moves moves,
 {
   const Progress& progress = exchange.progress();
   progress.say(0, "moving vertices onto the CAD");
-  const Vector3 plane = planeOf(exchange, mesh.mesh());
+  const Vector3 plane = planeNormal(exchange, mesh.mesh());
   const std::vector<Index> aimed = movingVertices(moves);
   Left left{ aimed, settings.mendCells ? invalidCells(mesh.mesh(), plane, forOnThreads(exchange))
                                        : std::vector<Index>{} };
@@ -402,7 +396,7 @@ std::vector<Point3> wantedPoints(RankExchange& exchange, const DistributedMesh& 
       vertex, projector.nearestOn(classification.entities[vertex], piece.points[vertex]).point);
   }
   LayerColumns columns(exchange, mesh, verticesOf(mesh, classification), moves, projector, fixed,
-    planeOf(exchange, piece));
+    planeNormal(exchange, piece));
   if (columns.any())
   {
     columns.follow(exchange, moves);

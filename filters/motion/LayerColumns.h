@@ -1,16 +1,8 @@
 // The cells of boundary layers move along with the wall that they stand on.
 #pragma once
 
-#include "mesh/DistributedMesh.h"
-#include "motion/ColumnClimb.h"
-#include "motion/FirstEdges.h"
+#include "motion/Columns.h"
 
-#include <cadrefine/base/Moves.h>
-#include <cadrefine/classification/BoundaryProjector.h>
-#include <cadrefine/mesh/Facets.h>
-
-#include <cstdint>
-#include <limits>
 #include <vector>
 
 namespace cadrefine
@@ -66,96 +58,12 @@ public:
   void tie(RankExchange& exchange, Moves& moves) const;
 
 private:
-  /// Which column has a node: that of the lowest level, of these the smallest one; -1: the node
-  /// moves by itself.
-  struct Claim
-  {
-    std::int64_t level = std::numeric_limits<std::int64_t>::max();
-    GlobalId column = -1;
-
-    friend bool operator<(const Claim& a, const Claim& b)
-    {
-      return a.level != b.level ? a.level < b.level : a.column < b.column;
-    }
-  };
-
-  /// A node that a column comes to, see ColumnVisit.
-  struct Member
-  {
-    Index node;
-    Index column;
-    std::int64_t level;
-    double height;
-    double part; ///< Of the move of the wall's node; the rest is of the facing one's.
-  };
-
-  /// Of all columns of this rank.
-  struct WallMoves
-  {
-    std::vector<Vector3> own;
-    std::vector<Vector3> facing; ///< Zero where a column faces none.
-
-    Vector3 of(const Member& member) const
-    {
-      return member.part * own[member.column] + (1 - member.part) * facing[member.column];
-    }
-  };
-
-  /// How a column's move fades out: smoothly from its first node to where it ends, or in proportion
-  /// to the height, from the wall on.
-  struct Span
-  {
-    double first;  ///< Height of the first node.
-    double end;    ///< Of the last one; between walls of that before the facing wall.
-    double height; ///< Of where the column ends, or of the facing wall.
-    double faded;  ///< Part of the move that has faded out there.
-    double smooth; ///< Weight of the smooth way.
-  };
-
-  void listMembers(
-    RankExchange& exchange, const std::vector<ColumnVisit>& visits, const Moves& moves);
-  void findYielding(RankExchange& exchange, const Moves& moves, const std::vector<double>& cosines);
-  void findLifts(RankExchange& exchange, const std::vector<FirstEdge>& edges);
-  std::vector<Claim> findClaims(
-    RankExchange& exchange, const Moves& moves, const std::vector<unsigned char>& isLeftOut) const;
-  Claim claimOf(const Member& member) const { return { member.level, columns_[member.column] }; }
-  std::vector<unsigned char> findFacing(RankExchange& exchange, const Moves& moves,
-    const std::vector<Claim>& claims, const std::vector<double>& tops);
-  std::vector<Span> findSpans(
-    RankExchange& exchange, const Moves& moves, const std::vector<Claim>& claims);
-
-  /// The moves of the nodes that columns have on this rank or on others. Collective.
-  std::vector<Vector3> movesOf(
-    RankExchange& exchange, const Moves& moves, const std::vector<Index>& ofColumns) const;
-  WallMoves movesOfWalls(RankExchange& exchange, const Moves& moves) const;
-  std::vector<Vector3> movesOfMembers(RankExchange& exchange, const WallMoves& ofWalls,
-    const std::vector<unsigned char>& isLeftOut) const;
-  std::vector<unsigned char> findBlocked(RankExchange& exchange, const WallMoves& ofWalls,
-    const std::vector<unsigned char>& isLost) const;
-  Point3 placeOf(Index node, const Vector3& move) const;
-  bool keepsDirection(Index node, const Vector3& move) const;
-  template<class Use>
-  void forAllFacets(const Use& use) const;
   template<class Use>
   void forAllTied(const Use& use) const;
 
-  const DistributedMesh& mesh_;
-  const ColumnNodes nodes_;
-  const BoundaryProjector& projector_;
-  Vector3 plane_;
+  Columns columns_;
   bool any_ = false;
-  std::vector<Facet> facets_;     ///< Of the mesh's boundary.
-  std::vector<GlobalId> columns_; ///< Ascending: twice the id of the wall's node, 1 more beyond.
-  std::vector<Index> walls_; ///< The node of each column's wall; -1: only other ranks start it.
-  SharedItems shared_;       ///< Columns.
-  std::vector<unsigned char> yields_; ///< 1: a node that goes with a column, wherever it was to go.
-  /// The node of the wall where a column ends, if another one comes back from there; -1: none, or
-  /// only other ranks have it.
-  std::vector<Index> facing_;
-  bool anyFacing_ = false;     ///< On any rank.
-  std::vector<Vector3> lifts_; ///< By which the nodes of a column go farther than its wall's.
-  std::vector<Member> members_;
-  std::vector<Member> following_; ///< Those of them that move.
+  std::vector<ColumnMember> following_; ///< Those of the columns' members that move.
 };
 
 } // namespace cadrefine

@@ -22,8 +22,7 @@ EditableMesh::Kind kindOf(const Mesh& mesh, BoundaryKind boundary)
   {
     return EditableMesh::Kind::Solid;
   }
-  return boundary == BoundaryKind::Segments ? EditableMesh::Kind::Plane
-                                            : EditableMesh::Kind::Surface;
+  return boundary == BoundaryKind::Edges ? EditableMesh::Kind::Plane : EditableMesh::Kind::Surface;
 }
 
 } // namespace
@@ -52,7 +51,7 @@ void BlockMesh::fill(const Members& members, const std::vector<GlobalId>& cellId
 {
   std::vector<Index> cells = members.cells;
   std::sort(cells.begin(), cells.end(), [&](Index a, Index b) { return cellIds[a] < cellIds[b]; });
-  visitCells(mesh_, [&](const auto& all) { addVertices(all, cells); });
+  visitOwnSimplices(mesh_, [&](const auto& all) { addVertices(all, cells); });
   if (mesh_.dimension == 3)
   {
     for (const Index cell : cells)
@@ -175,7 +174,7 @@ void BlockMesh::addSegments(const Members& members)
       const bool onCAD = boundary_.classes.facets[f].onCAD != 0;
       const bool isOnWall = edgeClass.kind == EdgeClass::Straight && !onCAD;
       const auto corners = sorted(localCorners(edges.edges()[e]));
-      if (boundary_.boundary.kind == BoundaryKind::Segments)
+      if (boundary_.boundary.kind == BoundaryKind::Edges)
       {
         segments[corners] = { corners, onCAD ? lineOf(edges.edges()[e]) : wallLabel, -1,
           edgeClass };

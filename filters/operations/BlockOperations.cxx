@@ -3,6 +3,7 @@
 #include "comm/CollectiveErrors.h"
 #include "mesh/MeshPlane.h"
 #include "operations/BlockMesh.h"
+#include "operations/Blocks.h"
 #include "operations/PieceMaker.h"
 #include "operations/VertexBlocks.h"
 #include "refinement/DistributedRefinement.h"
@@ -12,7 +13,6 @@
 #include <cadrefine/mesh/VertexFlags.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <map>
 #include <numeric>
@@ -98,7 +98,7 @@ void moveParameters(const std::vector<Point3>& before, const std::vector<Point3>
 /// Cells of the mesh's own dimension that are simplices.
 std::size_t simplexCount(const Mesh& mesh)
 {
-  return visitCells(mesh, [](const auto& cells) { return cells.size(); });
+  return visitOwnSimplices(mesh, [](const auto& cells) { return cells.size(); });
 }
 
 /// What each block has, and what is in none.
@@ -162,7 +162,7 @@ OperationBlocks findOperationBlocks(RankExchange& exchange, const DistributedMes
                 cells.begin(), cells.end(), [&](Index cell) { return !settings.mayChange(cell); }),
     cells.end());
   const std::vector<Point3> centres =
-    visitCells(piece, [&](const auto& all) { return centresOf(all, cells, piece.points); });
+    visitOwnSimplices(piece, [&](const auto& all) { return centresOf(all, cells, piece.points); });
   const Blocks found =
     findBlocks(exchange, centres, findBounds(exchange, piece), settings.round, settings.largest);
   const std::size_t count = mesh.converted.cellIds[piece.dimension].size();
@@ -233,7 +233,7 @@ OperationTrace operateOnBlocks(RankExchange& exchange, DistributedMesh& mesh,
   {
     list.emplace_back(number, &ofBlock);
   }
-  const Vector3 plane = mesh.mesh().dimension == 2 ? planeNormal(exchange, mesh.mesh()) : Vector3{};
+  const Vector3 plane = planeNormal(exchange, mesh.mesh());
   std::vector<BlockMesh> meshes(list.size(),
     BlockMesh(mesh, task.wanted, plane, ofVertices, classification, boundary, task.labels));
   std::vector<OperationResult> results(list.size());

@@ -4,7 +4,6 @@
 #include "classification/DistributedBoundary.h"
 #include "mesh/DistributedMesh.h"
 #include "operations/BlockMesh.h"
-#include "operations/Blocks.h"
 
 #include <cadrefine/base/ParallelFor.h>
 #include <cadrefine/classification/Classification.h>
@@ -12,7 +11,6 @@
 #include <cadrefine/operations/SurfaceRule.h>
 #include <cadrefine/refinement/RefinementTrace.h>
 
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <vector>

@@ -45,7 +45,7 @@ void forSidesInBlocks(const Mesh& mesh, const std::vector<std::int64_t>& ofCells
       }
     }
   };
-  visitCells(mesh,
+  visitOwnSimplices(mesh,
     [&](const auto& cells)
     {
       for (std::size_t c = 0; c < cells.size(); ++c)
@@ -113,7 +113,7 @@ std::vector<std::int64_t> blocksOfVertices(
       }
     }
   };
-  visitCells(mesh.mesh(), joinAt);
+  visitOwnSimplices(mesh.mesh(), joinAt);
   visitOwnShapes(mesh.mesh(),
     [&](auto shape, const auto& cells)
     {

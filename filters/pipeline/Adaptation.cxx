@@ -12,7 +12,6 @@
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
-#include <vtkPointData.h>
 #include <vtkTable.h>
 
 #include <cstdint>

@@ -371,7 +371,7 @@ MeshWithBoundary makeDataSetWithBoundary(const PipelineContext& context, MeshSta
   {
     return makeWithFaces(context, state, ofFacets);
   }
-  return boundary.kind == BoundaryKind::Triangles
+  return boundary.kind == BoundaryKind::Faces
            ? makeWithFacets(context, state, ofFacets, shapes::Triangle{}, shapes::Quadrilateral{})
            : makeWithFacets(context, state, ofFacets, shapes::Segment{});
 }

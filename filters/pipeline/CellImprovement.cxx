@@ -1,6 +1,5 @@
 #include "pipeline/CellImprovement.h"
 
-#include "classification/EdgeMidpoints.h"
 #include "mesh/MeshPlane.h"
 #include "motion/BoundaryMotion.h"
 #include "pipeline/LocalOperations.h"
@@ -55,17 +54,14 @@ public:
 
   void run()
   {
-    if (!exchange_.any(visitCells(mesh(), [](const auto& cells) { return !cells.empty(); })))
+    if (!exchange_.any(visitOwnSimplices(mesh(), [](const auto& cells) { return !cells.empty(); })))
     {
       return; // other cells do not change
     }
-    if (mesh().dimension == 2)
+    plane_ = planeNormal(exchange_, mesh());
+    if (isSurface(mesh(), plane_) && projector_.kind() == BoundaryKind::Edges)
     {
-      plane_ = planeNormal(exchange_, mesh());
-      if (plane_ == Vector3{} && projector_.kind() == BoundaryKind::Segments)
-      {
-        return; // the CAD's edges do not tell on which surface they are
-      }
+      return; // the CAD's edges do not tell on which surface they are
     }
     Left left = operateInRounds();
     const std::int64_t mostCells = std::max(largestGrowth * left.cells, fewCells);
@@ -243,7 +239,7 @@ private:
     }
     const std::vector<Index> cells = badCells(points);
     flagVertices(mesh(), cells, flags);
-    const auto all = visitCells(mesh(),
+    const auto all = visitOwnSimplices(mesh(),
       [](const auto& cellsOfMesh) { return static_cast<std::int64_t>(cellsOfMesh.size()); });
     const auto counts = exchange_.sum(
       std::vector<std::int64_t>{ owned, static_cast<std::int64_t>(cells.size()), all });
@@ -272,7 +268,7 @@ private:
 
   std::vector<Index> badCells(const std::vector<Point3>& points) const
   {
-    return visitCells(state_.mesh.mesh(),
+    return visitOwnSimplices(state_.mesh.mesh(),
       [&](const auto& cells)
       {
         return indicesWhere(state_.parallelFor, cells.size(),
@@ -307,10 +303,12 @@ private:
   /// Returns whether cells have changed.
   bool improve(const std::vector<unsigned char>& flags, int round)
   {
-    const std::int64_t operations = operate(context_, state_, flags,
+    const std::int64_t operations = operateOnMesh(context_, state_, flags,
       { ringsOfCells, round, options_.largestBlock,
-        [&](Index cell)
-        { return visitCells(mesh(), [&](const auto& cells) { return mayChange(cells[cell]); }); } },
+        [&](Index cell) {
+          return visitOwnSimplices(
+            mesh(), [&](const auto& cells) { return mayChange(cells[cell]); });
+        } },
       [&](BlockMesh& block, const SurfaceRule& rule)
       { return improveCells(block.mesh(), &rule, limitsFor(block.mesh())); });
     operations_ += operations;
@@ -349,7 +347,7 @@ private:
 
 } // namespace
 
-void improveCells(
+void improveMesh(
   const PipelineContext& context, MeshState& state, const CellImprovementOptions& options)
 {
   if (state.mesh.mesh().dimension >= 2 && state.classification)

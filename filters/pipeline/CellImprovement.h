@@ -29,7 +29,7 @@ struct CellImprovementOptions
 /// as they are. Cells, listed triangles and lines are told apart by their tags (see isTag).
 /// Collective. Work: that of qualityOf; where something is found, a look at every cell, and in
 /// rounds that of redistribute, findBoundary, improveCells of a block and moveOntoCAD.
-void improveCells(
+void improveMesh(
   const PipelineContext& context, MeshState& state, const CellImprovementOptions& options);
 
 } // namespace cadrefine

@@ -63,7 +63,7 @@ private:
     {
     }
     state_.arrays.ofVertices->RemoveArray(fatesArray);
-    improveCells(
+    improveMesh(
       context_, state_, { options_.minimumQuality, {}, options_.largestBlock, { 0, true }, false });
     const std::int64_t gone = before - countMesh(exchange_, state_.mesh).vertices;
     gone_ += gone;
@@ -178,7 +178,7 @@ private:
       }
       return result;
     };
-    operate(context_, state_, flagged,
+    operateOnMesh(context_, state_, flagged,
       { 2, round, options_.largestBlock, [](Index) { return true; } }, work);
     return true;
   }

@@ -17,14 +17,14 @@ struct CoarseningOptions
   std::vector<MarkingCriterion> criteria;
   double targetError = 0;     ///< The global geometric error stays at most this large; 0: not used.
   double maximumDistance = 0; ///< New facets are no farther from the CAD; 0: not used.
-  double minimumQuality = 0.1;      ///< See improveCells.
+  double minimumQuality = 0.1;      ///< See improveMesh.
   std::int64_t largestBlock = 8192; ///< Cells of a block.
 };
 
 /// Coarsens a classified mesh, level by level: of the vertices none of whose cells is marked, those
 /// of verticesToRemove go, by edge collapses (see coarsenCells) in rounds of blocks that lie
-/// elsewhere in each (see operate), so far as the limits allow; then cells are improved (see
-/// improveCells). Without a target or a distance new facets are no farther from the CAD than those
+/// elsewhere in each (see operateOnMesh), so far as the limits allow; then cells are improved (see
+/// improveMesh). Without a target or a distance new facets are no farther from the CAD than those
 /// before. Collective. Returns the number of vertices that went, over all ranks. Work and messages:
 /// those of these, and in each round measureError where there is a target.
 std::int64_t coarsenMesh(

@@ -7,7 +7,6 @@
 #include <cadrefine/mesh/VertexFlags.h>
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 namespace cadrefine
@@ -77,7 +76,7 @@ void findNumberings(RankExchange& exchange, MeshState& state)
   }
 }
 
-std::int64_t operate(const PipelineContext& context, MeshState& state,
+std::int64_t operateOnMesh(const PipelineContext& context, MeshState& state,
   const std::vector<unsigned char>& flags, const BlockSettings& settings, const BlockWork& work)
 {
   RankExchange& exchange = context.exchange;

@@ -20,7 +20,7 @@ void findNumberings(RankExchange& exchange, MeshState& state);
 /// number of operations over all ranks. Collective. Work and messages: those of findBlocks,
 /// redistribute where a block is on several ranks, findClassifiedBoundary of the facets at the
 /// blocks, and operateOnBlocks.
-std::int64_t operate(const PipelineContext& context, MeshState& state,
+std::int64_t operateOnMesh(const PipelineContext& context, MeshState& state,
   const std::vector<unsigned char>& flags, const BlockSettings& settings, const BlockWork& work);
 
 } // namespace cadrefine

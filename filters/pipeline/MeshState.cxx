@@ -86,8 +86,8 @@ std::vector<EntityId> entitiesOfFacets(const PipelineContext& context, MeshState
   ClassifiedBoundary& classified = boundaryOf(context, state);
   const DistributedBoundary& boundary = classified.boundary;
   const Mesh& mesh = state.mesh.mesh();
-  const bool triangles = boundary.kind == BoundaryKind::Triangles;
-  if (!triangles && !classified.midpoints)
+  const bool ofFaces = boundary.kind == BoundaryKind::Faces;
+  if (!ofFaces && !classified.midpoints)
   {
     findMidpoints(context.exchange, mesh, *state.classification, state.cache, classified);
   }
@@ -95,7 +95,7 @@ std::vector<EntityId> entitiesOfFacets(const PipelineContext& context, MeshState
   const auto find = [&](std::size_t f)
   {
     const FacetRecord& record = classified.classes.facets[f];
-    if (record.onCAD && triangles)
+    if (record.onCAD && ofFaces)
     {
       entities[f] = faceOf(classified.projector, centroidOf(mesh, boundary.facets[f]), record.face);
     }

@@ -26,7 +26,7 @@ CellQualities measureCells(RankExchange& exchange, const Mesh& mesh)
   {
     return result;
   }
-  const Vector3 plane = mesh.dimension == 2 ? planeNormal(exchange, mesh) : Vector3{};
+  const Vector3 plane = planeNormal(exchange, mesh);
   visitOwnShapes(mesh,
     [&](auto shape, const auto& cells)
     {
@@ -67,7 +67,7 @@ CellQualities measureQuality(RankExchange& exchange, const DistributedMesh& mesh
     piece.dimension == 3 ? summariseCells(piece, forOnThreads(exchange)) : summaryOf(result);
   if (mesh.converted.midNodes)
   {
-    const Vector3 plane = piece.dimension == 2 ? planeNormal(exchange, piece) : Vector3{};
+    const Vector3 plane = planeNormal(exchange, piece);
     result.valid = findValidCells(piece, *mesh.converted.midNodes, plane);
     mine.invalidCells = summaryOf(result).invalidCells;
   }

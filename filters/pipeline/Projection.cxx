@@ -136,7 +136,7 @@ std::string projectMesh(
     {
       improvement.inRegion = [&](const Point3& point) { return options.inRegion(point); };
     }
-    improveCells(context, state, improvement);
+    improveMesh(context, state, improvement);
   }
   vtkFieldData* ofMesh = state.arrays.ofMesh;
   summariseMesh(exchange, state.mesh, qualityOf(exchange, state), ofMesh);

@@ -22,7 +22,6 @@
 #include <optional>
 #include <set>
 #include <string>
-#include <utility>
 
 namespace cadrefine
 {
@@ -293,7 +292,7 @@ private:
       const auto stopwatch = watch("seconds local operations");
       CellImprovementOptions improvement{ *options_.minimumQuality };
       improvement.surface.keepsError = options_.keepsError;
-      improveCells(context_, state_, improvement);
+      improveMesh(context_, state_, improvement);
     }
   }
 
@@ -316,8 +315,8 @@ private:
     if (!state_.mapping.needs().densities.empty())
     {
       const Mesh& mesh = state_.mesh.mesh();
-      state_.mapping.scale(densitiesOfCurved(mesh, *state_.mesh.converted.midNodes,
-        mesh.dimension == 2 ? planeNormal(exchange_, mesh) : Vector3{}));
+      state_.mapping.scale(
+        densitiesOfCurved(mesh, *state_.mesh.converted.midNodes, planeNormal(exchange_, mesh)));
     }
     followMapping(exchange_, state_, done);
   }

@@ -26,7 +26,7 @@ struct RefinementOptions
   /// See markLongestEdges.
   bool keepLayers = true;
   bool projectNewVertices = true;
-  /// See improveCells; none: no local operations.
+  /// See improveMesh; none: no local operations.
   std::optional<double> minimumQuality;
   bool keepsError = false; ///< See SurfaceLimits.
   bool balance = true;

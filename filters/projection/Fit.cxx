@@ -73,7 +73,7 @@ class FitSearch
 public:
   FitSearch(const ProjectionTask& task, const ProjectionResult& result, Fit& fit)
     : task_(task), result_(result), fit_(fit),
-      dimension_(static_cast<std::int8_t>(task.triangles() ? 2 : 1)),
+      dimension_(static_cast<std::int8_t>(task.ofFaces() ? 2 : 1)),
       entities_(task.model().count(dimension_))
   {
   }
@@ -192,7 +192,7 @@ private:
   void addPart(std::vector<std::int64_t>& parts, const Facet& facet, const FacetRecord& record,
     double measure) const
   {
-    const std::int32_t index = task_.triangles() ? record.face : edgeOf(facet);
+    const std::int32_t index = task_.ofFaces() ? record.face : edgeOf(facet);
     const double whole = index < 0 ? 0 : task_.model().measure({ dimension_, index });
     if (whole > 0)
     {

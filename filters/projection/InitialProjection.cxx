@@ -100,10 +100,10 @@ void leaveOut(const ProjectionTask& task, const EntitySelection& chosen,
       return;
     }
     const Point3 centroid = centroidOf(task.mesh.mesh(), task.boundary.facets[f]);
-    const EntityId entity = task.triangles()
-                              ? faceOf(task.projector, centroid, records[f].face)
-                              : edgeOf(task.model(), task.projector.nearest(centroid,
-                                                       std::numeric_limits<double>::infinity()));
+    const EntityId entity =
+      task.ofFaces() ? faceOf(task.projector, centroid, records[f].face)
+                     : edgeOf(task.model(),
+                         task.projector.nearest(centroid, std::numeric_limits<double>::infinity()));
     records[f].onCAD = chosen.contains(task.model().nurbs(), entity);
   };
   agreeOnFailure(
@@ -146,7 +146,7 @@ ProjectionResult projectBoundary(RankExchange& exchange, DistributedMesh& mesh,
   if (!options.faces.empty())
   {
     const EntitySelection chosen =
-      selectEntities(task.model(), task.triangles() ? 2 : 1, options.faces, "Faces");
+      selectEntities(task.model(), task.ofFaces() ? 2 : 1, options.faces, "Faces");
     leaveOut(task, chosen, forOnThreads(exchange), facets.records);
     onCAD = findVerticesOnCAD(task, facets.records);
   }

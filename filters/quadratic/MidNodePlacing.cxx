@@ -39,8 +39,7 @@ public:
   Placing(RankExchange& exchange, const DistributedMesh& mesh, const SharedEdges& sharedEdges,
     const ClassifiedBoundary& classified)
     : exchange_(exchange), mesh_(mesh), sharedEdges_(sharedEdges), classified_(classified),
-      nodes_(*mesh.converted.midNodes),
-      plane_(mesh.mesh().dimension == 2 ? planeNormal(exchange, mesh.mesh()) : Vector3{}),
+      nodes_(*mesh.converted.midNodes), plane_(planeNormal(exchange, mesh.mesh())),
       moves_(nodes_.points)
   {
   }

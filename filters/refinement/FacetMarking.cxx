@@ -79,7 +79,7 @@ private:
 
   bool meetSmoothly(std::size_t f, std::size_t other) const
   {
-    if (boundary_.kind == BoundaryKind::Triangles)
+    if (boundary_.kind == BoundaryKind::Faces)
     {
       const auto& mine = boundary_.facetEdges[f];
       const auto& its = boundary_.facetEdges[other];

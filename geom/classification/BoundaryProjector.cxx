@@ -37,7 +37,7 @@ ClosestPoint BoundaryProjector::nearest(const Point3& point, double limit) const
 {
   SearchScope scope;
   scope.maximumDistance = limit;
-  scope.faces = kind_ == BoundaryKind::Triangles;
+  scope.faces = kind_ == BoundaryKind::Faces;
   return onSharedEdge(model_, point, model_.nearest(point, scope));
 }
 
@@ -83,7 +83,7 @@ bool BoundaryProjector::isOnCAD(const ClassifiedFacet& facet) const
 {
   const auto& p = facet.points;
   const double unlimited = std::numeric_limits<double>::infinity();
-  if (kind_ == BoundaryKind::Segments)
+  if (kind_ == BoundaryKind::Edges)
   {
     const ClosestPoint where = nearest(0.5 * (p[0] + p[1]), unlimited);
     return fitsTangent(model_, where, normalized(p[1] - p[0]));
@@ -209,7 +209,7 @@ EdgeClass BoundaryProjector::classify(const std::array<Point3, 2>& points,
   const bool endsOnEdges = entities[0].dimension <= 1 && entities[1].dimension <= 1;
   const bool isInFace = onCAD.size() == 2 && onCAD[0].face == onCAD[1].face;
   const EdgeClass onFace{ EdgeClass::Smooth, isInFace ? onCAD[0].face : -1 };
-  if (kind_ == BoundaryKind::Segments || !endsOnEdges)
+  if (kind_ == BoundaryKind::Edges || !endsOnEdges)
   {
     return onFace;
   }
@@ -241,7 +241,7 @@ ClosestPoint BoundaryProjector::projectOnEdge(std::int32_t edge, const Point3& p
 std::vector<std::int32_t> BoundaryProjector::entitiesOf(
   const EdgeClass& edgeClass, const std::array<EntityId, 2>& entities) const
 {
-  const std::int8_t dimension = kind_ == BoundaryKind::Triangles ? 2 : 1;
+  const std::int8_t dimension = kind_ == BoundaryKind::Faces ? 2 : 1;
   return isOnFace(edgeClass) ? std::vector<std::int32_t>{ edgeClass.entity }
                              : commonEntities(model_.nurbs(), entities[0], entities[1], dimension);
 }
@@ -250,7 +250,7 @@ std::vector<std::int32_t> BoundaryProjector::entitiesOf(
 ClosestPoint BoundaryProjector::nearestOnShared(
   const EdgeClass& edgeClass, const std::array<EntityId, 2>& entities, const Point3& point) const
 {
-  const std::int8_t dimension = kind_ == BoundaryKind::Triangles ? 2 : 1;
+  const std::int8_t dimension = kind_ == BoundaryKind::Faces ? 2 : 1;
   ClosestPoint best;
   for (const std::int32_t entity : entitiesOf(edgeClass, entities))
   {

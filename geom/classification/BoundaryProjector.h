@@ -14,13 +14,12 @@
 namespace cadrefine
 {
 
-/// What the CAD is compared with: the boundary facets of a mesh of volume, or the cells of a mesh
-/// of area in space (triangles and quadrilaterals, against CAD faces), or the boundary facets of a
-/// planar mesh (segments, against CAD edges).
+/// What facets are compared with: the triangles and quadrilaterals of a boundary of volume or of a
+/// surface in space with CAD faces, the segments of a planar mesh's boundary with CAD edges.
 enum class BoundaryKind
 {
-  Triangles,
-  Segments
+  Faces,
+  Edges
 };
 
 /// A facet with the CAD entities that its corners lie on.

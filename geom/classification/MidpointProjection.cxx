@@ -197,7 +197,7 @@ ClosestPoint onNose(
 {
   const auto& [a, b] = edge.points;
   const double length = distance(a, b);
-  if (projector.kind() != BoundaryKind::Triangles || edge.edgeClass.kind != EdgeClass::Smooth ||
+  if (projector.kind() != BoundaryKind::Faces || edge.edgeClass.kind != EdgeClass::Smooth ||
       where.entity.dimension != 2 || where.distance <= noseHeight * length)
   {
     return {};
@@ -250,7 +250,7 @@ ClosestPoint onNose(
 ClosestPoint offCrease(
   const BoundaryProjector& projector, const BoundaryEdge& edge, const ClosestPoint& where)
 {
-  if (projector.kind() != BoundaryKind::Triangles || edge.edgeClass.kind != EdgeClass::Smooth)
+  if (projector.kind() != BoundaryKind::Faces || edge.edgeClass.kind != EdgeClass::Smooth)
   {
     return where;
   }

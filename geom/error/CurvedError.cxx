@@ -64,7 +64,7 @@ class CurvedFacetError
 public:
   CurvedFacetError(const BoundaryProjector& projector, const CurvedErrorFacet& facet)
     : projector_(projector), facet_(facet), innerEdge_{ { EdgeClass::Smooth, facet.face }, false },
-      count_(projector.kind() == BoundaryKind::Segments ? 2 : facet.straight.corners.corners)
+      count_(projector.kind() == BoundaryKind::Edges ? 2 : facet.straight.corners.corners)
   {
     constexpr Point2 ofSquare[4] = { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } };
     for (int k = 0; k < count_; ++k)

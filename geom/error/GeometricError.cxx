@@ -14,12 +14,12 @@ namespace
 
 int cornersOf(BoundaryKind kind, const SurfaceFacet& facet)
 {
-  return kind == BoundaryKind::Segments ? 2 : facet.quad < 0 ? 3 : 4;
+  return kind == BoundaryKind::Edges ? 2 : facet.quad < 0 ? 3 : 4;
 }
 
 int edgesOf(BoundaryKind kind, const SurfaceFacet& facet)
 {
-  return kind == BoundaryKind::Segments ? 1 : cornersOf(kind, facet);
+  return kind == BoundaryKind::Edges ? 1 : cornersOf(kind, facet);
 }
 
 /// The vertices that refinement would make in the middle of the edges and quadrilaterals.
@@ -262,7 +262,7 @@ ClassifiedSurface subdivide(
 {
   ClassifiedSurface children;
   children.kind = surface.kind;
-  const bool areTriangles = surface.kind == BoundaryKind::Triangles;
+  const bool ofFaces = surface.kind == BoundaryKind::Faces;
   const auto firstMiddle = static_cast<Index>(surface.points.size());
   const auto firstInner = static_cast<Index>(2 * surface.edges.size());
   children.points.reserve(surface.points.size() + middles.size());
@@ -271,7 +271,7 @@ ClassifiedSurface subdivide(
     children.points.push_back({ p.place, p.placeEntity });
   }
   children.points.insert(children.points.end(), middles.begin(), middles.end());
-  children.edges.reserve(firstInner + (areTriangles ? 3 * surface.facets.size() : 0));
+  children.edges.reserve(firstInner + (ofFaces ? 3 * surface.facets.size() : 0));
   Index quads = 0;
   for (std::size_t e = 0; e < surface.edges.size(); ++e)
   {
@@ -280,11 +280,11 @@ ClassifiedSurface subdivide(
     children.edges.push_back({ { ends[0], middle }, edgeClass });
     children.edges.push_back({ { middle, ends[1] }, edgeClass });
   }
-  children.facets.reserve((areTriangles ? 4 : 2) * surface.facets.size());
+  children.facets.reserve((ofFaces ? 4 : 2) * surface.facets.size());
   for (const SurfaceFacet& facet : surface.facets)
   {
     const auto& [corners, edges, face, quad] = facet;
-    if (!areTriangles)
+    if (!ofFaces)
     {
       const Index middle = firstMiddle + edges[0];
       children.facets.push_back(
@@ -349,7 +349,7 @@ std::vector<FacetError> errorsOf(const ClassifiedSurface& surface,
   for (FacetError& error : errors)
   {
     error.lastLevel = 0;
-    for (const auto end = child + (surface.kind == BoundaryKind::Triangles ? 4 : 2); child != end;
+    for (const auto end = child + (surface.kind == BoundaryKind::Faces ? 4 : 2); child != end;
          ++child)
     {
       error.measure += child->measure;

@@ -52,7 +52,7 @@ struct SurfaceFacet
 /// Facets on the CAD, with the points and edges that they share.
 struct ClassifiedSurface
 {
-  BoundaryKind kind = BoundaryKind::Triangles;
+  BoundaryKind kind = BoundaryKind::Faces;
   std::vector<SurfacePoint> points;
   std::vector<SurfaceEdge> edges;
   std::vector<SurfaceFacet> facets;

@@ -30,10 +30,10 @@ std::vector<Index> orderByIds(const std::vector<GlobalId>& ids)
   return order;
 }
 
-/// Calls use(place, a, b) for the sides of the cells in turn, `place` being where the number of the
+/// Calls use(place, a, b) for the edges of the cells in turn, `place` being where the number of the
 /// edge is to stand.
 template<std::size_t Corners, std::size_t Edges, class Use>
-void forEachSide(
+void forEachCellEdge(
   const Cells<Corners>& cells, const int (&ends)[Edges][2], std::size_t& place, const Use& use)
 {
   for (const auto& cell : cells)
@@ -63,23 +63,23 @@ void visitWithEdges(const Mesh& mesh, const Visit& visit)
 }
 
 template<class Use>
-void forEachSide(const Mesh& mesh, const Use& use)
+void forEachCellEdge(const Mesh& mesh, const Use& use)
 {
   std::size_t place = 0;
-  visitWithEdges(mesh,
-    [&](auto shape, const auto& cells) { forEachSide(cells, decltype(shape)::edges, place, use); });
-}
-
-std::size_t countSides(const Mesh& mesh)
-{
-  std::size_t sides = 0;
   visitWithEdges(mesh, [&](auto shape, const auto& cells)
-    { sides += std::size(decltype(shape)::edges) * cells.size(); });
-  return sides;
+    { forEachCellEdge(cells, decltype(shape)::edges, place, use); });
 }
 
-/// A side in the bucket of its end of lower rank.
-struct Side
+std::size_t countCellEdges(const Mesh& mesh)
+{
+  std::size_t count = 0;
+  visitWithEdges(mesh, [&](auto shape, const auto& cells)
+    { count += std::size(decltype(shape)::edges) * cells.size(); });
+  return count;
+}
+
+/// A cell's edge in the bucket of its end of lower rank.
+struct CellEdge
 {
   Index other; ///< Rank of its other end.
   std::uint32_t place;
@@ -87,11 +87,11 @@ struct Side
   static constexpr std::size_t most = std::numeric_limits<std::uint32_t>::max();
 };
 
-/// Where the number of the edge of a side stands.
-class SidePlaces
+/// Where the number of a cell's edge stands.
+class CellEdgePlaces
 {
 public:
-  SidePlaces(const Mesh& mesh, EdgeTable& table)
+  CellEdgePlaces(const Mesh& mesh, EdgeTable& table)
   {
     std::size_t place = 0;
     visitWithEdges(mesh,
@@ -132,7 +132,7 @@ private:
   std::vector<Run> runs_;
 };
 
-/// Numbers the edges of each bucket of sides in turn, in the order of their other ends.
+/// Numbers the edges of each bucket in turn, in the order of their other ends.
 class EdgeNumberer
 {
 public:
@@ -143,16 +143,16 @@ public:
     table_.firstOfRank.push_back(0);
   }
 
-  void operator()(Index rank, const Side* first, const Side* last)
+  void operator()(Index rank, const CellEdge* first, const CellEdge* last)
   {
     const Index firstEdge = table_.firstOfRank.back();
     others_.clear();
-    for (const Side* side = first; side != last; ++side)
+    for (const CellEdge* edge = first; edge != last; ++edge)
     {
-      if (edgeTo_[side->other] < firstEdge)
+      if (edgeTo_[edge->other] < firstEdge)
       {
-        edgeTo_[side->other] = firstEdge; // seen; which edge it is follows below
-        others_.push_back(side->other);
+        edgeTo_[edge->other] = firstEdge; // seen; which edge it is follows below
+        others_.push_back(edge->other);
       }
     }
     std::sort(others_.begin(), others_.end());
@@ -161,9 +161,9 @@ public:
       edgeTo_[other] = static_cast<Index>(table_.edges.size());
       table_.edges.push_back({ order_[rank], order_[other] });
     }
-    for (const Side* side = first; side != last; ++side)
+    for (const CellEdge* edge = first; edge != last; ++edge)
     {
-      places_[side->place] = edgeTo_[side->other];
+      places_[edge->place] = edgeTo_[edge->other];
     }
     table_.firstOfRank.push_back(static_cast<Index>(table_.edges.size()));
   }
@@ -171,7 +171,7 @@ public:
 private:
   const std::vector<Index>& order_;
   EdgeTable& table_;
-  SidePlaces places_;
+  CellEdgePlaces places_;
   std::vector<Index> edgeTo_; ///< The last edge that was found to end at a rank.
   std::vector<Index> others_;
 };
@@ -231,7 +231,7 @@ Index EdgeTable::find(Index a, Index b) const
 
 EdgeTable buildEdgeTable(const Mesh& mesh)
 {
-  requireAtMost(countSides(mesh), "edges of cells", Side::most);
+  requireAtMost(countCellEdges(mesh), "edges of cells", CellEdge::most);
   EdgeTable table;
   const std::vector<Index> order = orderByIds(mesh.ids);
   table.rankOfVertex.resize(order.size());
@@ -240,10 +240,10 @@ EdgeTable buildEdgeTable(const Mesh& mesh)
     table.rankOfVertex[order[rank]] = static_cast<Index>(rank);
   }
   const auto& ranks = table.rankOfVertex;
-  VertexBuckets<Side> sides(order.size(),
+  VertexBuckets<CellEdge> cellEdges(order.size(),
     [&](const auto& use)
     {
-      forEachSide(mesh,
+      forEachCellEdge(mesh,
         [&](std::size_t place, Index a, Index b)
         {
           const auto [low, high] = std::minmax(ranks[a], ranks[b]);
@@ -252,8 +252,8 @@ EdgeTable buildEdgeTable(const Mesh& mesh)
     });
 
   EdgeNumberer numberer(mesh, order, table);
-  sides.forEach(
-    [&](Index rank, const Side* first, const Side* last) { numberer(rank, first, last); });
+  cellEdges.forEach(
+    [&](Index rank, const CellEdge* first, const CellEdge* last) { numberer(rank, first, last); });
   requireAtMost(table.edges.size(), "edges");
   measureLengths(mesh, table);
   return table;

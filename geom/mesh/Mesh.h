@@ -44,9 +44,15 @@ struct Mesh
   }
 };
 
-/// visit(cells) of the cells of the mesh's own dimension.
+/// Whether it is a mesh of area in space. `plane`: the normal of a planar one, else zero.
+inline bool isSurface(const Mesh& mesh, const Vector3& plane)
+{
+  return mesh.dimension == 2 && plane == Vector3{};
+}
+
+/// visit(cells) of the simplices of the mesh's own dimension: its tetrahedra, or its triangles.
 template<class AnyMesh, class Visit>
-decltype(auto) visitCells(AnyMesh& mesh, const Visit& visit)
+decltype(auto) visitOwnSimplices(AnyMesh& mesh, const Visit& visit)
 {
   return mesh.dimension == 3 ? visit(mesh.tetrahedra) : visit(mesh.triangles);
 }

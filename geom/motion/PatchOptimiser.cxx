@@ -287,7 +287,7 @@ Point3 PatchOptimiser::onItsEntity(Index vertex, const Point3& point) const
 PatchOptimiser::Boundary PatchOptimiser::boundaryAt(Index vertex) const
 {
   const auto& mesh = patch_.mesh;
-  const bool areCells = mesh.dimension == 2 && patch_.plane == Vector3{};
+  const bool areCells = isSurface(mesh, patch_.plane);
   std::vector<std::array<Index, 2>> others;
   const auto add = [&](Index a, Index b)
   {

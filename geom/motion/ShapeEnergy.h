@@ -4,7 +4,6 @@
 #include <cadrefine/base/Vector3.h>
 
 #include <array>
-#include <optional>
 #include <vector>
 
 namespace cadrefine

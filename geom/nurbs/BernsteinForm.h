@@ -5,8 +5,6 @@
 #include <cadrefine/nurbs/Interval.h>
 #include <cadrefine/nurbs/PatchView.h>
 
-#include <vector>
-
 namespace cadrefine
 {
 

@@ -5,7 +5,6 @@
 #include <cadrefine/base/EntityId.h>
 #include <cadrefine/nurbs/Bezier.h>
 
-#include <array>
 #include <cstdint>
 #include <vector>
 

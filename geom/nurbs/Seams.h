@@ -5,7 +5,6 @@
 #include <cadrefine/nurbs/PatchView.h>
 
 #include <array>
-#include <vector>
 
 namespace cadrefine
 {

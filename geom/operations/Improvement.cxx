@@ -1,13 +1,11 @@
 #include <cadrefine/operations/Improvement.h>
 
-#include <cadrefine/mesh/Quality.h>
 #include <cadrefine/operations/FailedAttempts.h>
 #include <cadrefine/operations/ImprovementRule.h>
 #include <cadrefine/operations/Operations.h>
 #include <cadrefine/operations/ParentCells.h>
 #include <cadrefine/operations/Relocation.h>
 #include <cadrefine/operations/SplitSwaps.h>
-#include <cadrefine/operations/TriangleOperations.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -157,8 +155,8 @@ private:
     forEdges(corners, false,
       [&](Index a, Index b)
       {
-        consider(
-          proposeEdgeRemoval(mesh_, a, b, cavity_, Shape::NoWorse), &OperationCounts::edgeRemovals);
+        consider(proposeEdgeRemoval(mesh_, a, b, cavity_, NewCells::NoWorse),
+          &OperationCounts::edgeRemovals);
       });
     for (int k = 0; k <= Dimension; ++k)
     {

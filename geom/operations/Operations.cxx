@@ -315,7 +315,8 @@ void split(const SimplexStore<Corners>& store, Index a, Index b, Index middle,
 
 } // namespace
 
-bool proposeEdgeRemoval(const EditableMesh& mesh, Index a, Index b, Cavity& cavity, Shape shape)
+bool proposeEdgeRemoval(
+  const EditableMesh& mesh, Index a, Index b, Cavity& cavity, NewCells newCells)
 {
   if (mesh.dimension() == 2)
   {
@@ -354,7 +355,7 @@ bool proposeEdgeRemoval(const EditableMesh& mesh, Index a, Index b, Cavity& cavi
     cavity.newFacets = { { { first, b, last }, one.label, isFirst ? one.parent : other.parent },
       { { first, last, a }, one.label, isFirst ? other.parent : one.parent } };
   }
-  const double least = shape == Shape::NoWorse ? mesh.worst(cavity.cells) : impossible;
+  const double least = newCells == NewCells::NoWorse ? mesh.worst(cavity.cells) : impossible;
   const RingTriangulation triangulation(mesh, r, a, b, least);
   if (!triangulation.isPossible())
   {

@@ -23,7 +23,7 @@ namespace cadrefine
 
 /// Which new tetrahedra are proposed: all that are valid, or, which takes less work, none where one
 /// is worse than all cells before.
-enum class Shape
+enum class NewCells
 {
   Any,
   NoWorse
@@ -35,7 +35,7 @@ enum class Shape
 /// edge become two; an edge between two facets becomes the other diagonal of these, so that one
 /// cell with two facets, as is flat where they are, is none. Of triangles: proposeSwap.
 bool proposeEdgeRemoval(
-  const EditableMesh& mesh, Index a, Index b, Cavity& cavity, Shape shape = Shape::Any);
+  const EditableMesh& mesh, Index a, Index b, Cavity& cavity, NewCells newCells = NewCells::Any);
 constexpr std::size_t largestRing = 7;
 
 /// Two cells become three round the edge between the vertices opposite to their common face, which

@@ -149,7 +149,7 @@ ShapeEnergy energyAt(const EditableMesh& mesh, const Star<Corners>& star)
 }
 
 template<std::size_t Corners, class Path>
-double relocate(EditableMesh& mesh, const Star<Corners>& star, const Path& path)
+void relocate(EditableMesh& mesh, const Star<Corners>& star, const Path& path)
 {
   Point3 best = mesh.vertex(star.vertex).point;
   double worst = worstAt(mesh, star, best);
@@ -179,33 +179,30 @@ double relocate(EditableMesh& mesh, const Star<Corners>& star, const Path& path)
       break;
     }
   }
-  return worst;
 }
 
 } // namespace
 
-double relocate(EditableMesh& mesh, Index vertex, const Cells<4>& cells)
+void relocate(EditableMesh& mesh, Index vertex, const Cells<4>& cells)
 {
-  return relocate(mesh, Star(mesh, vertex, cells), Inside{ Directions::everywhere() });
+  relocate(mesh, Star(mesh, vertex, cells), Inside{ Directions::everywhere() });
 }
 
-double relocate(EditableMesh& mesh, Index vertex, const Cells<3>& cells)
+void relocate(EditableMesh& mesh, Index vertex, const Cells<3>& cells)
 {
-  return relocate(mesh, Star(mesh, vertex, cells), Inside{ Directions::across(mesh.plane()) });
+  relocate(mesh, Star(mesh, vertex, cells), Inside{ Directions::across(mesh.plane()) });
 }
 
-double relocateOnCAD(
+void relocateOnCAD(
   EditableMesh& mesh, Index vertex, const Cells<4>& cells, const BoundaryProjector& projector)
 {
-  return relocate(
-    mesh, Star(mesh, vertex, cells), OnEntity{ projector, mesh.vertex(vertex).entity });
+  relocate(mesh, Star(mesh, vertex, cells), OnEntity{ projector, mesh.vertex(vertex).entity });
 }
 
-double relocateOnCAD(
+void relocateOnCAD(
   EditableMesh& mesh, Index vertex, const Cells<3>& cells, const BoundaryProjector& projector)
 {
-  return relocate(
-    mesh, Star(mesh, vertex, cells), OnEntity{ projector, mesh.vertex(vertex).entity });
+  relocate(mesh, Star(mesh, vertex, cells), OnEntity{ projector, mesh.vertex(vertex).entity });
 }
 
 } // namespace cadrefine

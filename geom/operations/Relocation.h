@@ -9,16 +9,15 @@ namespace cadrefine
 
 /// Moves a vertex that is not on the CAD by a few steps of Newton's method (see ShapeEnergy), each
 /// halved until the worst of these cells, which are all that are to be at it, gets better and none
-/// becomes invalid: in space, or in the plane of a planar mesh. Returns the quality of the worst;
-/// -2 where one is invalid from the start.
-double relocate(EditableMesh& mesh, Index vertex, const Cells<4>& cells);
-double relocate(EditableMesh& mesh, Index vertex, const Cells<3>& cells);
+/// becomes invalid: in space, or in the plane of a planar mesh.
+void relocate(EditableMesh& mesh, Index vertex, const Cells<4>& cells);
+void relocate(EditableMesh& mesh, Index vertex, const Cells<3>& cells);
 
 /// The same of a vertex on the CAD, along its face or edge, where it stays. Work: some 3
 /// projections a step.
-double relocateOnCAD(
+void relocateOnCAD(
   EditableMesh& mesh, Index vertex, const Cells<4>& cells, const BoundaryProjector& projector);
-double relocateOnCAD(
+void relocateOnCAD(
   EditableMesh& mesh, Index vertex, const Cells<3>& cells, const BoundaryProjector& projector);
 
 } // namespace cadrefine

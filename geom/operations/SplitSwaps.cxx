@@ -28,7 +28,7 @@ bool findSwap(const EditableMesh& mesh, Index middle, Cavity& best)
   };
   const auto consider = [&](Index a, Index b)
   {
-    if (!proposeEdgeRemoval(mesh, a, b, cavity, Shape::NoWorse))
+    if (!proposeEdgeRemoval(mesh, a, b, cavity, NewCells::NoWorse))
     {
       return;
     }

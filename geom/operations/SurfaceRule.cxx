@@ -240,7 +240,7 @@ ClassifiedSurface SurfaceRule::surfaceOf(
       }
     }
   };
-  if (surface.kind == BoundaryKind::Segments)
+  if (surface.kind == BoundaryKind::Edges)
   {
     addAll(mesh.segments(), cavity.segments, cavity.newSegments);
   }
@@ -280,7 +280,7 @@ SurfaceRule::MeasuredError SurfaceRule::errorBefore(
       length, distance(surface.points[edge.ends[0]].point, surface.points[edge.ends[1]].point));
   }
   const double rounding = ClassificationTolerances::leastExact * projector_.model().size() *
-                          (surface.kind == BoundaryKind::Segments ? length : length * length);
+                          (surface.kind == BoundaryKind::Edges ? length : length * length);
   return { errorOf(surface), rounding };
 }
 

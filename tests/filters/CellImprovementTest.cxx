@@ -146,7 +146,7 @@ protected:
     const PipelineContext context{ ranks, model, statistics, [](const std::string&) {} };
     MeshState state = readMesh(ranks, piece);
     readClassification(context, piece, state);
-    improveCells(context, state, { 0.3, {}, 1000 });
+    improveMesh(context, state, { 0.3, {}, 1000 });
     return makeDataSet(state);
   }
 
@@ -323,7 +323,7 @@ TEST_F(RankWithoutCells, sharesNoVertexAnyMore)
     return result;
   };
   const std::vector<unsigned char> everywhere(state.mesh.mesh().points.size(), 1);
-  EXPECT_EQ(operate(context, state, everywhere, { 1, 0, 1000, isLast }, takeOut), 1);
+  EXPECT_EQ(operateOnMesh(context, state, everywhere, { 1, 0, 1000, isLast }, takeOut), 1);
   EXPECT_EQ(countMesh(exchange, state.mesh).cells, 5);
   EXPECT_EQ(countMesh(exchange, state.mesh).vertices, 8);
   EXPECT_TRUE(state.mesh.shared.all.empty());

@@ -40,7 +40,7 @@ class BoxProjector : public testing::Test
 {
 protected:
   std::shared_ptr<const CADModel> model = cadtest::modelOf(cadtest::box(1, 1, 1));
-  BoundaryProjector projector{ *model, BoundaryKind::Triangles };
+  BoundaryProjector projector{ *model, BoundaryKind::Faces };
   EdgeFinder edges{ *model };
 
   std::array<EntityId, 2> entitiesAt(const std::array<Point3, 2>& points) const
@@ -151,7 +151,7 @@ TEST_F(BoxProjector, leavesEdgesBesideFreeFacetsAndOffTheCadStraight)
 TEST(WallFacets, areNotOnTheCad)
 {
   const auto model = cadtest::modelOf(cadtest::rectangle(1, 1));
-  const BoundaryProjector projector(*model, BoundaryKind::Triangles);
+  const BoundaryProjector projector(*model, BoundaryKind::Faces);
   EXPECT_TRUE(projector.isOnCAD(
     facetAt(projector, { { { 0.1, 0, 0 }, { 0.5, 0, 0.02 }, { 0.3, 0.4, 0.01 } } })));
   EXPECT_FALSE(
@@ -163,14 +163,14 @@ TEST(WallFacets, areNotOnTheCad)
 TEST(Pipe, hasNoCorners)
 {
   const auto model = cadtest::modelOf(cadtest::pipe(1, 1.01, 1));
-  EXPECT_TRUE(BoundaryProjector(*model, BoundaryKind::Triangles).corners().empty())
+  EXPECT_TRUE(BoundaryProjector(*model, BoundaryKind::Faces).corners().empty())
     << "its circles close smoothly";
 }
 
 TEST(SharpWing, hasCornersAtTheEndsOfTheTrailingEdgeOnly)
 {
   const auto model = readCADFile(CADREFINE_DATA "/naca0012_sharp.igs");
-  const BoundaryProjector projector(*model, BoundaryKind::Triangles);
+  const BoundaryProjector projector(*model, BoundaryKind::Faces);
   ASSERT_EQ(projector.corners().size(), 2u);
   for (const std::int32_t corner : projector.corners())
   {
@@ -181,10 +181,10 @@ TEST(SharpWing, hasCornersAtTheEndsOfTheTrailingEdgeOnly)
 TEST(PlanarCurves, haveCornersWhereTheyMeetAtAnAngle)
 {
   const auto model = readCADFile(CADREFINE_DATA "/three_arcs.igs");
-  const BoundaryProjector projector(*model, BoundaryKind::Segments);
+  const BoundaryProjector projector(*model, BoundaryKind::Edges);
   EXPECT_EQ(projector.corners().size(), 3u);
   const auto circle = cadtest::modelOf(cadtest::circle(2), ".brep");
-  EXPECT_TRUE(BoundaryProjector(*circle, BoundaryKind::Segments).corners().empty());
+  EXPECT_TRUE(BoundaryProjector(*circle, BoundaryKind::Edges).corners().empty());
 }
 
 } // namespace

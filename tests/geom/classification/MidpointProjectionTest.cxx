@@ -30,7 +30,7 @@ class ThinSheet : public testing::Test
 {
 protected:
   std::shared_ptr<const CADModel> model = cadtest::modelOf(cadtest::pipe(1, 1.01, 1));
-  BoundaryProjector projector{ *model, BoundaryKind::Triangles };
+  BoundaryProjector projector{ *model, BoundaryKind::Faces };
 
   static Point3 at(double radius, double degrees, double z)
   {
@@ -71,7 +71,7 @@ TEST_F(ThinSheet, keepsMidpointsOnTheirCrease)
 TEST(HalfPipe, hasTheMiddleOfADiameterAtTheTopOfTheBow)
 {
   const auto model = cadtest::modelOf(cadtest::halfPipe(1, 2));
-  const BoundaryProjector projector(*model, BoundaryKind::Triangles);
+  const BoundaryProjector projector(*model, BoundaryKind::Faces);
   for (const double z : { 0.0, 0.7, 2.0 })
   {
     const std::array<Point3, 2> points{ { { 1, 0, z }, { -1, 0, z } } };
@@ -94,7 +94,7 @@ TEST(Nose, hasTheMiddleOfAChordAcrossItAtItsTip)
 {
   constexpr double height = 0.06;
   const auto model = cadtest::modelOf(cadtest::ellipticPipe(1, height, 1));
-  const BoundaryProjector projector(*model, BoundaryKind::Triangles);
+  const BoundaryProjector projector(*model, BoundaryKind::Faces);
   const auto placeOf = [&](double x, double y, double fromZ, double toZ)
   {
     const std::array<Point3, 2> points{ { { x, height * std::sqrt(1 - x * x), fromZ },
@@ -121,7 +121,7 @@ TEST(Disc, hasTheMiddleOfAChordOnItsOwnArc)
   for (const double turn : { 0.0, 0.2, -0.2 })
   {
     const auto model = cadtest::modelOf(cadtest::discOfTwoArcs(1, turn));
-    const BoundaryProjector projector(*model, BoundaryKind::Triangles);
+    const BoundaryProjector projector(*model, BoundaryKind::Faces);
     const double x = std::cos(turn);
     const double y = std::sin(turn);
     const std::array<Point3, 2> points{ { { x, y, 0 }, { -x, y, 0 } } };
@@ -145,7 +145,7 @@ TEST(Disc, leavesTheMiddleOfAShortChordWhereItIsNearest)
 {
   const double turn = 1.4;
   const auto model = cadtest::modelOf(cadtest::discOfTwoArcs(1, turn));
-  const BoundaryProjector projector(*model, BoundaryKind::Triangles);
+  const BoundaryProjector projector(*model, BoundaryKind::Faces);
   const std::array<Point3, 2> points{ { { std::cos(turn), std::sin(turn), 0 },
     { -std::cos(turn), std::sin(turn), 0 } } };
   const auto entities = entitiesAt(projector, points);
@@ -159,7 +159,7 @@ TEST(Disc, leavesTheMiddleOfAShortChordWhereItIsNearest)
 TEST(HalfCone, keepsTheMiddleOfAChordOffItsRims)
 {
   const auto model = cadtest::modelOf(cadtest::halfCone(0.28, 0.186, 1.89));
-  const BoundaryProjector projector(*model, BoundaryKind::Triangles);
+  const BoundaryProjector projector(*model, BoundaryKind::Faces);
   const std::array<Point3, 2> points{ { { 0.28, 0, 0 }, { -0.186, 0, 1.89 } } };
   const EntityId face = projector.nearest({ 0, 0.3, 1 }, unlimited).entity;
   ASSERT_EQ(face.dimension, 2);
@@ -176,7 +176,7 @@ TEST(HalfCone, keepsTheMiddleOfAChordOffItsRims)
 TEST(Ring, keepsTheMiddleOfAChordThatCrossesTheHole)
 {
   const auto model = cadtest::modelOf(cadtest::pipe(1, 1.5, 1));
-  const BoundaryProjector projector(*model, BoundaryKind::Triangles);
+  const BoundaryProjector projector(*model, BoundaryKind::Faces);
   const std::array<Point3, 2> points{ { { 0, 1, 1 }, { -1.5, 0, 1 } } };
   std::array<EntityId, 2> entities;
   for (int k = 0; k < 2; ++k)
@@ -202,7 +202,7 @@ TEST(Ring, keepsTheMiddleOfAChordThatCrossesTheHole)
 TEST(Ring, takesTheMiddleOfAChordFromAnotherFaceToItsOwn)
 {
   const auto model = cadtest::modelOf(cadtest::pipe(1, 1.5, 1));
-  const BoundaryProjector projector(*model, BoundaryKind::Triangles);
+  const BoundaryProjector projector(*model, BoundaryKind::Faces);
   const std::array<Point3, 2> points{ { { 0, 1, 1 }, { -1.5, 0, 1 } } };
   const auto entities = entitiesAt(projector, points);
   const BoundaryEdge edge{ { EdgeClass::Smooth, -1 }, points, entities };
@@ -221,7 +221,7 @@ TEST(Ring, takesTheMiddleOfAChordFromAnotherFaceToItsOwn)
 TEST(SharpWing, keepsMidpointsAtTheTrailingEdgeOnTheirSide)
 {
   const auto model = readCADFile(CADREFINE_DATA "/naca0012_sharp.igs");
-  const BoundaryProjector projector(*model, BoundaryKind::Triangles);
+  const BoundaryProjector projector(*model, BoundaryKind::Faces);
   for (const double side : { -1.0, 1.0 })
   {
     const ClosestPoint before = projector.nearest({ 2.94, 0.7, side * 0.3 }, unlimited);

@@ -23,7 +23,7 @@ class Parabola : public testing::TestWithParam<double>
 protected:
   static constexpr double radius = 3;
   std::shared_ptr<const CADModel> model = cadtest::modelOf(cadtest::circle(radius), ".brep");
-  BoundaryProjector projector{ *model, BoundaryKind::Segments };
+  BoundaryProjector projector{ *model, BoundaryKind::Edges };
   double angle = GetParam();
 
   static Point3 at(double turn) { return { radius * std::cos(turn), radius * std::sin(turn), 0 }; }
@@ -103,7 +103,7 @@ TEST_P(Parabola, distanceIsThatOfPointsOnTheParabola)
 TEST(CurvedError, ofAStraightFacetIsThatOfFirstOrder)
 {
   const auto model = cadtest::modelOf(cadtest::sphere(2));
-  const BoundaryProjector projector(*model, BoundaryKind::Triangles);
+  const BoundaryProjector projector(*model, BoundaryKind::Faces);
   CurvedErrorFacet facet{};
   facet.straight.corners.points = { Point3{ 2, 0, 0 }, { 0, 2, 0 }, { 0, 0, 2 } };
   const auto& p = facet.straight.corners.points;

@@ -27,7 +27,7 @@ inline cadrefine::FacetError geometricError(
   using namespace cadrefine;
   ClassifiedSurface surface;
   surface.kind = projector.kind();
-  const bool isTriangle = surface.kind == BoundaryKind::Triangles;
+  const bool isTriangle = surface.kind == BoundaryKind::Faces;
   const Index corners = isTriangle ? 3 : 2;
   for (Index k = 0; k < corners; ++k)
   {

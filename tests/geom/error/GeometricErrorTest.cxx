@@ -55,7 +55,7 @@ class Chord : public testing::TestWithParam<double>
 protected:
   static constexpr double radius = 3;
   std::shared_ptr<const CADModel> model = cadtest::modelOf(cadtest::circle(radius), ".brep");
-  BoundaryProjector projector{ *model, BoundaryKind::Segments };
+  BoundaryProjector projector{ *model, BoundaryKind::Edges };
 
   ErrorFacet facet() const
   {
@@ -119,7 +119,7 @@ TEST_P(Chord, firstEstimateIsTheTriangleOverTheChord)
 TEST(SphereError, isTheVolumeDeficitOfAnInscribedIcosahedron)
 {
   const auto model = cadtest::modelOf(cadtest::sphere(2));
-  const BoundaryProjector projector(*model, BoundaryKind::Triangles);
+  const BoundaryProjector projector(*model, BoundaryKind::Faces);
   const Mesh surface = cadtest::sphereMesh(2, 0);
   const double deficit = 4.0 / 3.0 * pi * 8 - cadtest::volumeInside(surface);
   double before = deficit;
@@ -168,7 +168,7 @@ ClassifiedSurface surfaceOf(const BoundaryProjector& projector, const Mesh& mesh
 TEST(SphereError, ofFacetsThatShareEdgesIsThatOfEachAlone)
 {
   const auto model = cadtest::modelOf(cadtest::sphere(2));
-  const BoundaryProjector projector(*model, BoundaryKind::Triangles);
+  const BoundaryProjector projector(*model, BoundaryKind::Faces);
   const Mesh mesh = cadtest::sphereMesh(2, 0);
   const ClassifiedSurface surface = surfaceOf(projector, mesh);
   for (const std::size_t parts : { 1u, 3u, 200u })
@@ -236,7 +236,7 @@ TEST(CylinderError, isTheVolumeDeficitOfAnInscribedPrism)
   const double radius = 1.5;
   const double height = 2;
   const auto model = cadtest::modelOf(cadtest::cylinder(radius, height));
-  const BoundaryProjector projector(*model, BoundaryKind::Triangles);
+  const BoundaryProjector projector(*model, BoundaryKind::Faces);
   const Mesh side = prismSide(radius, height);
   double volume = 0;
   double farthest = 0;
@@ -255,7 +255,7 @@ TEST(CylinderError, isTheVolumeDeficitOfAnInscribedPrism)
 TEST(PlaneError, isZero)
 {
   const auto model = cadtest::modelOf(cadtest::rectangle(1, 1));
-  const BoundaryProjector projector(*model, BoundaryKind::Triangles);
+  const BoundaryProjector projector(*model, BoundaryKind::Faces);
   const FacetError error = cadtest::geometricError(
     projector, facetOf(projector, { { { 0.1, 0.1, 0 }, { 0.8, 0.2, 0 }, { 0.3, 0.9, 0 } } }), 3);
   EXPECT_LT(error.measure, 1e-15);
@@ -285,7 +285,7 @@ ClassifiedSurface surfaceOfOne(
   const std::vector<Point3>& places, const std::vector<double>& heights)
 {
   ClassifiedSurface surface;
-  surface.kind = places.size() == 2 ? BoundaryKind::Segments : BoundaryKind::Triangles;
+  surface.kind = places.size() == 2 ? BoundaryKind::Edges : BoundaryKind::Faces;
   SurfaceFacet facet;
   facet.quad = places.size() == 4 ? 0 : -1;
   for (std::size_t k = 0; k < places.size(); ++k)
@@ -348,7 +348,7 @@ TEST(CrossingError, countsBothSides)
 TEST(StraightEdges, haveNoError)
 {
   const auto model = cadtest::modelOf(cadtest::sphere(1));
-  const BoundaryProjector projector(*model, BoundaryKind::Triangles);
+  const BoundaryProjector projector(*model, BoundaryKind::Faces);
   ErrorFacet facet = facetOf(projector, { { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } });
   const double whole = cadtest::geometricError(projector, facet, 1).measure;
   facet.edges = {};

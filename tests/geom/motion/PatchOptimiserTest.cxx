@@ -212,7 +212,7 @@ TEST(Sliding, keepsToTheCurve)
 {
   constexpr int corners = 9;
   const auto model = cadtest::modelOf(cadtest::circle(2), ".igs");
-  const BoundaryProjector projector(*model, BoundaryKind::Segments);
+  const BoundaryProjector projector(*model, BoundaryKind::Edges);
   Mesh mesh = unevenDisc(corners);
   Patch patch = patchOf(mesh);
   patch.free.assign(corners + 1, 1);
@@ -234,7 +234,7 @@ TEST(Sliding, keepsChordsAsCloseToTheCurve)
 {
   constexpr int corners = 9;
   const auto model = cadtest::modelOf(cadtest::circle(2), ".igs");
-  const BoundaryProjector projector(*model, BoundaryKind::Segments);
+  const BoundaryProjector projector(*model, BoundaryKind::Edges);
   Mesh mesh = unevenDisc(corners);
   mesh.points[corners] = { 1.2, 0, 0 };
   Patch patch = patchOf(mesh);
@@ -258,7 +258,7 @@ TEST(Sliding, keepsChordsAsCloseToTheCurve)
 TEST(Sliding, keepsToTheSurface)
 {
   const auto model = cadtest::modelOf(cadtest::sphere(2));
-  const BoundaryProjector projector(*model, BoundaryKind::Triangles);
+  const BoundaryProjector projector(*model, BoundaryKind::Faces);
   Mesh mesh = cadtest::ballMesh(2, 0);
   for (Index v = 0; v < 12; ++v)
   {

@@ -40,7 +40,7 @@ class Coarsenings : public testing::TestWithParam<unsigned>
 {
 protected:
   std::shared_ptr<const CADModel> model = cadtest::modelOf(cadtest::sphere(1));
-  BoundaryProjector projector{ *model, BoundaryKind::Triangles };
+  BoundaryProjector projector{ *model, BoundaryKind::Faces };
   SurfaceRule rule{ projector };
 };
 

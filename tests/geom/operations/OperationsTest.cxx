@@ -133,7 +133,7 @@ TEST_P(Ring, edgeRemovalLeavesWorseCellsIfTold)
     Cavity any;
     Cavity noWorse;
     ASSERT_TRUE(proposeEdgeRemoval(mesh, 0, 1, any));
-    ASSERT_EQ(proposeEdgeRemoval(mesh, 0, 1, noWorse, Shape::NoWorse), height > 1) << height;
+    ASSERT_EQ(proposeEdgeRemoval(mesh, 0, 1, noWorse, NewCells::NoWorse), height > 1) << height;
     for (std::size_t c = 0; height > 1 && c < any.newCells.size(); ++c)
     {
       EXPECT_EQ(noWorse.newCells.at(c).corners, any.newCells[c].corners);

@@ -150,7 +150,7 @@ TEST(SplitSwaps, halveEdgesOfWalls)
   const double volume = validVolumeOf(mesh);
   ASSERT_LT(before, 0.06);
   const auto model = cadtest::modelOf(cadtest::sphere(1));
-  const BoundaryProjector projector(*model, BoundaryKind::Triangles);
+  const BoundaryProjector projector(*model, BoundaryKind::Faces);
   const SurfaceRule rule(projector);
   const std::size_t vertices = mesh.vertexCount();
   const OperationResult result = improveCells(mesh, &rule, { 0.3, 0.1 });

@@ -52,7 +52,7 @@ class SurfaceRules : public testing::Test
 {
 protected:
   std::shared_ptr<const CADModel> model = cadtest::modelOf(cadtest::sphere(1));
-  BoundaryProjector projector{ *model, BoundaryKind::Triangles };
+  BoundaryProjector projector{ *model, BoundaryKind::Faces };
   SurfaceRule rule{ projector };
 };
 
