@@ -153,8 +153,9 @@ void ColumnPlanning::run(
   columns_.lifts.assign(columns_.ids.size(), Vector3{});
   if (columns_.nodes.parents)
   {
-    findLifts(exchange, findFirstEdges(exchange, stacks, columns_.nodes, columns_.facets, moves,
-                          columns_.projector, fixed));
+    findLifts(exchange, moves,
+      findFirstEdges(
+        exchange, stacks, columns_.nodes, columns_.facets, moves, columns_.projector, fixed));
   }
   std::vector<double> cosines;
   std::transform(best.begin(), best.end(), std::back_inserter(cosines),
@@ -268,7 +269,8 @@ void ColumnPlanning::findYielding(
 }
 
 /// Collective.
-void ColumnPlanning::findLifts(RankExchange& exchange, const std::vector<FirstEdge>& edges)
+void ColumnPlanning::findLifts(
+  RankExchange& exchange, const Moves& moves, const std::vector<FirstEdge>& edges)
 {
   for (const ColumnMember& member : columns_.members)
   {
@@ -276,7 +278,9 @@ void ColumnPlanning::findLifts(RankExchange& exchange, const std::vector<FirstEd
     if (member.level == 1 && wall >= 0 &&
         edges[wall].up == columns_.nodes.points[member.node] - columns_.nodes.points[wall])
     {
-      columns_.lifts[member.column] = edges[wall].lifted - edges[wall].up;
+      const double way = distance(moves.targets[wall], columns_.nodes.points[wall]);
+      const Vector3 lift = edges[wall].lifted - edges[wall].up;
+      columns_.lifts[member.column] = way > 0 ? (1 / way) * lift : Vector3{};
     }
   }
   combineShared(exchange, columns_.shared, columns_.lifts, nonZero);

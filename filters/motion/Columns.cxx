@@ -44,7 +44,7 @@ WallMoves Columns::movesOfWalls(RankExchange& exchange, const Moves& moves) cons
 {
   WallMoves result{ movesOf(exchange, moves, walls), movesOf(exchange, moves, facing) };
   std::transform(result.own.begin(), result.own.end(), lifts.begin(), result.own.begin(),
-    [](const Vector3& move, const Vector3& lift) { return move + lift; });
+    [](const Vector3& move, const Vector3& lift) { return move + norm(move) * lift; });
   return result;
 }
 

@@ -53,7 +53,7 @@ struct Columns
   /// only other ranks have it.
   std::vector<Index> facing = {};
   bool anyFacing = false; ///< On any rank.
-  /// By which the nodes go farther than the wall's.
+  /// By which the nodes go farther than the wall's, for each length of way that this has to go.
   std::vector<Vector3> lifts = {};
   SharedItems shared = {};
   std::vector<ColumnMember> members = {};

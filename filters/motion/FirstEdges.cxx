@@ -1,5 +1,7 @@
 #include "motion/FirstEdges.h"
 
+#include <cadrefine/classification/CADAdjacency.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -46,24 +48,42 @@ Vector3 along(const Vector3& way, const Vector3& normal)
   return way - dot(way, normal) * normal;
 }
 
-/// The edge over a new node of a wall once it is there, given those over the ends of the line that
-/// it halves: as long as wanted, and from the normal of the CAD's face by their mean. As it goes
-/// where there is no face, or the boundary holds its upper end.
-Vector3 liftedEdge(const FirstEdge& edge, const ClosestPoint& where, const CADModel& model,
-  const std::array<Point3, 2>& places, const std::array<Vector3, 2>& ups)
+/// The normal of the CAD on which a wall is to be, where it is nearest to a point: of its face, or
+/// of its curve in the plane of an edge over the wall.
+Vector3 normalNear(const BoundaryProjector& projector, const EntityId& wall, const Point3& point,
+  const Vector3& edge)
+{
+  const CADModel& model = projector.model();
+  if (wall.dimension == 2)
+  {
+    return model.normalNear(wall.index, point);
+  }
+  const ClosestPoint where = projector.nearestOn(wall, point);
+  const Vector3 tangent = where.entity.dimension == 1
+                            ? model.tangent(wall.index, where.parameters[0])
+                            : tangentAwayFrom(model, wall.index, where.entity.index);
+  return normalized(along(edge, tangent));
+}
+
+/// The edge over a new node of a wall once it is at `place`, given those over the ends of the line
+/// that it halves, which come to `places`: as long as wanted, and from the normal of the CAD by
+/// their mean. As it goes where there is no one normal, or the boundary holds its upper end.
+Vector3 liftedEdge(const FirstEdge& edge, const EntityId& wall, const BoundaryProjector& projector,
+  const Point3& place, const std::array<Point3, 2>& places, const std::array<Vector3, 2>& ups)
 {
   const Vector3 asItGoes = normalized(edge.up);
-  if (where.entity.dimension != 2 || edge.onBoundary)
+  const std::int8_t dimension = projector.kind() == BoundaryKind::Faces ? 2 : 1;
+  if (wall.dimension != dimension || edge.onBoundary)
   {
     return edge.wantedLength * asItGoes;
   }
   Vector3 aside{};
   for (std::size_t end = 0; end < ups.size(); ++end)
   {
-    const Vector3 normal = model.normalNear(where.entity.index, places[end]);
-    aside = aside + 0.5 * along(normalized(ups[end]), normal);
+    const Vector3 up = normalized(ups[end]);
+    aside = aside + 0.5 * along(up, normalNear(projector, wall, places[end], up));
   }
-  const Vector3 normal = model.normal(where.entity.index, where.parameters);
+  const Vector3 normal = normalNear(projector, wall, place, asItGoes);
   aside = along(aside, normal);
   const double height = std::sqrt(std::max(0.0, 1 - squaredNorm(aside)));
   return edge.wantedLength * (aside + std::copysign(height, dot(normal, asItGoes)) * normal);
@@ -100,8 +120,7 @@ std::vector<FirstEdge> findFirstEdges(RankExchange& exchange, const CellStacks& 
     }
     if (nodes.entities[n] && isTooShort(edge))
     {
-      const ClosestPoint where = projector.nearestOn(nodes.entities[n], moves.targets[n]);
-      edge.lifted = liftedEdge(edge, where, projector.model(),
+      edge.lifted = liftedEdge(edge, nodes.entities[n], projector, moves.targets[n],
         { moves.targets[a], moves.targets[b] }, { edges[a].lifted, edges[b].lifted });
     }
   }

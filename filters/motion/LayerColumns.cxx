@@ -49,8 +49,6 @@ LayerColumns::Followers LayerColumns::follow(RankExchange& exchange, Moves& move
       following_.push_back(member);
     }
   }
-  // What is left of the lifts is part of what is left to go.
-  columns_.lifts.assign(columns_.lifts.size(), Vector3{});
   combineShared(exchange, columns_.nodes.shared, places,
     [](const Place& a, const Place& b) { return a.isSet ? a : b; });
   Followers followers;

@@ -17,6 +17,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <ostream>
 
@@ -106,10 +107,18 @@ protected:
 
   using Edge = std::array<GlobalId, 2>; ///< From the wall up.
 
-  /// The first edges of the columns over the wall: those of cells of layers that leave the CAD.
-  static std::map<GlobalId, Edge> firstEdges(const Mesh& mesh)
+  /// The normal of a wall at a point of it; zero elsewhere.
+  using Wall = std::function<Vector3(const Point3&)>;
+
+  static Vector3 onSphere(const Point3& p)
   {
-    const auto isOnWall = [&](Index v) { return std::abs(norm(mesh.points[v]) - 2) < 1e-9; };
+    return std::abs(norm(p) - 2) < 1e-9 ? normalized(p) : Vector3{};
+  }
+
+  /// The first edges of the columns over the wall: those of cells of layers that leave the CAD.
+  static std::map<GlobalId, Edge> firstEdges(const Mesh& mesh, const Wall& wall)
+  {
+    const auto isOnWall = [&](Index v) { return wall(mesh.points[v]) != Vector3{}; };
     std::map<GlobalId, Edge> edges;
     const auto take = [&](Index low, Index high)
     {
@@ -141,12 +150,12 @@ protected:
     return edges;
   }
 
-  /// Along the normal of the wall, which points from the middle outwards.
-  static double heightOf(const Mesh& mesh, const Edge& edge)
+  /// Along the normal of the wall.
+  static double heightOf(const Mesh& mesh, const Edge& edge, const Wall& wall = onSphere)
   {
     const auto at = [&](GlobalId id)
     { return mesh.points[std::find(mesh.ids.begin(), mesh.ids.end(), id) - mesh.ids.begin()]; };
-    return dot(at(edge[1]) - at(edge[0]), normalized(at(edge[0])));
+    return dot(at(edge[1]) - at(edge[0]), wall(at(edge[0])));
   }
 
   /// Of the whole mesh, on rank 0. Collective.
@@ -164,7 +173,8 @@ protected:
 
   /// All of the wall is on the CAD, and its first cells are so high: expected(first edge).
   template<class Expected>
-  void expectKept(vtkPointSet* piece, std::size_t wallVertices, const Expected& expected)
+  void expectKept(vtkPointSet* piece, std::size_t wallVertices, const Expected& expected,
+    const Wall& wall = onSphere)
   {
     const Mesh mesh = expectSound(piece);
     EXPECT_EQ(cadtest::fieldValue(piece, "UnprojectedVertices"), 0);
@@ -172,12 +182,12 @@ protected:
     {
       return;
     }
-    const auto edges = firstEdges(mesh);
+    const auto edges = firstEdges(mesh, wall);
     EXPECT_EQ(edges.size(), wallVertices);
     for (const auto& [vertex, edge] : edges)
     {
       const double height = expected(edge);
-      EXPECT_NEAR(heightOf(mesh, edge), height, 0.01 * height) << "over vertex " << vertex;
+      EXPECT_NEAR(heightOf(mesh, edge, wall), height, 0.01 * height) << "over vertex " << vertex;
     }
   }
 };
@@ -315,7 +325,77 @@ TEST_F(LayersTest, ofUnequalEdgesAreAsHighOverFacets)
   const Mesh straight =
     cadtest::toMesh(cadtest::gather(exchange, filters.refineStraight(projected)));
   expectKept(filters.refineUniformly(projected), 2 * wall,
-    [&](const Edge& edge) { return heightOf(straight, edge); });
+    [&](const Edge& edge)
+    { return heightOf(straight, edge, [](const Point3& p) { return normalized(p); }); });
+}
+
+/// Round an ellipse: where the curvature changes, the normal is not halfway between those beside.
+class EllipticLayers : public LayersTest
+{
+protected:
+  static constexpr double length = 1.5;
+  static constexpr double height = 0.6;
+  static constexpr int corners = 16;
+  static constexpr double first = 0.001;
+
+  static Vector3 normalAt(const Point3& p)
+  {
+    return normalized(Vector3{ p[0] / (length * length), p[1] / (height * height), 0 });
+  }
+
+  static Vector3 onEllipse(const Point3& p)
+  {
+    const double size = p[0] * p[0] / (length * length) + p[1] * p[1] / (height * height);
+    return std::abs(size - 1) < 1e-9 ? normalAt(p) : Vector3{};
+  }
+
+  /// The columns stand on the normals. What is over `layers` is triangles.
+  static Mesh meshOf(const std::vector<double>& heights, std::size_t layers)
+  {
+    Mesh mesh = cadtest::quadrilateralRingMesh(1, 0, corners, heights);
+    for (std::size_t v = 0; v < mesh.points.size(); ++v)
+    {
+      const std::size_t level = v / corners;
+      const Point3 onUnit = normalized(mesh.points[v]);
+      const Point3 onWall{ length * onUnit[0], height * onUnit[1], 0 };
+      mesh.points[v] = level == 0                ? onWall
+                       : level <= heights.size() ? onWall + heights[level - 1] * normalAt(onWall)
+                                                 : 3.0 * onUnit;
+    }
+    for (std::size_t q = layers * corners; q < mesh.quadrilaterals.size(); ++q)
+    {
+      const auto& [a, b, c, d] = mesh.quadrilaterals[q];
+      mesh.triangles.insert(mesh.triangles.end(), { { a, b, c }, { a, c, d } });
+    }
+    mesh.quadrilaterals.resize(std::min(mesh.quadrilaterals.size(), layers * corners));
+    return cadtest::withListedBoundary(mesh);
+  }
+
+  void expectKeptUnderRefinement(const Mesh& mesh)
+  {
+    const cadtest::FilterRun filters(
+      cadtest::writeInto(folder, cadtest::ellipse(length, height), ".brep"), worldController());
+    auto refined = filters.project(pieceOf(mesh));
+    for (int level = 1; level <= 2; ++level)
+    {
+      refined = filters.refineUniformly(refined);
+      expectKept(
+        refined, corners << level, [&](const Edge&) { return first / (1 << level); }, onEllipse);
+    }
+  }
+};
+
+TEST_F(EllipticLayers, standOnTheNormals)
+{
+  const LayerCase thick{ "", 2, BoxKind::Hexahedron, first, 1.5, 12, 0, corners };
+  expectKeptUnderRefinement(meshOf(heightsOf(thick), 12));
+}
+
+/// The triangles over the layers are flatter than the CAD bulges: walls come there in two rounds.
+TEST_F(EllipticLayers, standOnTheNormalsWhereCellsMakeWay)
+{
+  const LayerCase thin{ "", 2, BoxKind::Hexahedron, first, 1.5, 5, 0, corners };
+  expectKeptUnderRefinement(meshOf(heightsOf(thin), 4));
 }
 
 /// Cells through a wall whose both sides are on the CAD, which bulges by more than it is thick.

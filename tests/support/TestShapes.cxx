@@ -84,8 +84,7 @@ TopoDS_Shape halfPipe(double radius, double height)
 
 TopoDS_Shape ellipticPipe(double halfLength, double halfHeight, double width)
 {
-  const TopoDS_Edge ellipse = BRepBuilderAPI_MakeEdge(gp_Elips(gp_Ax2(), halfLength, halfHeight));
-  return BRepPrimAPI_MakePrism(ellipse, gp_Vec(0, 0, width)).Shape();
+  return BRepPrimAPI_MakePrism(ellipse(halfLength, halfHeight), gp_Vec(0, 0, width)).Shape();
 }
 
 TopoDS_Shape halfCone(double radius, double upperRadius, double height)
@@ -140,6 +139,11 @@ TopoDS_Shape together(const TopoDS_Shape& a, const TopoDS_Shape& b)
 TopoDS_Shape circle(double radius)
 {
   return BRepBuilderAPI_MakeEdge(gp_Circ(gp_Ax2(), radius)).Shape();
+}
+
+TopoDS_Shape ellipse(double longRadius, double shortRadius)
+{
+  return BRepBuilderAPI_MakeEdge(gp_Elips(gp_Ax2(), longRadius, shortRadius)).Shape();
 }
 
 TopoDS_Shape rectangle(double x, double y)

@@ -41,6 +41,8 @@ TopoDS_Shape discOfTwoArcs(double radius, double turn);
 TopoDS_Shape partWithCavity();
 /// Circle in the plane z = 0 round the origin: an edge without a face.
 TopoDS_Shape circle(double radius);
+/// In the same plane, longer along x.
+TopoDS_Shape ellipse(double longRadius, double shortRadius);
 /// The rectangle from the origin to (x, y, 0): one face with four edges.
 TopoDS_Shape rectangle(double x, double y);
 /// Base at the origin, apex at height z.
