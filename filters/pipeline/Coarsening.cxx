@@ -213,6 +213,10 @@ private:
                              static_cast<double>(std::max<std::int64_t>(count, 1));
       limits.distance = options_.maximumDistance > 0 ? options_.maximumDistance : infinity;
     }
+    else if (options_.maximumDistance <= 0)
+    {
+      limits.errorPerFacet = 0; // the boundary follows the CAD as well as it does
+    }
     return limits;
   }
 

@@ -158,13 +158,41 @@ void EditableMesh::moveVertex(Index v, const Point3& point)
   forgetQualities(v);
 }
 
+bool EditableMesh::labelsEndAtFacets(Index v) const
+{
+  const std::vector<Index>& cells = cells_.at(v);
+  for (std::size_t i = 1; i < cells.size(); ++i)
+  {
+    const LabelledSimplex<4>& cell = cells_[cells[i]];
+    for (std::size_t k = 0; k < i; ++k)
+    {
+      const LabelledSimplex<4>& other = cells_[cells[k]];
+      if (cell.label == other.label)
+      {
+        continue;
+      }
+      std::array<Index, 3> common{};
+      std::size_t count = 0;
+      for (const Index corner : cell.corners)
+      {
+        if (hasCorner(other.corners, corner))
+        {
+          common[count++] = corner;
+        }
+      }
+      if (count == 3 && !hasFacet(common))
+      {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
 EditableMesh::Freedom EditableMesh::freedomOf(Index v) const
 {
   const std::vector<Index>& segments = segments_.at(v);
-  const std::vector<Index>& cells = cells_.at(v);
-  const bool isOfOne = std::all_of(cells.begin(), cells.end(),
-    [&](Index cell) { return cells_[cell].label == cells_[cells.front()].label; });
-  if (vertices_[v].stays || vertices_[v].isOnRim || !isOfOne)
+  if (vertices_[v].stays || vertices_[v].isOnRim || !labelsEndAtFacets(v))
   {
     return Freedom::None;
   }

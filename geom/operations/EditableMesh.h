@@ -248,6 +248,9 @@ public:
   Cavity takeBack(const std::vector<Cavity>& done);
 
 private:
+  /// Whether between cells of different labels at a vertex there are facets everywhere, so that it
+  /// may go along these.
+  bool labelsEndAtFacets(Index v) const;
   Vector3 areaVector(const std::array<Index, 3>& facet) const;
   void forgetQualities(Index v);
 

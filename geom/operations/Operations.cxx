@@ -250,8 +250,8 @@ bool keepsFacets(const EditableMesh& mesh, Index from, Index to)
 bool mayGo(const EditableMesh& mesh, Index from, Index to)
 {
   const std::size_t facets = mesh.facets().at(from, to).size();
-  // Those of the border of triangles have one facet.
-  const std::size_t fewest = mesh.dimension() == 3 ? 2 : 1;
+  // The border of triangles has one facet; between cells of several labels more than two may meet.
+  const bool isOfFacets = mesh.dimension() == 3 ? facets >= 2 : facets == 1 || facets == 2;
   switch (mesh.freedomOf(from))
   {
     case EditableMesh::Freedom::Space:
@@ -259,7 +259,7 @@ bool mayGo(const EditableMesh& mesh, Index from, Index to)
     case EditableMesh::Freedom::Facet:
       return facets == 2;
     case EditableMesh::Freedom::Segment:
-      return mesh.segmentOf(from, to) >= 0 && facets >= fewest && facets <= 2;
+      return mesh.segmentOf(from, to) >= 0 && isOfFacets;
     default:
       return false;
   }

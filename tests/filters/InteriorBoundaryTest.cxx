@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 #include <vtkCellData.h>
+#include <vtkCoarsenWithCAD.h>
 #include <vtkDataArray.h>
 #include <vtkIntArray.h>
 #include <vtkNew.h>
@@ -136,6 +137,25 @@ TEST_F(InteriorBoundary, ofTetrahedraFollowsTheSphere)
     EXPECT_NEAR(std::log2(before / error), 2, 0.4);
     before = error;
   }
+}
+
+/// A level of coarsening undoes one of refinement on it, too.
+TEST_F(InteriorBoundary, ofTetrahedraIsCoarsened)
+{
+  const cadtest::FilterRun filters(cadtest::writeInto(folder, cadtest::sphere(radius), ".step"));
+  const Mesh coarse = cadtest::ballInShellMesh(radius, 0.03);
+  const auto first = filters.refineUniformly(filters.project(withMaterials(coarse, 20)));
+  const auto errorOf = [&](vtkPointSet* mesh)
+  { return cadtest::fieldValue(filters.measure(mesh, 0), "GlobalGeometricError"); };
+  const double target = errorOf(first);
+  const auto fine = filters.refineUniformly(first);
+  const auto back = filters.run<vtkCoarsenWithCAD>(
+    fine, [&](vtkCoarsenWithCAD* filter) { filter->SetTargetError(target); });
+  expectSound(back, cadtest::measureOf(coarse));
+  EXPECT_LE(errorOf(back), target);
+  const auto cells = static_cast<double>(cadtest::toMesh(first).tetrahedra.size());
+  EXPECT_NEAR(static_cast<double>(cadtest::toMesh(back).tetrahedra.size()), cells, 0.1 * cells);
+  EXPECT_LT(partOf(back, between).triangles.size(), partOf(fine, between).triangles.size() / 2);
 }
 
 TEST_F(InteriorBoundary, ofTetrahedraIsRefinedWhereItsErrorIsLarge)
