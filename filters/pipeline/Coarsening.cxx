@@ -6,6 +6,7 @@
 #include "pipeline/LocalOperations.h"
 #include "pipeline/MeshSummary.h"
 
+#include <cadrefine/base/MixedBits.h>
 #include <cadrefine/operations/Coarsening.h>
 
 #include <vtkNew.h>
@@ -13,6 +14,8 @@
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <vector>
@@ -57,10 +60,12 @@ private:
     const std::vector<unsigned char> mayGo = verticesThatMayGo();
     addFates(mayGo, verticesToRemove(exchange_, state_.mesh, *state_.classification,
                       boundaryOf(context_, state_), mayGo));
-    left_ = std::numeric_limits<std::int64_t>::max();
-    wanted_ = before;
-    for (int round = 0; round < maximumRounds && takeOut(round); ++round)
+    wanted_ = countSimplices() / (state_.mesh.mesh().dimension == 3 ? 8 : 4);
+    flagged_ = countFates(VertexFate::Goes);
+    takeOutFlagged();
+    if (isCounted() && flagMore())
     {
+      takeOutFlagged();
     }
     state_.arrays.ofVertices->RemoveArray(fatesArray);
     improveMesh(
@@ -136,6 +141,55 @@ private:
     return reinterpret_cast<VertexFate*>(array->GetPointer(0));
   }
 
+  /// A maximal set that stays may be larger than that of the vertices before. Where nearly all
+  /// flagged ones went, but too few cells with them, flags some of those that stay, evenly over the
+  /// mesh. Returns whether it did. Collective.
+  bool flagMore()
+  {
+    constexpr double nearlyAll = 0.05; // of the flagged ones, at most, are left
+    const MeshCounts counts = countMesh(exchange_, state_.mesh);
+    const double excess = static_cast<double>(counts.cells - wanted_) *
+                          static_cast<double>(counts.vertices) / static_cast<double>(counts.cells);
+    const auto staying = static_cast<double>(countFates(VertexFate::MayGo));
+    const auto left = static_cast<double>(countFates(VertexFate::Goes));
+    if (exchange_.any(state_.mesh.mesh().hasOtherThanSimplices()) || excess < 1 ||
+        excess > staying || left > nearlyAll * static_cast<double>(flagged_))
+    {
+      return false;
+    }
+    const auto& ids = state_.mesh.mesh().ids;
+    const double part = std::ldexp(excess / staying, 64);
+    for (std::size_t v = 0; v < ids.size(); ++v)
+    {
+      if (fates()[v] == VertexFate::MayGo &&
+          static_cast<double>(mixedBits(static_cast<std::uint64_t>(ids[v]))) < part)
+      {
+        fates()[v] = VertexFate::Goes;
+      }
+    }
+    return true;
+  }
+
+  /// Over all ranks. Collective.
+  std::int64_t countFates(VertexFate fate)
+  {
+    const std::vector<char> owned = state_.mesh.ownedPoints();
+    std::int64_t count = 0;
+    for (std::size_t v = 0; v < owned.size(); ++v)
+    {
+      count += fates()[v] == fate && owned[v];
+    }
+    return exchange_.sum(count);
+  }
+
+  void takeOutFlagged()
+  {
+    left_ = std::numeric_limits<std::int64_t>::max();
+    for (int round = 0; round < maximumRounds && takeOut(round); ++round)
+    {
+    }
+  }
+
   /// A round of collapses. Returns whether there may be more: that before took out a hundredth of
   /// what was left, at least.
   bool takeOut(int round)
@@ -143,23 +197,16 @@ private:
     std::vector<unsigned char> flagged(state_.mesh.mesh().points.size());
     std::transform(fates(), fates() + flagged.size(), flagged.begin(),
       [](VertexFate fate) { return static_cast<unsigned char>(fate == VertexFate::Goes); });
-    const std::vector<char> owned = state_.mesh.ownedPoints();
-    std::int64_t left = 0;
-    for (std::size_t v = 0; v < flagged.size(); ++v)
-    {
-      left += flagged[v] && owned[v];
-    }
-    left = exchange_.sum(left);
+    const std::int64_t left = countFates(VertexFate::Goes);
     if (left == 0 || left >= left_ - left_ / 100)
     {
       return false;
     }
-    wanted_ -= round == 0 ? left : 0;
     left_ = left;
     exchange_.progress().say(static_cast<double>(round) / maximumRounds,
       "taking out vertices, round " + std::to_string(round + 1) + " of at most " +
         std::to_string(maximumRounds));
-    const CoarseningLimits limits = findLimits(shareOf(left));
+    const CoarseningLimits limits = findLimits(left);
     const auto work = [&](BlockMesh& block, const SurfaceRule& rule)
     {
       VertexFate* ofPiece = fates();
@@ -183,23 +230,27 @@ private:
     return true;
   }
 
-  /// Of so many flagged vertices, how many have to go. Empty where some cells stay, or the boundary
-  /// may not change as a level would change it: there they are to be left. Collective.
-  std::optional<double> shareOf(std::int64_t left)
+  /// Whether all of the mesh is to have cells that are twice as large, so that it is known how
+  /// many.
+  bool isCounted() const { return options_.criteria.empty() && options_.targetError > 0; }
+
+  /// Over all ranks. Collective.
+  std::int64_t countSimplices()
   {
-    if (!options_.criteria.empty() || options_.targetError <= 0)
-    {
-      return {};
-    }
-    const std::int64_t excess = countMesh(exchange_, state_.mesh).vertices - wanted_;
-    return std::clamp(static_cast<double>(excess) / static_cast<double>(left), 0.0, 1.0);
+    return exchange_.sum(
+      visitOwnSimplices(state_.mesh.mesh(), [](const auto& cells) { return cells.size(); }));
   }
 
-  /// Collective.
-  CoarseningLimits findLimits(std::optional<double> share)
+  /// For so many flagged vertices. Collective.
+  CoarseningLimits findLimits(std::int64_t left)
   {
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    CoarseningLimits limits{ options_.minimumQuality, options_.maximumDistance, infinity, share };
+    CoarseningLimits limits{ options_.minimumQuality, options_.maximumDistance, infinity, {} };
+    if (isCounted())
+    {
+      const auto excess = static_cast<double>(countSimplices() - wanted_);
+      limits.cellsAVertex = std::max(0.0, excess / static_cast<double>(left));
+    }
     if (options_.targetError > 0)
     {
       ClassifiedBoundary& boundary = boundaryOf(context_, state_);
@@ -224,8 +275,9 @@ private:
   RankExchange& exchange_;
   MeshState& state_;
   const CoarseningOptions& options_;
-  std::int64_t left_ = 0;   ///< Flagged vertices before the last round of the level.
-  std::int64_t wanted_ = 0; ///< Vertices of the mesh, were all flagged ones gone.
+  std::int64_t left_ = 0;    ///< Flagged vertices before the last round of the level.
+  std::int64_t wanted_ = 0;  ///< Simplices after the level, if their edges are twice as long.
+  std::int64_t flagged_ = 0; ///< Vertices, by the level at first.
   std::int64_t gone_ = 0;
 };
 

@@ -57,14 +57,14 @@ std::vector<Index> candidates(const EditableMesh& mesh, const std::vector<Vertex
   return vertices;
 }
 
-/// Those that cells have.
 template<int Dimension>
-std::int64_t countVertices(const EditableMesh& mesh)
+std::int64_t countCells(const EditableMesh& mesh)
 {
+  const auto& cells = mesh.cellsOf<Dimension>();
   std::int64_t count = 0;
-  for (std::size_t v = 0; v < mesh.vertexCount(); ++v)
+  for (std::size_t c = 0; c < cells.size(); ++c)
   {
-    count += mesh.cellsOf<Dimension>().at(static_cast<Index>(v)).empty() ? 0 : 1;
+    count += cells.exists(static_cast<Index>(c)) ? 1 : 0;
   }
   return count;
 }
@@ -94,9 +94,9 @@ public:
   {
   }
 
-  /// `exchanges`: where a vertex cannot go, a neighbour may go into it. `excess`: so many vertices
-  /// have to go, and no more do; of exchanges, a neighbour may also go elsewhere. Returns the
-  /// number of collapses.
+  /// `exchanges`: where a vertex cannot go, a neighbour may go into it. `excess`: once so many
+  /// cells have gone, no vertex does any more; of exchanges, a neighbour may also go elsewhere.
+  /// Returns the number of collapses.
   std::int64_t run(bool exchanges, std::optional<std::int64_t> excess)
   {
     exchanges_ = exchanges;
@@ -143,7 +143,7 @@ private:
       changes = false;
       for (const Index vertex : vertices)
       {
-        if (waits_[vertex] && collapses_ < excess_.value_or(collapses_ + 1))
+        if (waits_[vertex] && cellsGone_ < excess_.value_or(cellsGone_ + 1))
         {
           waits_[vertex] = 0;
           costsTooMuch_ = false;
@@ -330,6 +330,8 @@ private:
 
   void carryOut(const Collapse& way)
   {
+    cellsGone_ += static_cast<std::int64_t>(cavity_.cellsOf<Dimension>().size()) -
+                  static_cast<std::int64_t>(cavity_.newCellsOf<Dimension>().size());
     mesh_.replace(cavity_);
     ++collapses_;
     fates_[way.from] = VertexFate::Stays;
@@ -351,7 +353,8 @@ private:
   double mostGain_ = infinity;       ///< Of the error, by a collapse.
   bool costsTooMuch_ = false;        ///< The vertex last looked at.
   bool exchanges_ = false;
-  std::optional<std::int64_t> excess_; ///< Vertices more than there should be in the end.
+  std::optional<std::int64_t> excess_; ///< Cells more than there should be in the end.
+  std::int64_t cellsGone_ = 0;
   Cavity cavity_;
   std::int64_t collapses_ = 0;
 };
@@ -363,12 +366,12 @@ OperationResult coarsen(EditableMesh& mesh, const SurfaceRule& rule, std::vector
   holdStaying(fates, mesh);
   double errorLeft =
     limits.errorPerFacet < infinity ? limits.errorPerFacet * countFacetsOnCAD(mesh) : infinity;
-  const std::int64_t before = countVertices<Dimension>(mesh);
+  const std::int64_t before = countCells<Dimension>(mesh);
   const auto flagged = static_cast<double>(candidates(mesh, fates).size());
   std::optional<std::int64_t> excess;
-  if (limits.share)
+  if (limits.cellsAVertex)
   {
-    excess = std::llround(*limits.share * flagged);
+    excess = std::llround(*limits.cellsAVertex * flagged);
   }
   const std::int64_t collapses =
     Coarsener<Dimension>(mesh, rule, fates, limits, errorLeft).run(false, excess);
@@ -390,7 +393,7 @@ OperationResult coarsen(EditableMesh& mesh, const SurfaceRule& rule, std::vector
   fates.resize(mesh.vertexCount(), VertexFate::MayGo);
   if (excess)
   {
-    *excess -= before - countVertices<Dimension>(mesh);
+    *excess -= before - countCells<Dimension>(mesh);
   }
   result.counts.collapses +=
     Coarsener<Dimension>(mesh, rule, fates, limits, errorLeft).run(true, excess);

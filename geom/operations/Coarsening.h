@@ -21,9 +21,9 @@ struct CoarseningLimits
   /// What the sum of the geometric errors of facets on the CAD may gain for each facet that is
   /// there at first; infinite: not looked at.
   double errorPerFacet = 0;
-  /// How many vertices have to go, as a part of those that are to (improvement takes out others):
-  /// so many go, if need be others. Empty: each goes that can.
-  std::optional<double> share = {};
+  /// How many cells have to go for each vertex that is to: once so many have, no more vertices go;
+  /// before, also others, in the place of those that cannot. Empty: each goes that can.
+  std::optional<double> cellsAVertex = {};
 };
 
 /// What is to become of a vertex.

@@ -261,7 +261,7 @@ TEST(CoarseningFront, keepsTheNumberOfCells)
 // The first mesh of the wing is 228 cells.
 INSTANTIATE_TEST_SUITE_P(Cases, Coarsening,
   testing::Values(Case{ "Cylinder", "cylinder_coarse.vtu", "cylinder.brep", 0.05 },
-    Case{ "Wing", "naca0012_coarse.vtu", "naca0012_sharp.igs", 0.06 },
+    Case{ "Wing", "naca0012_coarse.vtu", "naca0012_sharp.igs", 0.05 },
     Case{ "BluntWing", "naca0012_blunt_coarse.vtu", "naca0012_blunt.igs", 0.05 },
     Case{ "Aeroplane", "aeroplane_coarse.vtu", "aeroplane.igs", 0.05 }),
   [](const auto& tested) { return tested.param.name; });
