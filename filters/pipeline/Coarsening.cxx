@@ -147,6 +147,10 @@ private:
   bool flagMore()
   {
     constexpr double nearlyAll = 0.05; // of the flagged ones, at most, are left
+    if (flagged_ == 0)
+    {
+      return false;
+    }
     const MeshCounts counts = countMesh(exchange_, state_.mesh);
     const double excess = static_cast<double>(counts.cells - wanted_) *
                           static_cast<double>(counts.vertices) / static_cast<double>(counts.cells);
