@@ -9,6 +9,7 @@
 
 #include <cadrefine/base/Error.h>
 
+#include <vtkCellData.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
 #include <vtkNew.h>

@@ -10,6 +10,7 @@
 #include <cadrefine/cad/import/CADFile.h>
 
 #include <vtkCompositeDataSet.h>
+#include <vtkDataAssembly.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkInformation.h>

@@ -2,6 +2,8 @@
 
 #include "comm/RankExchangeLink.h"
 
+#include <cadrefine/base/Error.h>
+
 #include <zoltan_cpp.h>
 
 #include <algorithm>

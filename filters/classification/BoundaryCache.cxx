@@ -4,6 +4,7 @@
 
 #include <cadrefine/base/MixedBits.h>
 
+#include <algorithm>
 #include <tuple>
 
 namespace cadrefine

@@ -11,6 +11,7 @@
 #include <vtkDataArray.h>
 #include <vtkDataArrayRange.h>
 #include <vtkFieldData.h>
+#include <vtkIdList.h>
 #include <vtkIdTypeArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -18,6 +19,7 @@
 
 #include <algorithm>
 #include <type_traits>
+#include <utility>
 
 namespace cadrefine
 {

@@ -4,6 +4,7 @@
 #include "classification/DistributedBoundary.h"
 #include "mesh/DistributedMesh.h"
 #include "operations/BlockMesh.h"
+#include "operations/Blocks.h"
 
 #include <cadrefine/base/ParallelFor.h>
 #include <cadrefine/classification/Classification.h>
@@ -11,6 +12,7 @@
 #include <cadrefine/operations/SurfaceRule.h>
 #include <cadrefine/refinement/RefinementTrace.h>
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <vector>

@@ -12,6 +12,7 @@
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
+#include <vtkPointData.h>
 #include <vtkTable.h>
 
 #include <cstdint>

@@ -6,8 +6,10 @@
 #include "pipeline/PipelineResult.h"
 #include "pipeline/Refinement.h"
 
+#include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
 class vtkPointSet;
 

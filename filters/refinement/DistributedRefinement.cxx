@@ -16,6 +16,7 @@
 #include <iterator>
 #include <numeric>
 #include <sstream>
+#include <string>
 #include <utility>
 
 namespace cadrefine

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cadrefine/base/Vector3.h>
+#include <cadrefine/mesh/Mesh.h>
 
 #include <array>
 

@@ -1,5 +1,6 @@
 #include <cadrefine/mesh/QualitySummary.h>
 
+#include <cadrefine/mesh/CellJacobian.h>
 #include <cadrefine/mesh/CellState.h>
 
 #include <algorithm>

@@ -4,6 +4,7 @@
 #include <cadrefine/base/Vector3.h>
 
 #include <array>
+#include <optional>
 #include <vector>
 
 namespace cadrefine

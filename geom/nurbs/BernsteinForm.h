@@ -5,6 +5,8 @@
 #include <cadrefine/nurbs/Interval.h>
 #include <cadrefine/nurbs/PatchView.h>
 
+#include <vector>
+
 namespace cadrefine
 {
 

@@ -5,6 +5,7 @@
 #include <cadrefine/base/EntityId.h>
 #include <cadrefine/nurbs/Bezier.h>
 
+#include <array>
 #include <cstdint>
 #include <vector>
 

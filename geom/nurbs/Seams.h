@@ -5,6 +5,7 @@
 #include <cadrefine/nurbs/PatchView.h>
 
 #include <array>
+#include <vector>
 
 namespace cadrefine
 {

@@ -1,6 +1,7 @@
 // Polynomials in Bezier form on squares, cubes and prisms.
 #pragma once
 
+#include <cadrefine/base/Vector3.h>
 #include <cadrefine/quadratic/BernsteinSimplex.h>
 
 #include <algorithm>
