@@ -24,6 +24,8 @@ import numpy as np
 # In parts of the mean length of a node's edges.
 LARGEST_MOVE = 0.05
 LARGEST_MOVE_OF_WING = 0.02
+TRIANGLE, TETRAHEDRON = 2, 4  # Types of gmsh.
+CORNERS = {TRIANGLE: 3, TETRAHEDRON: 4}
 occ = gmsh.model.occ
 
 
@@ -168,7 +170,7 @@ def write_cad(path, make):
 
 
 def mesh_domain(make, size, graded):
-    """Points, tetrahedra, the entity of each point, boundary triangles, and the face of each."""
+    """Points, tetrahedra, and the entity of each point."""
     gmsh.clear()
     make()
     occ.synchronize()
@@ -182,17 +184,31 @@ def mesh_domain(make, size, graded):
         gmsh.model.mesh.setSize(gmsh.model.getEntities(0), 4 * size)
         gmsh.model.mesh.setSize(inner, size)
     gmsh.model.mesh.generate(3)
-    tags, coordinates, _ = gmsh.model.mesh.getNodes()
-    number = {tag: place for place, tag in enumerate(tags)}
-    truth = np.full((len(tags), 2), -1, dtype=np.int32)
+    points, number = nodes()
+    truth = np.full((len(points), 2), -1, dtype=np.int32)
     for dimension, tag in gmsh.model.getEntities():
         for node in gmsh.model.mesh.getNodes(dimension, tag)[0]:
             truth[number[node]] = dimension, tag
-    cells, triangles = [np.vectorize(number.get)(gmsh.model.mesh.getElementsByType(kind)[1].reshape(-1, corners))
-                        for kind, corners in ((4, 4), (2, 3))]
-    faces = np.concatenate([np.full(len(gmsh.model.mesh.getElementsByType(2, tag)[0]), tag, dtype=np.int32)
-                            for _, tag in gmsh.model.getEntities(2)])
-    return coordinates.reshape(-1, 3), cells, truth, triangles, faces
+    return points, cells_of(TETRAHEDRON, number), truth
+
+
+def nodes():
+    """Points of gmsh's mesh, and the places of its node tags among them."""
+    tags, coordinates, _ = gmsh.model.mesh.getNodes()
+    return coordinates.reshape(-1, 3), {tag: place for place, tag in enumerate(tags)}
+
+
+def cells_of(kind, number, face=-1):
+    """Corners of gmsh's cells of one type, of one face or all."""
+    return np.vectorize(number.get)(gmsh.model.mesh.getElementsByType(kind, face)[1]).reshape(-1, CORNERS[kind])
+
+
+def boundary_triangles():
+    """Corners of the triangles on faces, and the face of each."""
+    _, number = nodes()
+    faces = [tag for _, tag in gmsh.model.getEntities(2)]
+    triangles = [cells_of(TRIANGLE, number, face) for face in faces]
+    return np.vstack(triangles), np.repeat(np.array(faces, dtype=np.int32), [len(part) for part in triangles])
 
 
 def mean_edge_lengths(points, cells):
@@ -218,7 +234,7 @@ def moved(points, cells, seed, largest):
 
 def write_mesh(path, make, size, graded=False, seed=None, largest=LARGEST_MOVE, tagged=False):
     """Moves the nodes where there is a seed. `tagged`: lists the boundary triangles, with the tags of their faces."""
-    points, cells, truth, triangles, faces = mesh_domain(make, size, graded)
+    points, cells, truth = mesh_domain(make, size, graded)
     used, cells = np.unique(cells, return_inverse=True)  # No nodes of curves that the mesh does not use.
     points, truth, cells = points[used], truth[used], cells.reshape(-1, 4)
     cells[volumes(points, cells) < 0] = cells[volumes(points, cells) < 0][:, [1, 0, 2, 3]]
@@ -226,6 +242,7 @@ def write_mesh(path, make, size, graded=False, seed=None, largest=LARGEST_MOVE, 
     blocks = [("tetra", cells)]
     tags = {}
     if tagged:
+        triangles, faces = boundary_triangles()
         blocks.append(("triangle", np.searchsorted(used, triangles)))
         tags = {"gmsh:geometrical": [np.ones(len(cells), dtype=np.int32), faces]}
     meshio.write(path, meshio.Mesh(after, blocks, cell_data=tags, point_data={
@@ -254,10 +271,8 @@ def write_surface(path, file, part, sewn):
     gmsh.option.setNumber("Mesh.MeshSizeMax", size)
     gmsh.option.setNumber("Mesh.MeshSizeMin", size)
     gmsh.model.mesh.generate(2)
-    tags, coordinates, _ = gmsh.model.mesh.getNodes()
-    number = {tag: place for place, tag in enumerate(tags)}
-    points = coordinates.reshape(-1, 3)
-    cells = np.vectorize(number.get)(gmsh.model.mesh.getElementsByType(2)[1]).reshape(-1, 3)
+    points, number = nodes()
+    cells = cells_of(TRIANGLE, number)
     places = np.round(points / (1e-6 * np.max(box[1] - box[0])))
     _, firsts, joined = np.unique(places, axis=0, return_index=True, return_inverse=True)
     cells = joined.reshape(-1)[cells]
