@@ -12,11 +12,6 @@ namespace cadrefine
 namespace
 {
 
-unsigned char larger(unsigned char a, unsigned char b)
-{
-  return std::max(a, b);
-}
-
 class ConflictFinder
 {
 public:
@@ -41,7 +36,7 @@ public:
       lookAtEdges();
       lookAtRows();
     }
-    combineShared(task_.exchange, task_.mesh.shared, conflicts_, larger);
+    combineFlags(task_.exchange, task_.mesh.shared, conflicts_);
     return std::move(conflicts_);
   }
 
@@ -152,8 +147,7 @@ private:
         inside[v] = inside[v] && records_[f].onCAD && !records_[f].free;
       }
     }
-    combineShared(task_.exchange, task_.mesh.shared, inside,
-      [](unsigned char a, unsigned char b) { return std::min(a, b); });
+    combineSmallest(task_.exchange, task_.mesh.shared, inside);
     return inside;
   }
 
@@ -263,7 +257,7 @@ private:
       beside[a] = beside[a] || flags[b];
       beside[b] = beside[b] || flags[a];
     }
-    combineShared(task_.exchange, task_.mesh.shared, beside, larger);
+    combineFlags(task_.exchange, task_.mesh.shared, beside);
     return indicesWhere(beside.size(),
       [&](std::size_t v) { return beside[v] && takesPart(v) && hits_[v].entity.dimension == 2; });
   }

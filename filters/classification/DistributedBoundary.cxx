@@ -49,11 +49,9 @@ void measureVertices(
       boundary.shortestEdge[vertex] = std::min(boundary.shortestEdge[vertex], length);
     }
   }
-  const auto larger = [](auto a, auto b) { return std::max(a, b); };
-  combineShared(exchange, mesh.shared, boundary.onBoundary, larger);
-  combineShared(exchange, mesh.shared, boundary.longestEdge, larger);
-  combineShared(exchange, mesh.shared, boundary.shortestEdge,
-    [](double a, double b) { return std::min(a, b); });
+  combineFlags(exchange, mesh.shared, boundary.onBoundary);
+  combineLargest(exchange, mesh.shared, boundary.longestEdge);
+  combineSmallest(exchange, mesh.shared, boundary.shortestEdge);
 }
 
 bool isClassified(const ClassifiedFacet& facet)

@@ -37,7 +37,7 @@ struct DistributedBoundary
   /// Length of the shortest boundary edge at each vertex, over all ranks; infinite elsewhere.
   std::vector<double> shortestEdge;
 
-  int facetDimension() const { return kind == BoundaryKind::Faces ? 2 : 1; }
+  int facetDimension() const { return dimensionOf(kind); }
 };
 
 /// Whether a mesh of triangles within these bounds is planar, and compared with the edges of the

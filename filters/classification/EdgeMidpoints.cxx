@@ -159,8 +159,7 @@ std::vector<std::int64_t> edgeCodes(
   {
     codes[edges.table.find(ends[e][0], ends[e][1])] = encode(classified.classes.ofEdges[e]);
   }
-  combineShared(exchange, edges.sharedEdges, codes,
-    [](std::int64_t a, std::int64_t b) { return std::max(a, b); });
+  combineLargest(exchange, edges.sharedEdges, codes);
   return codes;
 }
 
@@ -275,8 +274,7 @@ std::vector<std::int32_t> quadCodes(RankExchange& exchange, const EdgeTable& tab
       codes[quads.table.find(edges)] = record.onCAD ? 3 + record.face : 1;
     }
   }
-  combineShared(
-    exchange, quads.shared, codes, [](std::int32_t a, std::int32_t b) { return std::max(a, b); });
+  combineLargest(exchange, quads.shared, codes);
   return codes;
 }
 

@@ -81,8 +81,7 @@ std::vector<unsigned char> findThoseAmongTheirOwn(
       result[b] = 0;
     }
   }
-  combineShared(task.exchange, task.mesh.shared, result,
-    [](unsigned char a, unsigned char b) { return std::min(a, b); });
+  combineSmallest(task.exchange, task.mesh.shared, result);
   return result;
 }
 

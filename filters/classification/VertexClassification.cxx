@@ -127,8 +127,7 @@ void addFaces(const ProjectionTask& task, const std::vector<ClosestPoint>& hits,
   }
   combineShared(task.exchange, task.mesh.shared, meeting.faces, unite);
   combineFlags(task.exchange, task.mesh.shared, meeting.undecided);
-  combineShared(task.exchange, task.mesh.shared, meeting.wrongSide,
-    [](unsigned char a, unsigned char b) { return std::min(a, b); });
+  combineSmallest(task.exchange, task.mesh.shared, meeting.wrongSide);
 }
 
 void addEdges(const ProjectionTask& task, VertexClassification& meeting)

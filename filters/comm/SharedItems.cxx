@@ -115,8 +115,7 @@ SharedItems makeSharedItems(
 void combineFlags(
   RankExchange& exchange, const SharedItems& shared, std::vector<unsigned char>& flags)
 {
-  combineShared(
-    exchange, shared, flags, [](unsigned char a, unsigned char b) { return std::max(a, b); });
+  combineLargest(exchange, shared, flags);
 }
 
 } // namespace cadrefine

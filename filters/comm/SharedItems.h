@@ -5,6 +5,7 @@
 
 #include <cadrefine/base/MeshTypes.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -72,6 +73,12 @@ template<class T, class Combine>
 void combineShared(
   RankExchange& exchange, const SharedItems& shared, std::vector<T>& values, Combine op);
 
+/// combineShared of the smallest, or the largest, of the values.
+template<class T>
+void combineSmallest(RankExchange& exchange, const SharedItems& shared, std::vector<T>& values);
+template<class T>
+void combineLargest(RankExchange& exchange, const SharedItems& shared, std::vector<T>& values);
+
 /// Sets the flags of the shared items that any rank has set. Collective; as combineShared.
 void combineFlags(
   RankExchange& exchange, const SharedItems& shared, std::vector<unsigned char>& flags);
@@ -136,6 +143,18 @@ void combineShared(
   {
     combineMine();
   }
+}
+
+template<class T>
+void combineSmallest(RankExchange& exchange, const SharedItems& shared, std::vector<T>& values)
+{
+  combineShared(exchange, shared, values, [](const T& a, const T& b) { return std::min(a, b); });
+}
+
+template<class T>
+void combineLargest(RankExchange& exchange, const SharedItems& shared, std::vector<T>& values)
+{
+  combineShared(exchange, shared, values, [](const T& a, const T& b) { return std::max(a, b); });
 }
 
 template<class T>

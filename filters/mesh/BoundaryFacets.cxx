@@ -183,8 +183,7 @@ void settleShared(RankExchange& exchange, const DistributedMesh& mesh, bool anyL
   {
     smallest.resize(facets.size());
     std::transform(facets.begin(), facets.end(), smallest.begin(), idOf);
-    combineShared(
-      exchange, shared, smallest, [](GlobalId a, GlobalId b) { return std::min(a, b); });
+    combineSmallest(exchange, shared, smallest);
   }
   std::vector<Facet> interior;
   for (const Index f : shared.all)

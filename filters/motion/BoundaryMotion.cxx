@@ -126,8 +126,7 @@ void settle(Motion& motion, MoveGuard& guard, const std::vector<Index>& moving)
   Moves& moves = motion.moves;
   while (motion.exchange.any(guard.halveUnaccepted(moves)))
   {
-    const auto smaller = [](double a, double b) { return std::min(a, b); };
-    combineShared(motion.exchange, motion.distributed.shared, moves.fractions, smaller);
+    combineSmallest(motion.exchange, motion.distributed.shared, moves.fractions);
     if (motion.columns.any())
     {
       motion.columns.tie(motion.exchange, moves);

@@ -29,11 +29,6 @@ constexpr double smoothHeights = 2;
 /// The least cosine between a facet's normal and a move across it, not along it.
 constexpr double across = 0.5;
 
-double larger(double a, double b)
-{
-  return std::max(a, b);
-}
-
 /// The facet at a moving node whose normal is nearest to the direction of its move.
 struct BestFacet
 {
@@ -300,8 +295,7 @@ std::vector<ColumnPlanning::Claim> ColumnPlanning::findClaims(
     Claim& claim = claims[columns_.members[k].node];
     claim = isLeftOut[k] ? claim : std::min(claim, claimOf(columns_.members[k]));
   }
-  combineShared(exchange, columns_.nodes.shared, claims,
-    [](const Claim& a, const Claim& b) { return std::min(a, b); });
+  combineSmallest(exchange, columns_.nodes.shared, claims);
   return claims;
 }
 
@@ -321,8 +315,7 @@ std::vector<unsigned char> ColumnPlanning::findFacing(RankExchange& exchange, co
       columns_.facing[c] = node;
     }
   }
-  const auto largest = [](GlobalId a, GlobalId b) { return std::max(a, b); };
-  combineShared(exchange, columns_.shared, ends, largest);
+  combineLargest(exchange, columns_.shared, ends);
   std::vector<unsigned char> faces(columns_.ids.size(), 0);
   if (!exchange.any(std::any_of(ends.begin(), ends.end(), [](GlobalId end) { return end >= 0; })))
   {
@@ -354,7 +347,7 @@ std::vector<unsigned char> ColumnPlanning::findFacing(RankExchange& exchange, co
       faced[c] = back.end == columns_.ids[c] / 2 && isNear ? 2 * ends[c] + side : faced[c];
     }
   }
-  combineShared(exchange, columns_.shared, faced, largest);
+  combineLargest(exchange, columns_.shared, faced);
   std::vector<unsigned char> isNone(columns_.ids.size(), 0);
   for (const ColumnMember& member : columns_.members)
   {
@@ -386,8 +379,8 @@ std::vector<ColumnPlanning::Span> ColumnPlanning::findSpans(
     firsts[c] = std::min(firsts[c], member.height);
     tops[c] = std::max(tops[c], member.height);
   }
-  combineShared(exchange, columns_.shared, firsts, smaller);
-  combineShared(exchange, columns_.shared, tops, larger);
+  combineSmallest(exchange, columns_.shared, firsts);
+  combineLargest(exchange, columns_.shared, tops);
   const auto faces = findFacing(exchange, moves, claims, tops);
   const auto ofWalls = columns_.movesOfWalls(exchange, moves);
   std::vector<unsigned char> isLost;
@@ -401,8 +394,8 @@ std::vector<ColumnPlanning::Span> ColumnPlanning::findSpans(
     lost[c] = isLost[k] && !faces[c] ? std::min(lost[c], height) : lost[c];
     lasts[c] = height < tops[c] ? std::max(lasts[c], height) : lasts[c];
   }
-  combineShared(exchange, columns_.shared, lost, smaller);
-  combineShared(exchange, columns_.shared, lasts, larger);
+  combineSmallest(exchange, columns_.shared, lost);
+  combineLargest(exchange, columns_.shared, lasts);
 
   const auto blocked = columns_.findBlocked(exchange, ofWalls, isLost);
   std::vector<double> faded(columns_.ids.size(), 0);
@@ -419,7 +412,7 @@ std::vector<ColumnPlanning::Span> ColumnPlanning::findSpans(
       faded[c] = goesAlong ? std::max(faded[c], std::min(1.0, height / (heightsOfMove * move))) : 1;
     }
   }
-  combineShared(exchange, columns_.shared, faded, larger);
+  combineLargest(exchange, columns_.shared, faded);
   std::vector<Span> spans(columns_.ids.size());
   for (std::size_t c = 0; c < spans.size(); ++c)
   {

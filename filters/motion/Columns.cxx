@@ -1,5 +1,9 @@
 #include "motion/Columns.h"
 
+#include <cadrefine/mesh/Quality.h>
+
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace cadrefine

@@ -7,10 +7,7 @@
 #include <cadrefine/base/Moves.h>
 #include <cadrefine/classification/BoundaryProjector.h>
 #include <cadrefine/mesh/Facets.h>
-#include <cadrefine/mesh/Quality.h>
 
-#include <algorithm>
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -97,11 +94,6 @@ private:
   std::vector<Vector3> movesOf(
     RankExchange& exchange, const Moves& moves, const std::vector<Index>& ofColumns) const;
 };
-
-inline double smaller(double a, double b)
-{
-  return std::min(a, b);
-}
 
 /// Of what ranks have of a move, of which all but one may be zero.
 inline const Vector3& nonZero(const Vector3& a, const Vector3& b)

@@ -72,8 +72,7 @@ Vector3 liftedEdge(const FirstEdge& edge, const EntityId& wall, const BoundaryPr
   const Point3& place, const std::array<Point3, 2>& places, const std::array<Vector3, 2>& ups)
 {
   const Vector3 asItGoes = normalized(edge.up);
-  const std::int8_t dimension = projector.kind() == BoundaryKind::Faces ? 2 : 1;
-  if (wall.dimension != dimension || edge.onBoundary)
+  if (wall.dimension != dimensionOf(projector.kind()) || edge.onBoundary)
   {
     return edge.wantedLength * asItGoes;
   }

@@ -94,10 +94,10 @@ void LayerColumns::tie(RankExchange& exchange, Moves& moves) const
     std::vector<double> smallest(columns_.walls.size(), std::numeric_limits<double>::infinity());
     forAllTied([&](Index column, Index node)
       { smallest[column] = std::min(smallest[column], moves.fractions[node]); });
-    combineShared(exchange, columns_.shared, smallest, smaller);
+    combineSmallest(exchange, columns_.shared, smallest);
     forAllTied([&](Index column, Index node)
       { moves.fractions[node] = std::min(moves.fractions[node], smallest[column]); });
-    combineShared(exchange, columns_.nodes.shared, moves.fractions, smaller);
+    combineSmallest(exchange, columns_.nodes.shared, moves.fractions);
   }
 }
 

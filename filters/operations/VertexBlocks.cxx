@@ -169,8 +169,7 @@ void markBesideOthers(
         }
       }
     });
-  combineShared(exchange, mesh.shared, ofVertices,
-    [](std::int64_t a, std::int64_t b) { return std::min(a, b); });
+  combineSmallest(exchange, mesh.shared, ofVertices);
   for (const auto& segment : mesh.mesh().segments)
   {
     if (blockOf(segment, ofVertices) < 0)
@@ -178,8 +177,7 @@ void markBesideOthers(
       mark(segment, manyBlocks);
     }
   }
-  combineShared(exchange, mesh.shared, ofVertices,
-    [](std::int64_t a, std::int64_t b) { return std::max(a, b); });
+  combineLargest(exchange, mesh.shared, ofVertices);
 }
 
 std::size_t listedTriangles(const Mesh& mesh)

@@ -97,8 +97,7 @@ private:
       const auto [a, b] = boundary.edges.edges()[e];
       places[edges_.table.find(a, b)] = placeOf(boundary_.classes.ofEdges[e], ofFacets[e]);
     }
-    combineShared(exchange_, edges_.sharedEdges, places,
-      [](EdgePlace a, EdgePlace b) { return std::max(a, b); });
+    combineLargest(exchange_, edges_.sharedEdges, places);
     return places;
   }
 

@@ -171,9 +171,8 @@ Sides compareWithListed(RankExchange& exchange, const DistributedMesh& mesh,
     k < ofFacets.size() ? void(entities[placeOf[k]] = ofFacets[k]) : void(isListed[placeOf[k]] = 1);
   }
   const SharedItems shared = findSharedCells(exchange, mesh.shared, mesh.mesh().ids, distinct);
-  const auto larger = [](auto a, auto b) { return std::max(a, b); };
-  combineShared(exchange, shared, entities, larger);
-  combineShared(exchange, shared, isListed, larger);
+  combineLargest(exchange, shared, entities);
+  combineLargest(exchange, shared, isListed);
   return { taken(entities, placeOf), taken(isListed, placeOf) };
 }
 

@@ -72,8 +72,7 @@ class FitSearch
 {
 public:
   FitSearch(const ProjectionTask& task, const ProjectionResult& result, Fit& fit)
-    : task_(task), result_(result), fit_(fit),
-      dimension_(static_cast<std::int8_t>(task.ofFaces() ? 2 : 1)),
+    : task_(task), result_(result), fit_(fit), dimension_(dimensionOf(task.boundary.kind)),
       entities_(task.model().count(dimension_))
   {
   }

@@ -146,7 +146,7 @@ ProjectionResult projectBoundary(RankExchange& exchange, DistributedMesh& mesh,
   if (!options.faces.empty())
   {
     const EntitySelection chosen =
-      selectEntities(task.model(), task.ofFaces() ? 2 : 1, options.faces, "Faces");
+      selectEntities(task.model(), task.boundary.facetDimension(), options.faces, "Faces");
     leaveOut(task, chosen, forOnThreads(exchange), facets.records);
     onCAD = findVerticesOnCAD(task, facets.records);
   }

@@ -111,8 +111,7 @@ private:
   {
     const auto tie = [&]
     {
-      combineShared(exchange_, sharedEdges_, moves_.fractions,
-        [](double a, double b) { return std::min(a, b); });
+      combineSmallest(exchange_, sharedEdges_, moves_.fractions);
       if (columns.any())
       {
         columns.tie(exchange_, moves_);

@@ -128,8 +128,7 @@ void orderStacks(RankExchange& exchange, const Mesh& mesh, RefinementPlan& plan)
   stacks.spread();
   do
   {
-    combineShared(exchange, plan.sharedEdges, stacks.ranks(),
-      [](const StackRank& a, const StackRank& b) { return std::max(a, b); });
+    combineLargest(exchange, plan.sharedEdges, stacks.ranks());
   } while (exchange.any(stacks.spread()));
   stacks.writeTo(plan.table);
 }

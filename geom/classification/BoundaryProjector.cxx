@@ -241,7 +241,7 @@ ClosestPoint BoundaryProjector::projectOnEdge(std::int32_t edge, const Point3& p
 std::vector<std::int32_t> BoundaryProjector::entitiesOf(
   const EdgeClass& edgeClass, const std::array<EntityId, 2>& entities) const
 {
-  const std::int8_t dimension = kind_ == BoundaryKind::Faces ? 2 : 1;
+  const std::int8_t dimension = dimensionOf(kind_);
   return isOnFace(edgeClass) ? std::vector<std::int32_t>{ edgeClass.entity }
                              : commonEntities(model_.nurbs(), entities[0], entities[1], dimension);
 }
@@ -250,7 +250,7 @@ std::vector<std::int32_t> BoundaryProjector::entitiesOf(
 ClosestPoint BoundaryProjector::nearestOnShared(
   const EdgeClass& edgeClass, const std::array<EntityId, 2>& entities, const Point3& point) const
 {
-  const std::int8_t dimension = kind_ == BoundaryKind::Faces ? 2 : 1;
+  const std::int8_t dimension = dimensionOf(kind_);
   ClosestPoint best;
   for (const std::int32_t entity : entitiesOf(edgeClass, entities))
   {

@@ -22,6 +22,12 @@ enum class BoundaryKind
   Edges
 };
 
+/// Of these facets, and of the CAD's faces or edges.
+constexpr std::int8_t dimensionOf(BoundaryKind kind)
+{
+  return kind == BoundaryKind::Faces ? 2 : 1;
+}
+
 /// A facet with the CAD entities that its corners lie on.
 struct ClassifiedFacet
 {
