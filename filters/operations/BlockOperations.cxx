@@ -95,12 +95,6 @@ void moveParameters(const std::vector<Point3>& before, const std::vector<Point3>
   }
 }
 
-/// Cells of the mesh's own dimension that are simplices.
-std::size_t simplexCount(const Mesh& mesh)
-{
-  return visitOwnSimplices(mesh, [](const auto& cells) { return cells.size(); });
-}
-
 /// What each block has, and what is in none.
 std::pair<std::map<std::int64_t, Members>, Members> findMembers(const DistributedMesh& mesh,
   const std::vector<std::int64_t>& ofCells, const std::vector<std::int64_t>& ofVertices,
@@ -111,7 +105,7 @@ std::pair<std::map<std::int64_t, Members>, Members> findMembers(const Distribute
   reserveLong(others.cells, ofCells.size());
   const auto sort = [&](std::int64_t block, std::vector<Index> Members::*list, std::size_t number)
   { ((block >= 0 ? members[block] : others).*list).push_back(static_cast<Index>(number)); };
-  for (std::size_t c = 0; c < simplexCount(mesh.mesh()); ++c)
+  for (std::size_t c = 0; c < countOwnSimplices(mesh.mesh()); ++c)
   {
     sort(ofCells[c], &Members::cells, c);
   }
@@ -157,7 +151,7 @@ OperationBlocks findOperationBlocks(RankExchange& exchange, const DistributedMes
   const Mesh& piece = mesh.mesh();
   flagRings(exchange, mesh, settings.rings - 1, flags, parallelFor);
   std::vector<Index> cells =
-    cellsOfShape(cellsAt(piece, flags, parallelFor), 0, simplexCount(piece));
+    cellsOfShape(cellsAt(piece, flags, parallelFor), 0, countOwnSimplices(piece));
   cells.erase(std::remove_if(
                 cells.begin(), cells.end(), [&](Index cell) { return !settings.mayChange(cell); }),
     cells.end());

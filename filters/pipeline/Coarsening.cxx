@@ -61,9 +61,9 @@ private:
     addFates(mayGo, verticesToRemove(exchange_, state_.mesh, *state_.classification,
                       boundaryOf(context_, state_), mayGo));
     wanted_ = countSimplices() / (state_.mesh.mesh().dimension == 3 ? 8 : 4);
-    flagged_ = countFates(VertexFate::Goes);
+    const std::int64_t flagged = countFates(VertexFate::Goes);
     takeOutFlagged();
-    if (isCounted() && flagMore())
+    if (isCounted() && flagged > 0 && flagMore(flagged))
     {
       takeOutFlagged();
     }
@@ -111,8 +111,7 @@ private:
           std::for_each(cells.begin(), cells.end(), keep);
         }
       });
-    combineShared(exchange_, state_.mesh.shared, mayGo,
-      [](unsigned char a, unsigned char b) { return std::min(a, b); });
+    combineSmallest(exchange_, state_.mesh.shared, mayGo);
     return mayGo;
   }
 
@@ -142,22 +141,18 @@ private:
   }
 
   /// A maximal set that stays may be larger than that of the vertices before. Where nearly all
-  /// flagged ones went, but too few cells with them, flags some of those that stay, evenly over the
-  /// mesh. Returns whether it did. Collective.
-  bool flagMore()
+  /// flagged ones (so many at first) went, but too few cells with them, flags some of those that
+  /// stay, evenly over the mesh. Returns whether it did. Collective.
+  bool flagMore(std::int64_t flagged)
   {
     constexpr double nearlyAll = 0.05; // of the flagged ones, at most, are left
-    if (flagged_ == 0)
-    {
-      return false;
-    }
     const MeshCounts counts = countMesh(exchange_, state_.mesh);
     const double excess = static_cast<double>(counts.cells - wanted_) *
                           static_cast<double>(counts.vertices) / static_cast<double>(counts.cells);
     const auto staying = static_cast<double>(countFates(VertexFate::MayGo));
     const auto left = static_cast<double>(countFates(VertexFate::Goes));
     if (exchange_.any(state_.mesh.mesh().hasOtherThanSimplices()) || excess < 1 ||
-        excess > staying || left > nearlyAll * static_cast<double>(flagged_))
+        excess > staying || left > nearlyAll * static_cast<double>(flagged))
     {
       return false;
     }
@@ -186,27 +181,28 @@ private:
     return exchange_.sum(count);
   }
 
+  /// In rounds, as long as the one before took out a hundredth of what was left, at least.
   void takeOutFlagged()
   {
-    left_ = std::numeric_limits<std::int64_t>::max();
-    for (int round = 0; round < maximumRounds && takeOut(round); ++round)
+    std::int64_t before = std::numeric_limits<std::int64_t>::max();
+    for (int round = 0; round < maximumRounds; ++round)
     {
+      const std::int64_t left = countFates(VertexFate::Goes);
+      if (left == 0 || left >= before - before / 100)
+      {
+        return;
+      }
+      takeOut(round, left);
+      before = left;
     }
   }
 
-  /// A round of collapses. Returns whether there may be more: that before took out a hundredth of
-  /// what was left, at least.
-  bool takeOut(int round)
+  /// A round of collapses, of so many flagged vertices.
+  void takeOut(int round, std::int64_t left)
   {
     std::vector<unsigned char> flagged(state_.mesh.mesh().points.size());
     std::transform(fates(), fates() + flagged.size(), flagged.begin(),
       [](VertexFate fate) { return static_cast<unsigned char>(fate == VertexFate::Goes); });
-    const std::int64_t left = countFates(VertexFate::Goes);
-    if (left == 0 || left >= left_ - left_ / 100)
-    {
-      return false;
-    }
-    left_ = left;
     exchange_.progress().say(static_cast<double>(round) / maximumRounds,
       "taking out vertices, round " + std::to_string(round + 1) + " of at most " +
         std::to_string(maximumRounds));
@@ -231,7 +227,6 @@ private:
     };
     operateOnMesh(context_, state_, flagged,
       { 2, round, options_.largestBlock, [](Index) { return true; } }, work);
-    return true;
   }
 
   /// Whether all of the mesh is to have cells that are twice as large, so that it is known how
@@ -239,11 +234,7 @@ private:
   bool isCounted() const { return options_.criteria.empty() && options_.targetError > 0; }
 
   /// Over all ranks. Collective.
-  std::int64_t countSimplices()
-  {
-    return exchange_.sum(
-      visitOwnSimplices(state_.mesh.mesh(), [](const auto& cells) { return cells.size(); }));
-  }
+  std::int64_t countSimplices() { return exchange_.sum(countOwnSimplices(state_.mesh.mesh())); }
 
   /// For so many flagged vertices. Collective.
   CoarseningLimits findLimits(std::int64_t left)
@@ -279,9 +270,7 @@ private:
   RankExchange& exchange_;
   MeshState& state_;
   const CoarseningOptions& options_;
-  std::int64_t left_ = 0;    ///< Flagged vertices before the last round of the level.
-  std::int64_t wanted_ = 0;  ///< Simplices after the level, if their edges are twice as long.
-  std::int64_t flagged_ = 0; ///< Vertices, by the level at first.
+  std::int64_t wanted_ = 0; ///< Simplices after the level, if their edges are twice as long.
   std::int64_t gone_ = 0;
 };
 

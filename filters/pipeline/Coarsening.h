@@ -25,8 +25,11 @@ struct CoarseningOptions
 /// of verticesToRemove go, by edge collapses (see coarsenCells) in rounds of blocks that lie
 /// elsewhere in each (see operateOnMesh), so far as the limits allow; then cells are improved (see
 /// improveMesh). Without a target or a distance new facets are no farther from the CAD than those
-/// before. Collective. Returns the number of vertices that went, over all ranks. Work and messages:
-/// those of these, and in each round measureError where there is a target.
+/// before, and add nothing to the geometric error. With a target and without criteria a level ends
+/// when an eighth of the tetrahedra, or a quarter of the triangles, is left; where it cannot get
+/// there, more vertices go than verticesToRemove tells. Collective. Returns the number of vertices
+/// that went, over all ranks. Work and messages: those of these, and in each round measureError
+/// where there is a target.
 std::int64_t coarsenMesh(
   const PipelineContext& context, MeshState& state, const CoarseningOptions& options);
 

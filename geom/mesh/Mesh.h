@@ -57,6 +57,11 @@ decltype(auto) visitOwnSimplices(AnyMesh& mesh, const Visit& visit)
   return mesh.dimension == 3 ? visit(mesh.tetrahedra) : visit(mesh.triangles);
 }
 
+inline std::size_t countOwnSimplices(const Mesh& mesh)
+{
+  return visitOwnSimplices(mesh, [](const auto& cells) { return cells.size(); });
+}
+
 /// Local edges of a tetrahedron, as pairs of local vertices. The same order holds wherever six
 /// values a tetrahedron are kept. Edge 5 - i is opposite to edge i.
 constexpr int tetrahedronEdges[6][2] = { { 0, 1 }, { 0, 2 }, { 0, 3 }, { 1, 2 }, { 1, 3 },

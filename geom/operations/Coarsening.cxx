@@ -94,13 +94,13 @@ public:
   {
   }
 
-  /// `exchanges`: where a vertex cannot go, a neighbour may go into it. `excess`: once so many
-  /// cells have gone, no vertex does any more; of exchanges, a neighbour may also go elsewhere.
-  /// Returns the number of collapses.
-  std::int64_t run(bool exchanges, std::optional<std::int64_t> excess)
+  /// `exchanges`: where a vertex cannot go, a neighbour may go into it. `fewest`: once there are so
+  /// few cells, no vertex goes any more; of exchanges, a neighbour may also go elsewhere. Returns
+  /// the number of collapses.
+  std::int64_t run(bool exchanges, std::optional<std::int64_t> fewest)
   {
     exchanges_ = exchanges;
-    excess_ = excess;
+    fewest_ = fewest;
     const std::vector<Index> vertices = candidates(mesh_, fates_);
     const auto ofBoundary = std::count_if(vertices.begin(), vertices.end(),
       [&](Index vertex) { return mesh_.freedomOf(vertex) != Freedom::Space; });
@@ -143,7 +143,7 @@ private:
       changes = false;
       for (const Index vertex : vertices)
       {
-        if (waits_[vertex] && cellsGone_ < excess_.value_or(cellsGone_ + 1))
+        if (waits_[vertex] && (!fewest_ || cellCount_ > *fewest_))
         {
           waits_[vertex] = 0;
           costsTooMuch_ = false;
@@ -248,7 +248,7 @@ private:
     addWays(vertex, neighbours, ways);
     return collapseByBest(ways) ||
            (exchanges_ && (takeOutNeighbour(vertex, neighbours, false) ||
-                            (excess_ && takeOutNeighbour(vertex, neighbours, true))));
+                            (fewest_ && takeOutNeighbour(vertex, neighbours, true))));
   }
 
   /// A neighbour in the place of the vertex: into it, or elsewhere.
@@ -330,8 +330,8 @@ private:
 
   void carryOut(const Collapse& way)
   {
-    cellsGone_ += static_cast<std::int64_t>(cavity_.cellsOf<Dimension>().size()) -
-                  static_cast<std::int64_t>(cavity_.newCellsOf<Dimension>().size());
+    cellCount_ += static_cast<std::int64_t>(cavity_.newCellsOf<Dimension>().size()) -
+                  static_cast<std::int64_t>(cavity_.cellsOf<Dimension>().size());
     mesh_.replace(cavity_);
     ++collapses_;
     fates_[way.from] = VertexFate::Stays;
@@ -353,8 +353,8 @@ private:
   double mostGain_ = infinity;       ///< Of the error, by a collapse.
   bool costsTooMuch_ = false;        ///< The vertex last looked at.
   bool exchanges_ = false;
-  std::optional<std::int64_t> excess_; ///< Cells more than there should be in the end.
-  std::int64_t cellsGone_ = 0;
+  std::optional<std::int64_t> fewest_; ///< Cells that are to be left.
+  std::int64_t cellCount_ = countCells<Dimension>(mesh_);
   Cavity cavity_;
   std::int64_t collapses_ = 0;
 };
@@ -366,15 +366,14 @@ OperationResult coarsen(EditableMesh& mesh, const SurfaceRule& rule, std::vector
   holdStaying(fates, mesh);
   double errorLeft =
     limits.errorPerFacet < infinity ? limits.errorPerFacet * countFacetsOnCAD(mesh) : infinity;
-  const std::int64_t before = countCells<Dimension>(mesh);
-  const auto flagged = static_cast<double>(candidates(mesh, fates).size());
-  std::optional<std::int64_t> excess;
+  std::optional<std::int64_t> fewest;
   if (limits.cellsAVertex)
   {
-    excess = std::llround(*limits.cellsAVertex * flagged);
+    const auto flagged = static_cast<double>(candidates(mesh, fates).size());
+    fewest = countCells<Dimension>(mesh) - std::llround(*limits.cellsAVertex * flagged);
   }
   const std::int64_t collapses =
-    Coarsener<Dimension>(mesh, rule, fates, limits, errorLeft).run(false, excess);
+    Coarsener<Dimension>(mesh, rule, fates, limits, errorLeft).run(false, fewest);
   if (candidates(mesh, fates).empty())
   {
     OperationResult result;
@@ -391,12 +390,8 @@ OperationResult coarsen(EditableMesh& mesh, const SurfaceRule& rule, std::vector
     fates[v] = isThere ? fates[v] : VertexFate::Stays;
   }
   fates.resize(mesh.vertexCount(), VertexFate::MayGo);
-  if (excess)
-  {
-    *excess -= before - countCells<Dimension>(mesh);
-  }
   result.counts.collapses +=
-    Coarsener<Dimension>(mesh, rule, fates, limits, errorLeft).run(true, excess);
+    Coarsener<Dimension>(mesh, rule, fates, limits, errorLeft).run(true, fewest);
   return result;
 }
 

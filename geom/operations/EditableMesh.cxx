@@ -158,9 +158,19 @@ void EditableMesh::moveVertex(Index v, const Point3& point)
   forgetQualities(v);
 }
 
+bool EditableMesh::haveOneLabel(const std::vector<Index>& cells) const
+{
+  return std::all_of(cells.begin(), cells.end(),
+    [&](Index cell) { return cells_[cell].label == cells_[cells.front()].label; });
+}
+
 bool EditableMesh::labelsEndAtFacets(Index v) const
 {
   const std::vector<Index>& cells = cells_.at(v);
+  if (haveOneLabel(cells))
+  {
+    return true;
+  }
   for (std::size_t i = 1; i < cells.size(); ++i)
   {
     const LabelledSimplex<4>& cell = cells_[cells[i]];

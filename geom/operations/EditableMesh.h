@@ -211,6 +211,7 @@ public:
   /// cells there.
   bool areOnRim(Index a, Index b) const { return vertices_[a].isOnRim && vertices_[b].isOnRim; }
   Freedom freedomOf(Index v) const;
+  bool haveOneLabel(const std::vector<Index>& cells) const;
   bool hasFacet(const std::array<Index, 3>& corners) const;
   /// Whether a vertex lies in the plane of a facet, or on the line of a segment, but for rounding
   /// of the coordinates.

@@ -196,13 +196,6 @@ private:
   std::array<std::array<std::size_t, largestRing>, largestRing> apex_{};
 };
 
-/// Whether the cells have one label.
-bool areAlike(const EditableMesh& mesh, const std::vector<Index>& cells)
-{
-  return std::all_of(cells.begin(), cells.end(),
-    [&](Index cell) { return mesh.cells()[cell].label == mesh.cells()[cells.front()].label; });
-}
-
 /// The corners of these cells, each once, ascending, but for two vertices.
 template<std::size_t Corners>
 std::vector<Index> otherCorners(
@@ -329,7 +322,7 @@ bool proposeEdgeRemoval(
   }
   mesh.cells().at(a, b, cavity.cells);
   const Ring ring = ringOf(mesh, cavity.cells, a, b);
-  if (ring.vertices.empty() || mayGoBeyond(mesh, ring, a, b) || !areAlike(mesh, cavity.cells))
+  if (ring.vertices.empty() || mayGoBeyond(mesh, ring, a, b) || !mesh.haveOneLabel(cavity.cells))
   {
     return false;
   }
