@@ -29,7 +29,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <set>
 
@@ -92,18 +91,15 @@ int FindDimension(
   {
     dimension = std::max(dimension, mesh->GetCell(cell)->GetCellDimension());
   }
-  double box[6];
-  mesh->GetBounds(box);
-  const bool isEmpty = mesh->GetNumberOfPoints() == 0;
-  const double none = std::numeric_limits<double>::max();
-  cadrefine::MeshBounds bounds{ { none, none, none }, { -none, -none, -none } };
-  for (int k = 0; k < 3 && !isEmpty; ++k)
+  cadrefine::BoundingBox box;
+  if (mesh->GetNumberOfPoints() > 0)
   {
-    bounds.low[k] = box[2 * k];
-    bounds.high[k] = box[2 * k + 1];
+    double bounds[6];
+    mesh->GetBounds(bounds);
+    box = { { bounds[0], bounds[2], bounds[4] }, { bounds[1], bounds[3], bounds[5] } };
   }
-  bounds = cadrefine::combineBounds(exchange, bounds);
-  return exchange.max(dimension) == 2 && cadrefine::isPlanar(bounds, model) ? 1 : 2;
+  box = cadrefine::combineBoxes(exchange, box);
+  return exchange.max(dimension) == 2 && cadrefine::isPlanar(box, model) ? 1 : 2;
 }
 
 /// Of all ranks, on rank 0. Collective.

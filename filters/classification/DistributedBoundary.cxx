@@ -70,9 +70,9 @@ struct SentRecord
 
 } // namespace
 
-bool isPlanar(const MeshBounds& bounds, const CADModel& model)
+bool isPlanar(const BoundingBox& box, const CADModel& model)
 {
-  const auto& [low, high] = bounds;
+  const auto& [low, high] = box;
   return model.count(2) == 0 || low[0] == high[0] || low[1] == high[1] || low[2] == high[2];
 }
 
@@ -80,8 +80,8 @@ BoundaryKind kindOfBoundary(
   RankExchange& exchange, const DistributedMesh& mesh, const CADModel& model)
 {
   const Mesh& piece = mesh.mesh();
-  return piece.dimension == 2 && isPlanar(findBounds(exchange, piece), model) ? BoundaryKind::Edges
-                                                                              : BoundaryKind::Faces;
+  return piece.dimension == 2 && isPlanar(findBox(exchange, piece), model) ? BoundaryKind::Edges
+                                                                           : BoundaryKind::Faces;
 }
 
 DistributedBoundary findBoundary(RankExchange& exchange, const DistributedMesh& mesh,

@@ -42,7 +42,7 @@ struct DistributedBoundary
 
 /// Whether a mesh of triangles within these bounds is planar, and compared with the edges of the
 /// model: if this has no faces, or if all vertices have one coordinate in common.
-bool isPlanar(const MeshBounds& bounds, const CADModel& model);
+bool isPlanar(const BoundingBox& box, const CADModel& model);
 
 /// As what the boundary of a mesh is compared with the model. Collective.
 BoundaryKind kindOfBoundary(

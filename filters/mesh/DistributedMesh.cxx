@@ -10,7 +10,6 @@
 #include <cadrefine/mesh/VertexFlags.h>
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 #include <tuple>
 
@@ -19,47 +18,24 @@ namespace cadrefine
 namespace
 {
 
-MeshBounds boundsOf(const std::vector<Point3>& points)
-{
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  MeshBounds bounds{ { infinity, infinity, infinity }, { -infinity, -infinity, -infinity } };
-  for (const Point3& point : points)
-  {
-    for (int k = 0; k < 3; ++k)
-    {
-      bounds.low[k] = std::min(bounds.low[k], point[k]);
-      bounds.high[k] = std::max(bounds.high[k], point[k]);
-    }
-  }
-  return bounds;
-}
-
 /// The boxes round other ranks' pieces that meet the one round this rank's.
-std::vector<MeshBounds> boxesNearby(RankExchange& exchange, const Mesh& mesh)
+std::vector<BoundingBox> boxesNearby(RankExchange& exchange, const Mesh& mesh)
 {
-  const auto [low, high] = boundsOf(mesh.points);
+  const BoundingBox mine = boxOf(mesh.points);
+  const auto& [low, high] = mine;
   const auto gathered = exchange.gather({ low[0], low[1], low[2], high[0], high[1], high[2] });
-  std::vector<MeshBounds> boxes;
+  std::vector<BoundingBox> boxes;
   for (int rank = 0; rank < exchange.size(); ++rank)
   {
-    const double* box = gathered.data() + 6 * static_cast<std::ptrdiff_t>(rank);
-    bool meets = rank != exchange.rank();
-    for (int k = 0; k < 3; ++k)
+    const double* numbers = gathered.data() + 6 * static_cast<std::ptrdiff_t>(rank);
+    const BoundingBox box{ { numbers[0], numbers[1], numbers[2] },
+      { numbers[3], numbers[4], numbers[5] } };
+    if (rank != exchange.rank() && box.meets(mine))
     {
-      meets = meets && box[k] <= high[k] && low[k] <= box[3 + k];
-    }
-    if (meets)
-    {
-      boxes.push_back({ { box[0], box[1], box[2] }, { box[3], box[4], box[5] } });
+      boxes.push_back(box);
     }
   }
   return boxes;
-}
-
-bool isIn(const MeshBounds& box, const Point3& p)
-{
-  return box.low[0] <= p[0] && p[0] <= box.high[0] && box.low[1] <= p[1] && p[1] <= box.high[1] &&
-         box.low[2] <= p[2] && p[2] <= box.high[2];
 }
 
 /// 1 for the vertices of sides of cells that are met once in this piece.
@@ -98,8 +74,8 @@ std::vector<Index> candidates(RankExchange& exchange, const Mesh& mesh)
   const auto boxes = boxesNearby(exchange, mesh);
   const auto isNearby = [&](std::size_t v)
   {
-    return std::any_of(
-      boxes.begin(), boxes.end(), [&](const MeshBounds& box) { return isIn(box, mesh.points[v]); });
+    return std::any_of(boxes.begin(), boxes.end(),
+      [&](const BoundingBox& box) { return box.contains(mesh.points[v]); });
   };
   std::vector<Index> result = indicesWhere(mesh.points.size(), isNearby);
   const ParallelFor parallelFor = forOnThreads(exchange);
@@ -240,17 +216,17 @@ void flagRings(RankExchange& exchange, const DistributedMesh& mesh, int rings,
   }
 }
 
-MeshBounds combineBounds(RankExchange& exchange, const MeshBounds& bounds)
+BoundingBox combineBoxes(RankExchange& exchange, const BoundingBox& box)
 {
-  const auto& [low, high] = bounds;
+  const auto& [low, high] = box;
   const auto least = exchange.min(std::vector<double>(low.begin(), low.end()));
   const auto largest = exchange.max(std::vector<double>(high.begin(), high.end()));
   return { { least[0], least[1], least[2] }, { largest[0], largest[1], largest[2] } };
 }
 
-MeshBounds findBounds(RankExchange& exchange, const Mesh& mesh)
+BoundingBox findBox(RankExchange& exchange, const Mesh& mesh)
 {
-  return combineBounds(exchange, boundsOf(mesh.points));
+  return combineBoxes(exchange, boxOf(mesh.points));
 }
 
 MeshCounts countMesh(RankExchange& exchange, const DistributedMesh& mesh)

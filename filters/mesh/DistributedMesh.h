@@ -6,6 +6,7 @@
 #include "comm/SharedVertices.h"
 #include "mesh/PointSetConversion.h"
 
+#include <cadrefine/base/BoundingBox.h>
 #include <cadrefine/mesh/Facets.h>
 
 namespace cadrefine
@@ -58,17 +59,10 @@ SharedVertices findShared(RankExchange& exchange, const Mesh& mesh);
 void flagRings(RankExchange& exchange, const DistributedMesh& mesh, int rings,
   std::vector<unsigned char>& flags, const ParallelFor& parallelFor);
 
-/// Box round the whole mesh: low above high where it has no points.
-struct MeshBounds
-{
-  Point3 low;
-  Point3 high;
-};
-
-/// That of all ranks' boxes. Collective; two reductions of three numbers.
-MeshBounds combineBounds(RankExchange& exchange, const MeshBounds& bounds);
-/// Collective; see combineBounds.
-MeshBounds findBounds(RankExchange& exchange, const Mesh& mesh);
+/// The box round all ranks' boxes. Collective; two reductions of three numbers.
+BoundingBox combineBoxes(RankExchange& exchange, const BoundingBox& box);
+/// The box round the whole mesh. Collective; see combineBoxes.
+BoundingBox findBox(RankExchange& exchange, const Mesh& mesh);
 
 /// Counts of the whole mesh, no vertex or cell twice.
 struct MeshCounts

@@ -158,7 +158,7 @@ OperationBlocks findOperationBlocks(RankExchange& exchange, const DistributedMes
   const std::vector<Point3> centres =
     visitOwnSimplices(piece, [&](const auto& all) { return centresOf(all, cells, piece.points); });
   const Blocks found =
-    findBlocks(exchange, centres, findBounds(exchange, piece), settings.round, settings.largest);
+    findBlocks(exchange, centres, findBox(exchange, piece), settings.round, settings.largest);
   const std::size_t count = mesh.converted.cellIds[piece.dimension].size();
   OperationBlocks blocks{ std::vector<std::int64_t>(count, noBlock), found.sizes };
   for (std::size_t i = 0; i < cells.size(); ++i)

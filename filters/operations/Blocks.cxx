@@ -16,7 +16,7 @@ constexpr int levels = 20;
 class Octants
 {
 public:
-  Octants(const MeshBounds& box, int round)
+  Octants(const BoundingBox& box, int round)
   {
     constexpr double goldenRatio = 0.618033988749895; // its multiples spread evenly
     const double shift = (0.5 + goldenRatio * round) - std::floor(0.5 + goldenRatio * round);
@@ -67,7 +67,7 @@ struct Octant
 
 } // namespace
 
-Blocks findBlocks(RankExchange& exchange, const std::vector<Point3>& points, const MeshBounds& box,
+Blocks findBlocks(RankExchange& exchange, const std::vector<Point3>& points, const BoundingBox& box,
   int round, std::int64_t largest)
 {
   const Octants octants(box, round);

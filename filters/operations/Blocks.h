@@ -21,7 +21,7 @@ struct Blocks
 /// being divided. Where octants lie in `box`, which holds all points, depends on `round`, so that
 /// the borders of one are inside those of the next. Collective; a reduction of 8 bytes an octant
 /// for each level of the tree, of which there are at most 20.
-Blocks findBlocks(RankExchange& exchange, const std::vector<Point3>& points, const MeshBounds& box,
+Blocks findBlocks(RankExchange& exchange, const std::vector<Point3>& points, const BoundingBox& box,
   int round, std::int64_t largest);
 
 } // namespace cadrefine

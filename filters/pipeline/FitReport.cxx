@@ -29,7 +29,7 @@ struct UnitPair
 /// Size of the mesh's box as a part of that of the CAD's.
 double ratioOf(const Fit& fit)
 {
-  return distance(fit.meshBox[0], fit.meshBox[1]) / distance(fit.cadBox[0], fit.cadBox[1]);
+  return fit.meshBox.diagonal() / fit.cadBox.diagonal();
 }
 
 /// Units of mesh and CAD that the ratio suggests: the CAD's own, if it can be that one.
@@ -92,8 +92,8 @@ std::ostream& operator<<(std::ostream& out, const Point3& p)
 std::string describeBoxes(const Fit& fit, const std::string& cadUnit)
 {
   std::ostringstream text;
-  text << "box of the mesh " << fit.meshBox[0] << " to " << fit.meshBox[1] << ", of the CAD "
-       << fit.cadBox[0] << " to " << fit.cadBox[1] << (cadUnit.empty() ? "" : " ") << cadUnit;
+  text << "box of the mesh " << fit.meshBox.low << " to " << fit.meshBox.high << ", of the CAD "
+       << fit.cadBox.low << " to " << fit.cadBox.high << (cadUnit.empty() ? "" : " ") << cadUnit;
   return text.str();
 }
 
@@ -109,10 +109,9 @@ std::string describeShift(const Fit& fit)
 {
   constexpr double least = 1e-5; // of the size
   constexpr double alike = 1e-2;
-  const Vector3 low = fit.meshBox[0] - fit.cadBox[0];
-  const Vector3 high = fit.meshBox[1] - fit.cadBox[1];
-  if (norm(low) <= least * distance(fit.cadBox[0], fit.cadBox[1]) ||
-      distance(low, high) > alike * norm(low))
+  const Vector3 low = fit.meshBox.low - fit.cadBox.low;
+  const Vector3 high = fit.meshBox.high - fit.cadBox.high;
+  if (norm(low) <= least * fit.cadBox.diagonal() || distance(low, high) > alike * norm(low))
   {
     return {};
   }
@@ -140,9 +139,10 @@ void addRows(vtkFieldData* data, const char* name, int components, const std::ve
 }
 
 /// As VTK orders bounds.
-std::vector<double> boundsOf(const std::array<Point3, 2>& box)
+std::vector<double> boundsOf(const BoundingBox& box)
 {
-  return { box[0][0], box[1][0], box[0][1], box[1][1], box[0][2], box[1][2] };
+  const auto& [low, high] = box;
+  return { low[0], high[0], low[1], high[1], low[2], high[2] };
 }
 
 } // namespace

@@ -115,14 +115,14 @@ std::string projectMesh(
   const PipelineContext& context, MeshState& state, const ProjectionOptions& options)
 {
   RankExchange& exchange = context.exchange;
-  const auto [low, high] = findBounds(exchange, state.mesh.mesh());
+  const BoundingBox box = findBox(exchange, state.mesh.mesh());
   const std::vector<Point3> before = pointsToKeep(state);
   Projection projection = state.mesh.mesh().dimension == 0
                             ? projectAlone(context, state.mesh, options)
                             : projectCells(context, state, options);
   meshHasChanged(state);
   scaleDensities(exchange, state, before);
-  projection.fit.meshBox = { low, high };
+  projection.fit.meshBox = box;
   ProjectionResult& result = projection.result;
   recordBalance(context.statistics, "points", result.balance);
   context.statistics.set("points not converged", static_cast<double>(result.slowPoints));

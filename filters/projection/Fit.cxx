@@ -153,14 +153,7 @@ public:
 private:
   bool isInBox(const Point3& p) const
   {
-    const double margin = boxMargin * task_.model().size();
-    const auto& [low, high] = fit_.cadBox;
-    bool inside = true;
-    for (int k = 0; k < 3; ++k)
-    {
-      inside = inside && p[k] >= low[k] - margin && p[k] <= high[k] + margin;
-    }
-    return inside;
+    return fit_.cadBox.contains(p, boxMargin * task_.model().size());
   }
 
   void addIfOff(std::vector<Entry>& off, std::size_t vertex, double distance) const

@@ -5,7 +5,8 @@
 #include "mesh/DistributedMesh.h"
 #include "projection/InitialProjection.h"
 
-#include <array>
+#include <cadrefine/base/BoundingBox.h>
+
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -24,8 +25,8 @@ struct OffPoint
 /// lengths, of segments and CAD edges; for points alone they count points.
 struct Fit
 {
-  std::array<Point3, 2> meshBox{}; ///< Lowest and highest coordinates before the projection.
-  std::array<Point3, 2> cadBox{};
+  BoundingBox meshBox; ///< Before the projection.
+  BoundingBox cadBox;
   /// Area of the facets on the CAD, as a part of that of all facets in the region with their
   /// centroid in the CAD's box (a far field does not count); 0 where there are none.
   double boundaryOnCAD = 0;

@@ -1,7 +1,7 @@
 // Hierarchies of axis-aligned boxes. For sources of geom/ alone.
 #pragma once
 
-#include <cadrefine/nurbs/BoundingBox.h>
+#include <cadrefine/base/BoundingBox.h>
 #include <cadrefine/nurbs/FetchAhead.h>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Cuts patches and segments into leaves. Private to geom/nurbs.
 #pragma once
 
-#include <cadrefine/nurbs/BoundingBox.h>
+#include <cadrefine/base/BoundingBox.h>
 #include <cadrefine/nurbs/SearchStructure.h>
 
 #include <vector>

@@ -44,23 +44,6 @@ struct Overlap
   double size;
 };
 
-template<class Shape>
-BoundingBox boxOf(const Shape& shape)
-{
-  BoundingBox box;
-  for (const Point3& point : shape.points())
-  {
-    box.include(point);
-  }
-  return box;
-}
-
-bool meet(const BoundingBox& a, const BoundingBox& b)
-{
-  return a.low[0] <= b.high[0] && b.low[0] <= a.high[0] && a.low[1] <= b.high[1] &&
-         b.low[1] <= a.high[1] && a.low[2] <= b.high[2] && b.low[2] <= a.high[2];
-}
-
 /// Shapes by their boxes.
 template<std::size_t Corners>
 class ShapeSearch
@@ -72,7 +55,7 @@ public:
     std::vector<BoundingBoxTree::Entry> entries;
     for (const Shape<Corners>& shape : shapes)
     {
-      boxes_.push_back(boxOf(shape));
+      boxes_.push_back(boxOf(shape.points()));
       all.include(boxes_.back());
       entries.push_back({ boxes_.back(), static_cast<int>(entries.size()) });
     }
@@ -92,7 +75,7 @@ public:
       root_, box.middle(), [&] { return radius * radius; }, [](int) {},
       [&](int item, double)
       {
-        if (meet(boxes_[item], box))
+        if (boxes_[item].meets(box))
         {
           found.push_back(item);
         }
@@ -263,7 +246,7 @@ private:
     const Shape<Corners>& cell, const ShapeSearch<Corners>& search) const
   {
     std::vector<Overlap> found;
-    for (const Index place : search.near(boxOf(cell)))
+    for (const Index place : search.near(boxOf(cell.points())))
     {
       const Shape<Corners>& old = old_[place];
       if (labelOf(old) == labelOf(cell))
@@ -395,9 +378,7 @@ private:
   void addVertex(Index vertex, const ShapeSearch<Corners>& search)
   {
     const Point3& point = mesh_.vertex(vertex).point;
-    BoundingBox box;
-    box.include(point);
-    const auto [cell, coordinates] = deepest(point, search.near(box));
+    const auto [cell, coordinates] = deepest(point, search.near({ point, point }));
     const bool isInside =
       cell >= 0 && *std::min_element(coordinates.begin(), coordinates.end()) >= leastCoordinate;
     if (isInside)

@@ -116,19 +116,17 @@ NurbsModel scaled(NurbsModel model, const LengthScale& scale)
 }
 
 /// Seen from far away the nearest point is the extreme one, but for less than size^2 / (2 far).
-std::array<Point3, 2> findBox(const ClosestPointSearch& search, double size)
+BoundingBox findBox(const ClosestPointSearch& search, double size)
 {
   const double far = 1e6 * size;
   const Point3 somewhere = search.nearest({}).point;
-  std::array<Point3, 2> box;
+  BoundingBox box;
   for (int axis = 0; axis < 3; ++axis)
   {
-    for (int end = 0; end < 2; ++end)
-    {
-      Point3 from = somewhere;
-      from[axis] += end == 0 ? -far : far;
-      box[end][axis] = search.nearest(from).point[axis];
-    }
+    Vector3 there{};
+    there[axis] = far;
+    box.low[axis] = search.nearest(somewhere - there).point[axis];
+    box.high[axis] = search.nearest(somewhere + there).point[axis];
   }
   return box;
 }
@@ -180,7 +178,7 @@ struct CADModel::Implementation
     return lazyAreas;
   }
 
-  const std::array<Point3, 2>& box() const
+  const BoundingBox& box() const
   {
     std::call_once(boxOnce, [this] { lazyBox = findBox(search(), size); });
     return lazyBox;
@@ -201,7 +199,7 @@ struct CADModel::Implementation
   mutable std::once_flag areasOnce;
   mutable std::vector<double> lazyAreas;
   mutable std::once_flag boxOnce;
-  mutable std::array<Point3, 2> lazyBox{};
+  mutable BoundingBox lazyBox;
 };
 
 std::shared_ptr<const CADModel> CADModelBuilder::build(
@@ -245,7 +243,7 @@ double CADModel::size() const
   return implementation_->size;
 }
 
-std::array<Point3, 2> CADModel::box() const
+BoundingBox CADModel::box() const
 {
   return implementation_->box();
 }

@@ -1,6 +1,7 @@
 // The CAD model as the rest of CADRefine sees it: no type of Open CASCADE appears here.
 #pragma once
 
+#include <cadrefine/base/BoundingBox.h>
 #include <cadrefine/base/EntityId.h>
 #include <cadrefine/base/ParallelFor.h>
 #include <cadrefine/base/Vector3.h>
@@ -43,9 +44,9 @@ public:
   int count(int dimension) const { return nurbs().count(dimension); }
   /// Diagonal of the bounding box.
   double size() const;
-  /// Lowest and highest coordinates of the trimmed model, to 1e-6 of its size. The first call
-  /// finds it, once for all threads.
-  std::array<Point3, 2> box() const;
+  /// Box round the trimmed model, to 1e-6 of its size. The first call finds it, once for all
+  /// threads.
+  BoundingBox box() const;
   /// Area of a face (see areaOf), length of an edge; 0 of a vertex. The first call for a dimension
   /// measures all of it, once for all threads.
   double measure(EntityId entity) const;
