@@ -213,7 +213,7 @@ void turnWedges(RankExchange& exchange, Mesh& mesh)
   {
     const auto at = [&](int corner) { return mesh.points[wedge[corner]]; };
     const Vector3 up = at(3) + at(4) + at(5) - (at(0) + at(1) + at(2));
-    const double turn = dot(cross(at(1) - at(0), at(2) - at(0)), up);
+    const double turn = determinant(up, at(1) - at(0), at(2) - at(0));
     turns += (turn > 0) - (turn < 0);
   }
   mesh.wedgesAsDocumented = exchange.sum(turns) < 0;

@@ -36,6 +36,12 @@ inline Vector3 cross(const Vector3& a, const Vector3& b)
   return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
 }
 
+/// Of the matrix with these columns.
+inline double determinant(const Vector3& a, const Vector3& b, const Vector3& c)
+{
+  return dot(a, cross(b, c));
+}
+
 inline bool isFinite(const Vector3& a)
 {
   return std::isfinite(a[0]) && std::isfinite(a[1]) && std::isfinite(a[2]);

@@ -106,7 +106,7 @@ BothSides bothSidesOf(const SurfacePoint& a, const SurfacePoint& b, const Surfac
 /// both ways to cut that in two triangles.
 double sixfoldVolumeOver(const Point3& origin, const Point3& x, const Point3& y, const Point3& z)
 {
-  return dot(x - origin, cross(y - origin, z - origin));
+  return determinant(x - origin, y - origin, z - origin);
 }
 
 double sixfoldVolumeOver(

@@ -21,11 +21,6 @@ constexpr int maximumHalvings = 256;
 /// hexahedron amplify that to at most 106 u. A halving adds 2 u.
 constexpr double margin = (53 + maximumHalvings + 11) * epsilon;
 
-double determinant(const Vector3& a, const Vector3& b, const Vector3& c)
-{
-  return dot(a, cross(b, c));
-}
-
 /// Divides edges of one direction by the largest of their 1-norms, unless there is none.
 template<std::size_t Count>
 bool scaleToUnit(std::array<Vector3, Count>& edges)

@@ -255,7 +255,7 @@ SimplexFrame<Corners>::SimplexFrame(const SimplexPoints<Corners>& points)
   if constexpr (Corners == 4)
   {
     const Vector3 d = points[3] - points[0];
-    const double part = 1 / dot(d, cross(b, c));
+    const double part = 1 / determinant(d, b, c);
     gradients_ = { part * cross(c, d), part * cross(d, b), part * cross(b, c) };
   }
   else

@@ -7,7 +7,7 @@ namespace cadrefine
 
 double sixfoldVolume(const Point3& a, const Point3& b, const Point3& c, const Point3& d)
 {
-  return dot(d - a, cross(b - a, c - a));
+  return determinant(d - a, b - a, c - a);
 }
 
 Vector3 twofoldAreaVector(const Point3& a, const Point3& b, const Point3& c)

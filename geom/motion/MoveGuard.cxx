@@ -40,10 +40,6 @@ CellState stateFrom(Shape shape, const std::array<Point3, Shape::corners>& p, co
 
 } // namespace
 
-MoveGuard::MoveGuard(const Mesh& mesh, const Moves& moves) : MoveGuard(mesh, moves, mesh.points, {})
-{
-}
-
 MoveGuard::MoveGuard(const Mesh& mesh, const Moves& moves, const std::vector<Point3>& reference,
   const Vector3& plane, const ParallelFor& parallelFor)
   : MoveGuard(

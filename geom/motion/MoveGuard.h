@@ -31,8 +31,6 @@ public:
   static constexpr double pyramidFloor = 0.1;
   static constexpr int maximumHalvings = 12;
 
-  /// For these moves; the starting state is the reference.
-  MoveGuard(const Mesh& mesh, const Moves& moves);
   /// `reference` has a point for each vertex; all cells accept the starting state. `plane` is the
   /// unit normal of a planar mesh, from whose end its triangles should turn; where it is zero,
   /// triangles keep the side that they have in the reference state. `cells` are those with a vertex

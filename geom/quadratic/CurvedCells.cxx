@@ -51,11 +51,6 @@ Derivative<Corners> derivativeAlong(
   return result;
 }
 
-double determinant(const Vector3& a, const Vector3& b, const Vector3& c)
-{
-  return dot(a, cross(b, c));
-}
-
 template<class Shape>
 std::array<Point3, Shape::corners> cornersOf(Shape, const CurvedCell<Shape>& nodes)
 {

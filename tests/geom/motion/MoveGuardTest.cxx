@@ -22,7 +22,7 @@ using namespace cadrefine;
 /// Sweeps until nothing is halved; the number of sweeps.
 int settle(const Mesh& mesh, Moves& moves)
 {
-  MoveGuard guard(mesh, moves);
+  MoveGuard guard(mesh, moves, mesh.points, {});
   int sweeps = 0;
   while (guard.halveUnaccepted(moves))
   {
@@ -185,7 +185,7 @@ TEST(MoveGuard, letsAnInvertedTriangleBecomeValidInThePlane)
   Moves over(mesh.points);
   over.add(2, { 0.5, 0.5, 0 });
   EXPECT_FALSE(MoveGuard(mesh, over, mesh.points, plane).halveUnaccepted(over));
-  EXPECT_TRUE(MoveGuard(mesh, over).halveUnaccepted(over));
+  EXPECT_TRUE(MoveGuard(mesh, over, mesh.points, {}).halveUnaccepted(over));
   const std::vector<Point3> reference = mesh.points;
   mesh.points[2] = { 0.5, 0.5, 0 };
   Moves back(mesh.points);

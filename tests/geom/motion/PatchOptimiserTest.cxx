@@ -102,7 +102,7 @@ protected:
     ASSERT_GT(lowestQuality(mesh), 0);
     Moves straight(mesh.points);
     straight.add(vertex, inDepth(depth));
-    while (MoveGuard(mesh, straight).halveUnaccepted(straight))
+    while (MoveGuard(mesh, straight, mesh.points, {}).halveUnaccepted(straight))
     {
     }
     EXPECT_LT(straight.fractions[vertex], 1);
