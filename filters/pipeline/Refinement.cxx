@@ -28,6 +28,12 @@ namespace cadrefine
 namespace
 {
 
+/// For the sake of mid nodes cells are bisected so many times at most, and there are so many times
+/// as many of them at most, or so many.
+constexpr int mostRounds = 16;
+constexpr std::int64_t largestGrowth = 2;
+constexpr std::int64_t fewCells = 40000;
+
 /// Which edges a level cuts, and why.
 struct Level
 {
@@ -241,9 +247,15 @@ private:
     {
       return false;
     }
+    return countPlanned(plan) > options_.maximumCells;
+  }
+
+  /// The cells of the mesh's own dimension that the plan makes, over all ranks.
+  std::int64_t countPlanned(const RefinementPlan& plan) const
+  {
     const Mesh& mesh = state_.mesh.mesh();
     const auto firsts = countChildren(mesh, plan)[mesh.dimension];
-    return exchange_.sum(firsts.empty() ? 0 : firsts.back()) > options_.maximumCells;
+    return exchange_.sum(firsts.empty() ? 0 : firsts.back());
   }
 
   /// Cells that the plan makes of each cell, in the order of makePointSet.
@@ -296,12 +308,49 @@ private:
     }
   }
 
+  /// Cells that keep mid nodes from the CAD are bisected, and all nodes placed anew, until there
+  /// are none, or too many cells.
+  void placeNodes()
+  {
+    const bool mayBisect = options_.projectNewVertices && options_.minimumQuality &&
+                           !exchange_.any(state_.mesh.mesh().hasOtherThanSimplices());
+    const std::int64_t mostCells =
+      std::max(largestGrowth * countMesh(exchange_, state_.mesh).cells, fewCells);
+    for (int round = 0;; ++round)
+    {
+      const GlobalId idBound = state_.mesh.vertexIdBound;
+      const PlacedMidNodes placed = placeMidNodes(exchange_, state_.mesh, boundary(),
+        *state_.classification, options_.projectNewVertices, context_.statistics);
+      auto plan =
+        mayBisect && round < mostRounds ? planForNodes(placed.tooCurved, round) : std::nullopt;
+      if (!plan || isTooLarge(*plan) || countPlanned(*plan) > mostCells)
+      {
+        projectedPoints_ += placed.projected;
+        return;
+      }
+      removeMidNodes(state_.mesh, *state_.classification, idBound);
+      refineOnce(*plan);
+    }
+  }
+
+  /// None where no cell is too curved. In every third round the edges are those that get nodes to
+  /// the CAD soonest, in the others those that keep cells well shaped and few.
+  std::optional<RefinementPlan> planForNodes(const std::vector<unsigned char>& tooCurved, int round)
+  {
+    if (!exchange_.any(std::count(tooCurved.begin(), tooCurved.end(), 1) > 0))
+    {
+      return std::nullopt;
+    }
+    const bool atCAD = round % 3 == 2;
+    return planFromEdges(exchange_, state_.mesh,
+      edgesOfTooCurved(state_.mesh, *state_.classification, tooCurved, atCAD), options_.keepLayers);
+  }
+
   void makeQuadratic()
   {
     if (state_.classification)
     {
-      projectedPoints_ += placeMidNodes(exchange_, state_.mesh, boundary(), *state_.classification,
-        options_.projectNewVertices, context_.statistics);
+      placeNodes();
     }
     else
     {

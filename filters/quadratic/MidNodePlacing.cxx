@@ -8,6 +8,8 @@
 #include <cadrefine/quadratic/MidNodeGuard.h>
 
 #include <algorithm>
+#include <array>
+#include <iterator>
 #include <utility>
 
 namespace cadrefine
@@ -45,8 +47,9 @@ public:
   }
 
   /// The places of all mid nodes: those of the hits there, as far as all cells stay valid. Of those
-  /// that slide on the CAD to go along the hits become where they are to be. Collective.
-  std::vector<Point3> place(std::vector<MidpointOnCAD>& hits)
+  /// that slide on the CAD to go along the hits become where they are to be. Sets `tooCurved` (see
+  /// PlacedMidNodes). Collective.
+  std::vector<Point3> place(std::vector<MidpointOnCAD>& hits, std::vector<unsigned char>& tooCurved)
   {
     std::vector<EntityId> entities(nodes_.points.size());
     for (const MidpointOnCAD& hit : hits)
@@ -68,7 +71,7 @@ public:
     takeHits(hits);
     std::transform(moves_.fractions.begin(), moves_.fractions.end(), held.begin(),
       moves_.fractions.begin(), [](double fraction, bool stays) { return stays ? 0 : fraction; });
-    settle(columns);
+    tooCurved = settle(columns);
     std::vector<Point3> places(nodes_.points.size());
     for (std::size_t e = 0; e < places.size(); ++e)
     {
@@ -106,8 +109,8 @@ private:
     }
   }
 
-  /// Takes the moves back until all cells of all ranks are valid.
-  void settle(const LayerColumns& columns)
+  /// Takes the moves back until all cells of all ranks are valid. Returns for which cells.
+  std::vector<unsigned char> settle(const LayerColumns& columns)
   {
     const auto tie = [&]
     {
@@ -124,6 +127,7 @@ private:
     {
       tie();
     }
+    return guard.tooCurved();
   }
 
   RankExchange& exchange_;
@@ -135,6 +139,25 @@ private:
   Moves moves_;
 };
 
+/// Those of a cell's edges that are on the CAD; or the others, if all of those at a corner are. All
+/// of them, where there are none such.
+template<class Shape, class Edges, class IsOnCAD>
+std::vector<Index> edgesAtCAD(Shape, const Edges& edges, const IsOnCAD& isOnCAD)
+{
+  std::array<bool, Shape::corners> meetInside{};
+  for (std::size_t k = 0; k < edges.size(); ++k)
+  {
+    const auto& [a, b] = Shape::edges[k];
+    meetInside[a] = meetInside[a] || !isOnCAD(edges[k]);
+    meetInside[b] = meetInside[b] || !isOnCAD(edges[k]);
+  }
+  const bool wanted = std::find(meetInside.begin(), meetInside.end(), false) == meetInside.end();
+  std::vector<Index> result;
+  std::copy_if(edges.begin(), edges.end(), std::back_inserter(result),
+    [&](Index edge) { return isOnCAD(edge) == wanted; });
+  return result.empty() ? std::vector<Index>(edges.begin(), edges.end()) : result;
+}
+
 } // namespace
 
 void addMidNodes(RankExchange& exchange, DistributedMesh& mesh)
@@ -143,7 +166,7 @@ void addMidNodes(RankExchange& exchange, DistributedMesh& mesh)
   makeMidNodes(exchange, mesh, edges);
 }
 
-std::int64_t placeMidNodes(RankExchange& exchange, DistributedMesh& mesh,
+PlacedMidNodes placeMidNodes(RankExchange& exchange, DistributedMesh& mesh,
   const ClassifiedBoundary& classified, Classification& classification, bool move,
   RunStatistics& statistics)
 {
@@ -153,9 +176,10 @@ std::int64_t placeMidNodes(RankExchange& exchange, DistributedMesh& mesh,
     classified, classification, statistics);
   makeMidNodes(exchange, mesh, edges);
   std::vector<Point3>& nodes = mesh.converted.midNodes->points;
+  PlacedMidNodes placed;
   if (move)
   {
-    nodes = Placing(exchange, mesh, edges.sharedEdges, classified).place(hits);
+    nodes = Placing(exchange, mesh, edges.sharedEdges, classified).place(hits, placed.tooCurved);
   }
   const std::size_t vertices = mesh.mesh().points.size();
   classifyMidpoints(hits, mesh.pointCount(), classification);
@@ -163,7 +187,40 @@ std::int64_t placeMidNodes(RankExchange& exchange, DistributedMesh& mesh,
   {
     classification.distances[vertices + hit.place] = distance(nodes[hit.place], hit.where.point);
   }
-  return countHits(exchange, mesh.sharedPoints, vertices, hits);
+  placed.projected = countHits(exchange, mesh.sharedPoints, vertices, hits);
+  return placed;
+}
+
+void removeMidNodes(DistributedMesh& mesh, Classification& classification, GlobalId idBound)
+{
+  mesh.converted.midNodes.reset();
+  mesh.sharedPoints = {};
+  mesh.vertexIdBound = idBound;
+  classification.resize(mesh.mesh().points.size());
+}
+
+EdgeMarks edgesOfTooCurved(const DistributedMesh& mesh, const Classification& classification,
+  const std::vector<unsigned char>& tooCurved, bool atCAD)
+{
+  const EdgeTable& table = mesh.converted.midNodes->table;
+  const EdgeOrder order(table);
+  const auto isOnCAD = [&](Index edge)
+  { return static_cast<bool>(classification.entities[mesh.mesh().points.size() + edge]); };
+  EdgeMarks marks(table.edges.size(), 0);
+  auto isTooCurved = tooCurved.begin();
+  visitOwnShapes(mesh.mesh(),
+    [&](auto shape, const auto&)
+    {
+      for (const auto& edges : table.*edgesOfCells(shape))
+      {
+        if (*isTooCurved++)
+        {
+          marks[atCAD ? order.longest(edgesAtCAD(shape, edges, isOnCAD)) : order.longest(edges)] =
+            1;
+        }
+      }
+    });
+  return marks;
 }
 
 } // namespace cadrefine

@@ -182,6 +182,34 @@ bool markBadlyCut(RankExchange& exchange, const DistributedMesh& mesh, Refinemen
   return exchange.any(!bad.empty());
 }
 
+/// A plan that cuts nothing.
+RefinementPlan planNone(RankExchange& exchange, const DistributedMesh& mesh, bool keepLayers)
+{
+  RefinementPlan plan{ findEdges(exchange, mesh, 0) };
+  plan.quads = findQuads(exchange, mesh, plan.table);
+  if (keepLayers && plan.quads.any)
+  {
+    orderStacks(exchange, mesh.mesh(), plan);
+  }
+  return plan;
+}
+
+/// Marks edges until no vertex hangs on any rank.
+void closeMarks(
+  RankExchange& exchange, const DistributedMesh& mesh, bool keepLayers, RefinementPlan& plan)
+{
+  do
+  {
+    combineMarks(exchange, plan);
+    MarkClosure closure(plan.table, mesh.mesh().dimension, keepLayers, plan.marks);
+    bool changed = exchange.any(closure.closeAll());
+    while (changed)
+    {
+      changed = exchange.any(closure.closeFrom(combineMarks(exchange, plan)));
+    }
+  } while (plan.quads.any && markBadlyCut(exchange, mesh, plan));
+}
+
 } // namespace
 
 std::array<std::vector<GlobalId>, 4> numberChildren(
@@ -257,27 +285,22 @@ RefinementPlan planUniform(RankExchange& exchange, const DistributedMesh& mesh)
 RefinementPlan planLongestEdge(RankExchange& exchange, const DistributedMesh& mesh,
   const std::vector<unsigned char>& cellMarks, const FacetsToCut* toCut, bool keepLayers)
 {
-  RefinementPlan plan{ findEdges(exchange, mesh, 0) };
-  plan.quads = findQuads(exchange, mesh, plan.table);
-  if (keepLayers && plan.quads.any)
-  {
-    orderStacks(exchange, mesh.mesh(), plan);
-  }
+  RefinementPlan plan = planNone(exchange, mesh, keepLayers);
   markLongestEdges(mesh.mesh(), plan.table, cellMarks, keepLayers, plan.marks);
   if (toCut)
   {
     markFacets(toCut->boundary, toCut->classification, plan.table, cellMarks, plan.marks);
   }
-  do
-  {
-    combineMarks(exchange, plan);
-    MarkClosure closure(plan.table, mesh.mesh().dimension, keepLayers, plan.marks);
-    bool changed = exchange.any(closure.closeAll());
-    while (changed)
-    {
-      changed = exchange.any(closure.closeFrom(combineMarks(exchange, plan)));
-    }
-  } while (plan.quads.any && markBadlyCut(exchange, mesh, plan));
+  closeMarks(exchange, mesh, keepLayers, plan);
+  return plan;
+}
+
+RefinementPlan planFromEdges(
+  RankExchange& exchange, const DistributedMesh& mesh, const EdgeMarks& edges, bool keepLayers)
+{
+  RefinementPlan plan = planNone(exchange, mesh, keepLayers);
+  plan.marks = edges;
+  closeMarks(exchange, mesh, keepLayers, plan);
   return plan;
 }
 

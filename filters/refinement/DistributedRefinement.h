@@ -41,6 +41,10 @@ struct FacetsToCut
 RefinementPlan planLongestEdge(RankExchange& exchange, const DistributedMesh& mesh,
   const std::vector<unsigned char>& cellMarks, const FacetsToCut* toCut, bool keepLayers);
 
+/// Marks these edges, and others until no vertex hangs on any rank, as planLongestEdge.
+RefinementPlan planFromEdges(
+  RankExchange& exchange, const DistributedMesh& mesh, const EdgeMarks& edges, bool keepLayers);
+
 /// How many cells `refine` makes of each cell.
 ChildRanges countChildren(const Mesh& mesh, const RefinementPlan& plan);
 

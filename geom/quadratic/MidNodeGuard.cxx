@@ -31,24 +31,18 @@ std::vector<Index> cellsWhere(const Edges& edgesOf, const std::vector<double>& f
     [&](std::size_t c) { return std::any_of(edgesOf[c].begin(), edgesOf[c].end(), moves); });
 }
 
+/// Returns whether a node of these edges was taken back.
 template<class Edges>
-bool stepBackWhere(const std::vector<Index>& cells, const std::vector<unsigned char>& invalid,
-  const Edges& edgesOf, const std::vector<double>& before, std::vector<double>& fractions)
+bool stepBackAt(
+  const Edges& edges, const std::vector<double>& before, std::vector<double>& fractions)
 {
   bool any = false;
-  for (std::size_t i = 0; i < cells.size(); ++i)
+  for (const Index edge : edges)
   {
-    if (!invalid[i])
+    if (before[edge] > 0)
     {
-      continue;
-    }
-    for (const Index edge : edgesOf[cells[i]])
-    {
-      if (before[edge] > 0)
-      {
-        fractions[edge] = stepped(before[edge]);
-        any = true;
-      }
+      fractions[edge] = stepped(before[edge]);
+      any = true;
     }
   }
   return any;
@@ -73,7 +67,7 @@ MidNodeGuard::MidNodeGuard(const Mesh& mesh, const EdgeTable& table,
   const std::vector<Point3>& middles, const Moves& moves, const Vector3& plane,
   const ParallelFor& parallelFor)
   : mesh_(mesh), table_(table), middles_(middles), plane_(plane), parallelFor_(parallelFor),
-    seen_(moves.fractions.size(), -1.0)
+    seen_(moves.fractions.size(), -1.0), tooCurved_(mesh.cellCount(mesh.dimension), 0)
 {
   visitOwnShapes(mesh, [&](auto shape, const auto&)
     { cells_.push_back(cellsWhere(table.*edgesOfCells(shape), moves.fractions)); });
@@ -105,11 +99,22 @@ bool MidNodeGuard::stepBack(Moves& moves)
   seen_ = moves.fractions;
   bool any = false;
   std::size_t s = 0;
+  std::size_t first = 0;
   visitOwnShapes(mesh_,
-    [&](auto shape, const auto&)
+    [&](auto shape, const auto& cells)
     {
-      any |=
-        stepBackWhere(cells_[s], invalid[s], table_.*edgesOfCells(shape), seen_, moves.fractions);
+      for (std::size_t i = 0; i < invalid[s].size(); ++i)
+      {
+        if (invalid[s][i])
+        {
+          const Index cell = cells_[s][i];
+          const bool steps =
+            stepBackAt((table_.*edgesOfCells(shape))[cell], seen_, moves.fractions);
+          tooCurved_[first + cell] = steps;
+          any |= steps;
+        }
+      }
+      first += cells.size();
       ++s;
     });
   return any;

@@ -48,6 +48,10 @@ public:
   /// any. Work: isValid for the guarded cells with a node that has moved since the last sweep.
   bool stepBack(Moves& moves);
 
+  /// 1 for the cells of the mesh's own dimension that nodes were taken back for, but for those that
+  /// were not valid before either.
+  const std::vector<unsigned char>& tooCurved() const { return tooCurved_; }
+
 private:
   template<class Shape>
   std::vector<unsigned char> findInvalid(
@@ -60,6 +64,7 @@ private:
   ParallelFor parallelFor_;
   std::vector<std::vector<Index>> cells_; ///< Of each shape those with a node that moves.
   std::vector<double> seen_;              ///< The fractions at the last sweep.
+  std::vector<unsigned char> tooCurved_;
 };
 
 } // namespace cadrefine

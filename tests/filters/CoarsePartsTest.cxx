@@ -4,10 +4,12 @@
 #include "DataSets.h"
 #include "FilterRun.h"
 #include "MeshChecks.h"
+#include "QuadraticRuns.h"
 #include "TestMeshes.h"
 #include "TestShapes.h"
 
 #include <vtkCoarsenWithCAD.h>
+#include <vtkMeshValidity.h>
 #include <vtkProjectOntoCAD.h>
 #include <vtkUnstructuredGrid.h>
 
@@ -43,6 +45,25 @@ TEST(CoarseParts, reachTheCADUnderUniformRefinement)
     expectAllOnCAD(mesh, 0.1);
     EXPECT_NEAR(fieldValue(mesh, "GlobalCells"), 8 * cells, cells);
     EXPECT_TRUE(hasNoHangingVertex(toMesh(mesh)));
+  }
+}
+
+/// Cells that are too curved once their mid nodes are on the CAD are bisected, these alone.
+TEST(CoarseParts, getAllMidNodesOntoTheCAD)
+{
+  const FilterRun filters(crankArm);
+  const auto projected = filters.project(readGrid(CADREFINE_TRUTH "/crank_arm_coarse.vtu"));
+  for (const int level : { 0, 1 })
+  {
+    const auto before = refineToQuadratic(filters, projected, level, vtkRefineWithCAD::CUT_ONLY);
+    EXPECT_GT(fieldValue(before, "UnprojectedVertices"), 0);
+    const auto mesh = refineToQuadratic(filters, projected, level);
+    EXPECT_EQ(fieldValue(mesh, "UnprojectedVertices"), 0);
+    EXPECT_EQ(fieldValue(filters.run<vtkMeshValidity>(mesh, [](auto*) {}), "InvalidCells"), 0);
+    EXPECT_GE(fieldValue(mesh, "MinimumQuality"), 0.1);
+    EXPECT_LT(fieldValue(mesh, "GlobalCells"), 40000);
+    EXPECT_LT(fieldValue(filters.measure(mesh, 1), "GlobalGeometricError"),
+      0.05 * fieldValue(filters.measure(before, 1), "GlobalGeometricError"));
   }
 }
 
