@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <random>
+#include <vector>
 
 namespace
 {
@@ -28,8 +29,13 @@ MidNodes placed(const Mesh& mesh, const EdgeTable& table, const Moves& moves)
   return nodes;
 }
 
-/// Number of sweeps until all cells accept.
-int settle(const Mesh& mesh, const EdgeTable& table, const Vector3& plane, Moves& moves)
+struct Settled
+{
+  int sweeps = 0; ///< Until all cells accept.
+  std::vector<unsigned char> tooCurved;
+};
+
+Settled settle(const Mesh& mesh, const EdgeTable& table, const Vector3& plane, Moves& moves)
 {
   const std::vector<Point3> middles = middlesOf(mesh, table.edges);
   MidNodeGuard guard(mesh, table, middles, moves, plane);
@@ -38,7 +44,7 @@ int settle(const Mesh& mesh, const EdgeTable& table, const Vector3& plane, Moves
   {
     ++sweeps;
   }
-  return sweeps;
+  return { sweeps, guard.tooCurved() };
 }
 
 bool allValid(const Mesh& mesh, const MidNodes& nodes, const Vector3& plane)
@@ -54,7 +60,9 @@ TEST(MidNodeGuard, leavesValidMovesAlone)
   Moves moves(middlesOf(mesh, table.edges));
   const Index edge = table.find(0, 1);
   moves.add(edge, { 0.5, -0.2, 0 });
-  EXPECT_EQ(settle(mesh, table, up, moves), 0);
+  const Settled settled = settle(mesh, table, up, moves);
+  EXPECT_EQ(settled.sweeps, 0);
+  EXPECT_EQ(settled.tooCurved, std::vector<unsigned char>{ 0 });
   EXPECT_EQ(moves.fractions[edge], 1);
   EXPECT_EQ(placed(mesh, table, moves).points[edge], (Point3{ 0.5, -0.2, 0 }));
 }
@@ -68,7 +76,9 @@ TEST(MidNodeGuard, takesSmallStepsFirst)
   Moves moves(middlesOf(mesh, table.edges));
   const Index edge = table.find(0, 1);
   moves.add(edge, { 0.76, 0, 0 });
-  EXPECT_EQ(settle(mesh, table, up, moves), 4);
+  const Settled settled = settle(mesh, table, up, moves);
+  EXPECT_EQ(settled.sweeps, 4);
+  EXPECT_EQ(settled.tooCurved, std::vector<unsigned char>{ 1 });
   EXPECT_EQ(moves.fractions[edge], 1 - 1.0 / 16);
   EXPECT_TRUE(allValid(mesh, placed(mesh, table, moves), up));
 }
@@ -84,7 +94,9 @@ TEST(MidNodeGuard, endsInTheMiddle)
     Moves moves(middlesOf(mesh, table.edges));
     const Index edge = table.find(1, 2);
     moves.add(edge, { -1e5, -1e5, 0 });
-    EXPECT_LE(settle(mesh, table, {}, moves), 20);
+    const Settled settled = settle(mesh, table, {}, moves);
+    EXPECT_LE(settled.sweeps, 20);
+    EXPECT_EQ(settled.tooCurved[0] != 0, height > 0); // a flat one is not valid anyhow
     EXPECT_EQ(placed(mesh, table, moves).points[edge], (Point3{ 0.5, 0.5, 0 }));
     EXPECT_EQ(allValid(mesh, placed(mesh, table, moves), {}), height > 0);
   }
@@ -109,7 +121,7 @@ TEST(MidNodeGuard, makesAllCellsValidInAnyOrder)
   std::shuffle(shuffled.tetrahedra.begin(), shuffled.tetrahedra.end(), random);
   const EdgeTable otherTable = buildEdgeTable(shuffled);
   Moves others = moves;
-  EXPECT_EQ(settle(mesh, table, {}, moves), settle(shuffled, otherTable, {}, others));
+  EXPECT_EQ(settle(mesh, table, {}, moves).sweeps, settle(shuffled, otherTable, {}, others).sweeps);
   EXPECT_TRUE(allValid(mesh, placed(mesh, table, moves), {}));
   EXPECT_EQ(moves.fractions, others.fractions);
   const auto onTheWay = std::count_if(moves.fractions.begin(), moves.fractions.end(),
