@@ -111,8 +111,8 @@ double vtkAdaptToCAD::FindCoarseningFraction() const
   checkProperty("CoarseningFraction", this->CoarseningFraction, 0, 1);
   if (this->CoarseningFraction > 0 && !this->FindMinimumQuality())
   {
-    throw cadrefine::Error("coarsening (CoarseningFraction) takes vertices out, which the property "
-                           "Operations, Cut only, rules out: choose All, or set "
+    throw cadrefine::Error("coarsening (CoarseningFraction) removes vertices, which Operations "
+                           "rules out when it is set to Cut only: set Operations to All, or "
                            "CoarseningFraction to 0");
   }
   return this->CoarseningFraction;

@@ -45,8 +45,8 @@ cadrefine::PipelineResult vtkCoarsenWithCAD::Execute(
       !exchange.any(!cadrefine::visitOwnSimplices(mesh, isEmpty)))
   {
     throw cadrefine::Error(
-      "only triangles and tetrahedra are coarsened, and all cells of the mesh are others; the "
-      "filters Triangulate and Tetrahedralize make simplices of them");
+      "only triangles and tetrahedra can be coarsened, and the mesh has none; convert its cells "
+      "with the filter Triangulate or Tetrahedralize");
   }
 
   cadrefine::CoarseningOptions options;
@@ -60,7 +60,7 @@ cadrefine::PipelineResult vtkCoarsenWithCAD::Execute(
   options.minimumQuality = minimumQuality.value_or(0);
   if (!minimumQuality && exchange.rank() == 0)
   {
-    context.warn("nothing is coarsened, as Operations is Cut only; choose All");
+    context.warn("nothing is coarsened, because Operations is set to Cut only; set it to All");
   }
   cadrefine::coarsenMesh(context, state, options);
   cadrefine::removeMeasured(state.arrays.ofCells, state.arrays.ofMesh);

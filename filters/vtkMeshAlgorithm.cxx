@@ -89,8 +89,8 @@ std::shared_ptr<const cadrefine::CADModel> vtkMeshAlgorithm::FindModel(
       vtkDataObject* cad = findCAD(this);
       if (!cad)
       {
-        throw cadrefine::Error("choose a CAD: open the .step, .iges or .brep file, and set the "
-                               "property CAD to that CAD Reader");
+        throw cadrefine::Error("no CAD model is chosen: open the .step, .iges or .brep file, and "
+                               "set the property CAD to its CAD Reader");
       }
       model = vtkCADModelCache::Get(cad);
     });

@@ -168,7 +168,7 @@ namespace
 
 [[noreturn]] void throwWithoutPython(const std::string& path)
 {
-  throw Error(path + ": this ParaView was built without Python, which reads and writes the format");
+  throw Error(path + ": this ParaView was built without Python, which is needed for this format");
 }
 
 } // namespace

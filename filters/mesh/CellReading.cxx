@@ -136,8 +136,8 @@ void checkCell(int type, const CellKind& kind, CellOrder order, vtkIdType cell)
   {
     throw Error(holds() +
                 "CADRefine takes linear tetrahedra, pyramids, wedges, hexahedra, triangles and "
-                "quadrilaterals (the filters Tetrahedralize and Triangulate make simplices of "
-                "other cells)");
+                "quadrilaterals (the filters Tetrahedralize and Triangulate convert other cells "
+                "to simplices)");
   }
   if (kind.nodes > 0 && order == CellOrder::First)
   {

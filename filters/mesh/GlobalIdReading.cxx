@@ -94,8 +94,8 @@ void checkGlobalId(GlobalId id, vtkDataArray* array, vtkIdType place, const std:
     throw Error(item + " " + std::to_string(place) + " of the mesh has " +
                 array->GetVariantValue(place).ToString() + " as global id (array " +
                 (array->GetName() ? array->GetName() : "without a name") +
-                "); global ids are whole numbers from 0 to 2^62 - 1. Without that array CADRefine "
-                "makes ids of its own");
+                "); global ids are whole numbers from 0 to 2^62 - 1. Remove the array to have "
+                "CADRefine make its own ids");
   }
 }
 

@@ -47,7 +47,7 @@ void checkGhosts(vtkCellData* cells)
       (!vtkUnsignedCharArray::SafeDownCast(ghosts) || ghosts->GetNumberOfComponents() != 1))
   {
     throw Error(std::string("the cell array ") + name +
-                ", which marks ghost cells, must have one component of unsigned characters");
+                ", which marks ghost cells, must be of type unsigned char and have one component");
   }
 }
 
@@ -68,9 +68,8 @@ void checkCells(vtkPointSet* input)
       grid->GetCellTypesArray() ? grid->GetCellTypesArray()->GetNumberOfValues() : 0;
     if (types < grid->GetNumberOfCells())
     {
-      throw Error("the mesh has " + std::to_string(types) +
-                  " cell types, but its number of cells is " +
-                  std::to_string(grid->GetNumberOfCells()));
+      throw Error("the mesh has " + std::to_string(types) + " cell types for " +
+                  std::to_string(grid->GetNumberOfCells()) + " cells");
     }
   }
   else if (auto* surface = vtkPolyData::SafeDownCast(input))

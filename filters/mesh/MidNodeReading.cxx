@@ -78,8 +78,9 @@ private:
     vtkIdType& known = pointOf_[edge];
     if (known >= 0 && known != point && points_[known] != points_[point])
     {
-      throw Error("cells of the mesh have different mid nodes on an edge that they share (points " +
-                  std::to_string(known) + " and " + std::to_string(point) + ")");
+      throw Error(
+        "cells of the mesh have different mid-edge nodes on an edge that they share (points " +
+        std::to_string(known) + " and " + std::to_string(point) + ")");
     }
     known = known < 0 ? point : known;
   }

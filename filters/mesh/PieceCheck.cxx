@@ -88,9 +88,9 @@ std::string describeTwins(
   }
   if (places[0] == places[1])
   {
-    return "pieces of the mesh overlap: the ranks " + ranks[0] + " and " + ranks[1] +
+    return "pieces of the mesh overlap: ranks " + ranks[0] + " and " + ranks[1] +
            " both have cells around the point " + places[0] +
-           " (a cell that several ranks have must be marked as a ghost on all but one)";
+           " (a cell that several ranks hold must be marked as a ghost on all of them but one)";
   }
   return "two points of the mesh have the global id " + std::to_string(id) + ": " + places[0] +
          " on rank " + ranks[0] + " and " + places[1] + " on rank " + ranks[1];
@@ -196,8 +196,8 @@ void checkCells(RankExchange& exchange, const DistributedMesh& mesh, const Cells
                    : "the mesh has duplicate cells: " + std::to_string(numbers[twins[0]]) +
                        " and " + std::to_string(numbers[twins[1]]) + " of rank " +
                        std::to_string(exchange.rank()) +
-                       " have the same points (the filter Clean Cells to Grid merges "
-                       "cells)");
+                       " have the same points (merge them with the filter Clean Cells to "
+                       "Grid)");
   const SharedItems shared =
     findSharedCells<Corners>(exchange, mesh.shared, mesh.mesh().ids, cells);
   if (exchange.any(!shared.all.empty()))
@@ -209,8 +209,8 @@ void checkCells(RankExchange& exchange, const DistributedMesh& mesh, const Cells
                          std::to_string(numbers[shared.all[0]]) + " of rank " +
                          std::to_string(exchange.rank()) + " is also on rank " +
                          std::to_string(holders.first[holders.lowest() == exchange.rank()]) +
-                         " (a cell that several ranks have must be marked as a ghost on all but "
-                         "one)");
+                         " (a cell that several ranks hold must be marked as a ghost on all of "
+                         "them but one)");
   }
 }
 
@@ -281,7 +281,7 @@ void complainOfRepeatedCells(
                    : "the mesh has duplicate cells: two cells have the same points, or "
                      "the same global id (" +
                        std::to_string(id) + "); the corners of one are" + corners +
-                       " (the filter Clean Cells to Grid merges cells)");
+                       " (merge them with the filter Clean Cells to Grid)");
   throw Error("the mesh has duplicate cells");
 }
 

@@ -178,7 +178,7 @@ void takeVertices(const std::vector<Point3>& points, const PointIds& ids,
     {
       throw Error("the points " + std::to_string(result.pointOf[vertexOf[p]]) + " and " +
                   std::to_string(p) + " of the mesh have the same global id, " +
-                  std::to_string(ids.ids[p]) + ", and lie at different places");
+                  std::to_string(ids.ids[p]) + ", but different coordinates");
     }
   }
 }
@@ -281,9 +281,8 @@ ConvertedMesh convert(RankExchange& exchange, vtkPointSet* input, CellOrder orde
   }
   if (result.mesh.dimension == 1)
   {
-    throw Error(
-      "the mesh has cells of lines alone; CADRefine refines triangles, quadrilaterals and "
-      "cells of volume");
+    throw Error("the mesh consists of lines only; CADRefine refines triangles, quadrilaterals and "
+                "volume cells");
   }
   const std::vector<Point3> points = readPoints(input);
   const auto ids = pointIds(exchange, input, points, parallelFor);

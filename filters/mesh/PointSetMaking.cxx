@@ -196,8 +196,8 @@ vtkSmartPointer<vtkPointSet> makePointSet(vtkPointSet* input, const Mesh& mesh,
   const bool isPolyData = vtkPolyData::SafeDownCast(input) != nullptr;
   if (isPolyData && midNodes)
   {
-    throw Error("poly data cannot hold quadratic cells; make the mesh an unstructured grid first "
-                "(the filter Append Datasets does)");
+    throw Error("poly data cannot hold quadratic cells; convert the mesh to an unstructured grid "
+                "first (filter Append Datasets)");
   }
   auto output = isPolyData ? makePolyData(mesh, parallelFor)
                            : makeUnstructuredGrid(mesh, midNodes, parallelFor);

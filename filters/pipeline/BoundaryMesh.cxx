@@ -105,7 +105,7 @@ ClassifiedFacets facetsAmong(
       [&](std::size_t f) { return selection.contains(context.model.nurbs(), entities[f]); });
     if (!context.exchange.any(!chosen.empty()))
     {
-      throw Error("none of the boundary's facets lies on the chosen faces (Faces)");
+      throw Error("no boundary facet lies on the chosen faces (Faces)");
     }
   }
   std::stable_partition(chosen.begin(), chosen.end(),

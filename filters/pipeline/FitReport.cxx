@@ -62,7 +62,7 @@ std::string describeUnits(double ratio, const std::string& cadUnit)
     return {};
   }
   std::ostringstream text;
-  text << "the mesh's box is " << ratio << " times as large as the CAD's, as if the mesh were in "
+  text << "the mesh's box is " << ratio << " times the size of the CAD's, as if the mesh were in "
        << likely->mesh.plural << " and the CAD in " << likely->cad.plural << ": ";
   if (cadUnit.empty() || likely->cad.name == cadUnit)
   {
@@ -116,7 +116,7 @@ std::string describeShift(const Fit& fit)
     return {};
   }
   std::ostringstream text;
-  text << "the mesh's box is as large as the CAD's, but shifted by " << low
+  text << "the mesh's box has the size of the CAD's, but is shifted by " << low
        << ": move the mesh or the CAD";
   return text.str();
 }
@@ -179,10 +179,11 @@ std::string warningOfMisfit(const Fit& fit, const std::string& cadUnit, bool isW
     return cause;
   }
   return describeShares(fit) + "; " +
-         (cause.empty() ? "check that mesh and CAD have the same position and unit of length (" +
-                            describeBoxes(fit, cadUnit) +
-                            "; Unit of the CAD Reader, driver: --cad-unit, converts the CAD)"
-                        : cause);
+         (cause.empty()
+             ? "check that the mesh and the CAD have the same position and unit of length (" +
+                 describeBoxes(fit, cadUnit) +
+                 "; Unit of the CAD Reader, driver: --cad-unit, converts the CAD)"
+             : cause);
 }
 
 void removeFit(vtkFieldData* from)

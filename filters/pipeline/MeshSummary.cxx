@@ -89,12 +89,12 @@ std::string warningOfInvalidCells(const QualitySummary& quality, const MeshCount
   {
     throw Error("more than half of the cells are inverted or degenerate (" + std::to_string(count) +
                 " of " + std::to_string(counts.cells) +
-                "); if its orientation is reversed, swap two points of each cell");
+                "); if the whole mesh has the wrong orientation, swap two points of each cell");
   }
   return count == 0 ? std::string()
                     : "the input mesh has " + std::to_string(count) +
-                        " inverted or degenerate cells; tetrahedra and triangles of them are "
-                        "repaired where that is possible while vertices move onto the CAD";
+                        " inverted or degenerate cells; those that are tetrahedra or triangles "
+                        "are repaired where possible while vertices move onto the CAD";
 }
 
 void setFieldValue(vtkFieldData* data, const char* name, double value)

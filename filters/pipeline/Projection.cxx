@@ -63,14 +63,14 @@ std::string reasonOfNone(
   }
   if (!options.faces.empty())
   {
-    return none + "none of the boundary's facets lies on the chosen faces (Faces)";
+    return none + "no boundary facet lies on the chosen faces (Faces)";
   }
   const std::string farther = options.maximumDistance
                                 ? "MaximumDistance"
-                                : "its longest edges (MaximumDistance lets vertices go farther)";
+                                : "its longest edges (set MaximumDistance to allow more)";
   const std::string misfit = warningOfMisfit(projection.fit, cadUnit, true);
-  return none + "every boundary facet is farther from the CAD than " + farther +
-         ", or not aligned with it; " + misfit;
+  return none + "every boundary facet is either farther from the CAD than " + farther +
+         " or not aligned with it; " + misfit;
 }
 
 /// Tells what does not fit; throws Error where nothing lies on the CAD.

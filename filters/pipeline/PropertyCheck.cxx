@@ -66,10 +66,10 @@ void checkCellArrays(vtkPointSet* mesh, const std::vector<std::string>& names)
     {
       const bool isError =
         isMeasured(name.c_str()) && name != arrays::validity && name != arrays::quality;
-      throw Error(
-        "the mesh has no cell array " + name +
-        (isError ? ": measure it first with CAD Geometric Error" : " of numbers to mark cells by") +
-        "; cell arrays here: " + numericArraysOf(cells));
+      throw Error((isError ? "the mesh has no cell array " + name +
+                               "; compute it first with CAD Geometric Error"
+                           : "the mesh has no numeric cell array " + name + " to mark cells by") +
+                  "; numeric cell arrays in the mesh: " + numericArraysOf(cells));
     }
   }
 }
@@ -83,11 +83,11 @@ void checkConservedArrays(vtkPointSet* mesh, const std::vector<std::string>& nam
     const int type = array ? array->GetDataType() : VTK_VOID;
     if (mesh->GetNumberOfCells() > 0 && type != VTK_DOUBLE && type != VTK_FLOAT)
     {
-      throw Error(
-        (array ? "the cell array " + name + " is of whole numbers, not of floating point"
-               : "the mesh has no cell array " + name + " of numbers") +
-        ", so that its integral cannot be conserved (ConservedArrays); cell arrays here: " +
-        numericArraysOf(cells));
+      throw Error((array ? "the cell array " + name + " holds integers, not floating-point numbers"
+                         : "the mesh has no numeric cell array " + name) +
+                  ", so its integral cannot be conserved (ConservedArrays); numeric cell arrays in "
+                  "the mesh: " +
+                  numericArraysOf(cells));
     }
   }
 }

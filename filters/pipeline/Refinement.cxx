@@ -399,8 +399,8 @@ void checkForQuadraticCells(vtkPointSet* data)
 {
   if (vtkPolyData::SafeDownCast(data))
   {
-    throw Error("poly data cannot hold quadratic cells; make the mesh an unstructured grid first "
-                "(the filter Append Datasets does), or switch Quadratic Cells off");
+    throw Error("poly data cannot hold quadratic cells; convert the mesh to an unstructured grid "
+                "first (filter Append Datasets), or turn Quadratic Cells off");
   }
 }
 

@@ -39,7 +39,7 @@ std::vector<double> valuesOf(
   vtkDataArray* array = arrays.ofCells->GetArray(criterion.array.c_str());
   if (!array)
   {
-    throw Error("the mesh has no cell array " + criterion.array + " of numbers to mark cells by");
+    throw Error("the mesh has no numeric cell array " + criterion.array + " to mark cells by");
   }
   if (array->GetNumberOfComponents() != 1)
   {
@@ -57,8 +57,8 @@ std::vector<double> valuesOf(
                                  [](double x) { return std::isfinite(x) && x >= 0; }))
   {
     throw Error("the marking array " + criterion.array +
-                " has a value that is negative or not finite; marking by a fraction or in bulk "
-                "needs finite values of at least 0");
+                " has a value that is negative or not finite; marking by Fraction of Largest or "
+                "Bulk needs finite values of at least 0");
   }
   return values;
 }

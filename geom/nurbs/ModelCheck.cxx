@@ -38,7 +38,7 @@ void checkPoints(const Points& points)
     checkCoordinates(point, "control point");
     if (!(point.back() >= 1 / largestCoordinate))
     {
-      throw Error("has a control point of a weight that is not positive");
+      throw Error("has a control point whose weight is not positive");
     }
     for (const double coordinate : point)
     {
@@ -56,7 +56,7 @@ void checkPatch(const PatchView& view, const std::vector<ControlPoint>& points)
   }
   if (points.size() != static_cast<std::size_t>(view.count()))
   {
-    throw Error("has control points that are too few or too many");
+    throw Error("has too few or too many control points");
   }
   checkPoints(points);
 }

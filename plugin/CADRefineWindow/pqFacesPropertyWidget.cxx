@@ -70,12 +70,12 @@ pqFacesPropertyWidget::pqFacesPropertyWidget(
     buttons->addWidget(button);
   };
   addButton("AddSelected", "Add Selected",
-    "Put the CAD faces that are selected in the view into the list (of a planar mesh, CAD edges). "
+    "Add the CAD faces that are selected in the view to the list (for a planar mesh, CAD edges). "
     "Select cells of the CAD, of CAD Boundary or of a projected mesh with the tools of the view.",
     false);
   addButton("ExcludeSelected", "Exclude Selected",
-    "Put the CAD faces that are selected in the view into the list with ! before them: they are "
-    "left out, and alone in the list they leave all others.",
+    "Add the CAD faces that are selected in the view to the list with ! before them, which "
+    "excludes them. If the list has no other entries, all other faces are used.",
     true);
 }
 
@@ -97,21 +97,21 @@ QStringList pqFacesPropertyWidget::selectedEntries(QString& reason) const
   if (ports.isEmpty())
   {
     reason = "Nothing is selected: select cells of the CAD in the view (key S), choose this filter "
-             "again in the Pipeline Browser, then press.";
+             "again in the Pipeline Browser, then press the button.";
     return {};
   }
   const pqPipelineCAD cad = pqPipelineCAD::findFor(proxy());
   const pqPipelineCAD mesh = pqPipelineCAD::inputOf(proxy(), "Input");
   if (!cad.source || !mesh.source)
   {
-    reason = "The filter has no CAD: choose one under CAD, then press.";
+    reason = "The filter has no CAD: choose one under CAD, then press the button.";
     return {};
   }
   const QStringList strangers = strangersTo(cad.source, ports);
   if (!strangers.isEmpty())
   {
     reason = "The selection in " + strangers.join(", ") +
-             " is of another CAD than this filter's: select faces of its own CAD.";
+             " belongs to another CAD than this filter's: select faces of its own CAD.";
     return {};
   }
   vtkSMSessionProxyManager* proxies = proxy()->GetSessionProxyManager();
@@ -132,7 +132,7 @@ QStringList pqFacesPropertyWidget::selectedEntries(QString& reason) const
   if (entries.isEmpty())
   {
     const QString noun = vtkSMPropertyHelper(finder, "Dimension").GetAsInt() == 1 ? "edge" : "face";
-    reason = "What is selected lies on no CAD " + noun + ": select cells of the " + noun +
+    reason = "The selected cells lie on no CAD " + noun + ": select cells of the " + noun +
              "s that the CAD Reader draws, or of CAD Boundary.";
   }
   return entries;

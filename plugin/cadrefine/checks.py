@@ -44,7 +44,7 @@ def names(text):
     """A list, of names that commas part."""
     parts = text.split(",")
     if "" in parts:
-        raise argparse.ArgumentTypeError(f"{text[:40]!r} has an empty name")
+        raise argparse.ArgumentTypeError(f"{text[:40]!r} contains an empty name")
     return parts
 
 
@@ -73,7 +73,7 @@ def check_box(name, box):
 
 def check_fraction(name, strategy, value):
     if strategy != "threshold" and value is not None and not 0 < value <= 1:
-        raise Failure(f"{name}: {value:g} is not a part above 0 and at most 1")
+        raise Failure(f"{name}: {value:g} is not a fraction above 0 and at most 1")
 
 
 def option_of(name):
@@ -83,21 +83,21 @@ def option_of(name):
 def check(options):
     """Finds what is wrong before any work is done."""
     if (options.indicator is None) != (options.indicator_threshold is None):
-        raise Failure("--indicator and --indicator-threshold go together")
+        raise Failure("--indicator and --indicator-threshold must be given together")
     if options.indicator_marking != "threshold" and options.indicator is None:
         raise Failure(f"--indicator-marking {options.indicator_marking} needs an --indicator")
     if options.marking == "threshold" and options.threshold is None:
         raise Failure("--marking threshold needs a --threshold")
     if options.marking == "off" and options.threshold is not None:
-        raise Failure("--threshold and --marking off exclude each other")
+        raise Failure("--threshold cannot be combined with --marking off")
     check_fraction("--threshold", options.marking or "threshold", options.threshold)
     check_fraction("--indicator-threshold", options.indicator_marking, options.indicator_threshold)
     if options.projected and options.region:
-        raise Failure("--region is for projecting, which --projected leaves out")
+        raise Failure("--region cannot be combined with --projected, which skips the projection")
     check_box("--region", options.region)
     check_box("--focus", options.focus)
     if options.view and not any(options.view):
-        raise Failure("--view: 0 0 0 is no direction")
+        raise Failure("--view: 0 0 0 is not a direction")
     for path in (options.mesh, options.cad, options.compare_report):
         if path:
             session.check_readable(path)

@@ -53,9 +53,9 @@ def run(options, results, terminal, started):
     pipeline.read_mesh(options.mesh)
     if pipeline.second_order:
         options.quadratic = output.takes_quadratic(options.output)
-        terminal.say(f"{options.mesh}: quadratic cells are taken by their corners, and " + (
+        terminal.say(f"{options.mesh}: quadratic cells are read as linear ones, and " + (
             "made quadratic again at the end" if options.quadratic else
-            f"stay linear in {options.output}, whose format has no quadratic ones"))
+            f"stay linear in {options.output}, whose format has no quadratic cells"))
     pipeline.check(options)
     pipeline.read_cad(options.cad, options.cad_unit)
     report.describe_input(pipeline)

@@ -19,9 +19,9 @@ def check_display():
         return
     display = os.environ.get("DISPLAY")
     if not display:
-        raise Failure("a screenshot needs a display, and DISPLAY is not set; run it under xvfb-run")
+        raise Failure("a screenshot needs a display, but DISPLAY is not set; put xvfb-run before the command")
     if not answers(display):
-        raise Failure(f"a screenshot needs a display, and {display} cannot be opened")
+        raise Failure(f"a screenshot needs a display, but {display} cannot be opened")
 
 
 def answers(display):

@@ -88,7 +88,7 @@ def quietly(work):
 
 
 def unknown():
-    raise BadFile("is in none of the formats that are read here")
+    raise BadFile("is not in a format that can be read here")
 
 
 def reader_of(path):

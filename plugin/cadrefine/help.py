@@ -9,27 +9,28 @@ USAGE = """mpirun -np N pvbatch cadrefine.py MESH CAD [options]
 
 DESCRIPTION = """\
 Makes a mesh follow its CAD geometry: projects its boundary onto the CAD model, measures the
-geometric error between both, and refines the mesh so that new boundary vertices lie on the CAD.
-Lengths are in the unit of the CAD file, whose numbers are taken as they are; the mesh must have
-the same. The result is the same on any number of ranks."""
+geometric error between them, and refines the mesh so that new boundary vertices lie on the CAD.
+Lengths are in the unit of the CAD file, whose numbers are used as they are; the mesh must have the
+same unit. The result is the same on any number of ranks."""
 
 EPILOG = """\
 course of a run:
-  Step 0 is the projected mesh. Then come --uniform-steps steps, then --steps steps of --method. The
-  run ends early at --target-error, at --maximum-cells, and when no cell is marked.
+  Step 0 is the projected mesh. It is followed by --uniform-steps uniform steps, then by --steps
+  steps of --method. The run ends early at --target-error, at --maximum-cells, and when no cell is
+  marked.
 
 examples:
   Three steps that refine all cells, and a report:
     pvpython cadrefine.py wing.msh wing.step --method uniform --report wing.json --output fine.msh
-  The cells that carry 30 % of the error, until the error is 1e-4, on 8 ranks:
+  Refine the cells that carry 30 % of the error, until the error is 1e-4, on 8 ranks:
     mpirun -np 8 pvbatch cadrefine.py wing.vtu wing.igs --steps 40 --marking bulk --threshold 0.3 \\
         --target-error 1e-4 --output fine.pvtu
-  Where a solver's cell array "eta" is larger than 1e-3, on a mesh that an earlier run wrote:
+  Refine where a solver's cell array "eta" exceeds 1e-3, in a mesh that an earlier run wrote:
     pvpython cadrefine.py flow.vtu wing.igs --projected --steps 1 --indicator eta \\
         --indicator-threshold 1e-3 --output next.vtu
   Quadratic cells whose mid-edge nodes lie on the CAD:
     pvpython cadrefine.py wing.msh wing.step --steps 0 --quadratic --output curved.msh
-  Only the nose, with the picture of the result, without a screen:
+  Project only the nose, and take a picture of the result on a machine without a screen:
     xvfb-run -a pvpython cadrefine.py plane.vtu plane.igs --region 0 0.2 -1 1 -1 1 \\
         --screenshot nose.png
 
@@ -40,54 +41,54 @@ cells of lower dimension carry tags):
   .xdmf                     as written by meshio, DOLFIN, DOLFINx, ParaView; all grids of the domain
   .e .ex2 .exo              Exodus: element blocks and side sets
   .mesh .meshb .vol         Medit and Netgen, through python3-meshio
-  .inp                      Abaqus and CalculiX: sets of elements and surfaces
+  .inp                      Abaqus and CalculiX: element sets and surfaces
   .bdf .nas .fem            Nastran: properties
-  .unv                      I-DEAS, SALOME: groups of elements
-  .su2                      SU2, with names of markers
+  .unv                      I-DEAS, SALOME: element groups
+  .su2                      SU2, with marker names
   .cgns                     CGNS in HDF5: boundary conditions, families, zones; through python3-h5py
   .med                      SALOME and code_aster, with groups; needs python3-h5py
-  CASE/NAME.foam, CASE      OpenFOAM, with patches and zones; no other polyhedra
-  Tags of gmsh are the cell arrays gmsh:physical and gmsh:geometrical, those of Medit medit:ref, of
-  Exodus ObjectId. Names of groups are field data of the mesh, and are written with the groups.
-  Quadratic cells are taken by their corners, and made quadratic again at the end.
-  Of a time series the first time step is read.
+  CASE/NAME.foam, CASE      OpenFOAM, with patches and zones; only cells of the shapes above
+  Tags become cell arrays: gmsh:physical and gmsh:geometrical for gmsh, medit:ref for Medit,
+  ObjectId for Exodus. Group names become field data of the mesh, and are written with the groups.
+  Quadratic cells are read as linear ones (their corners), and made quadratic again at the end.
+  Of a time series, the first time step is read.
 
-formats of --output, all but .vtu and .pvtu with groups and their names:
+formats of --output (all but .vtu and .pvtu have groups with their names):
   .vtu   one file
-  .pvtu  a file for each rank, in a folder beside it: for large meshes
+  .pvtu  one file per rank, in a folder beside it: for large meshes
   .xdmf  with an .h5 file beside it, for DOLFIN, DOLFINx and ParaView: the grid "mesh", and the grid
-         "facets" with the tags of the boundary as "facet_tags"
+         "facets" with the boundary tags as "facet_tags"
   .msh   gmsh: 2.2 in binary, or see --msh-version, --ascii
   .med   SALOME and code_aster; needs python3-h5py
   .exo   Exodus (also .e), for MOOSE: blocks, side sets, node sets; needs python3-scipy
-  .inp   Abaqus and CalculiX: sets of elements, surfaces, sets of nodes
+  .inp   Abaqus and CalculiX: element sets, surfaces, node sets
   .cgns  CGNS in HDF5: boundary conditions, subregions; needs python3-h5py
   .bdf   Nastran: properties
-  .unv   SALOME, I-DEAS: groups of elements
-  .mesh  Medit, Mmg: numbers of groups
+  .unv   SALOME, I-DEAS: element groups
+  .mesh  Medit, Mmg: group numbers
   .su2   SU2: markers
-  .foam  OpenFOAM: constant/polyMesh beside the file, patches and zones; the name of the folder of a
-         case does the same
+  .foam  OpenFOAM: constant/polyMesh beside the file, with patches and zones; the folder of a case
+         can be given instead
 
 table:
   step; vertices and cells of the mesh; vertices on the CAD; points looked up on the CAD in this
   step; global geometric error (area in 2D, volume in 3D); largest distance from the boundary to the
-  CAD; inverted or degenerate cells; vertices that had to stop on the way to the CAD; least quality
-  of a cell (mean ratio or scaled Jacobian, 1 is best); seconds of the step; what was done in it.
+  CAD; inverted or degenerate cells; vertices that had to stop on the way to the CAD; lowest quality
+  of a cell (mean ratio or scaled Jacobian, 1 is best); seconds the step took; what was done in it.
 
 environment:
-  CADREFINE_PLUGIN     the plugin CADRefine.so, where it is neither built nor installed as usual
-  NO_COLOR             if set, no colours; they are used on terminals alone
-  VTK_SMP_MAX_THREADS  most threads of a rank (default: the cores that mpirun bound it to)
+  CADREFINE_PLUGIN     path of the plugin CADRefine.so, if it is in none of the usual places
+  NO_COLOR             if set, no colours (otherwise they are used on terminals only)
+  VTK_SMP_MAX_THREADS  most threads per rank (default: the cores that mpirun bound it to)
 
 exit status:
-  0     done; results are in their places
+  0     done; all results are written
   1     bad input or a failure: one line on standard error names the file and the reason; no result
-        is left behind. On every rank.
-  130   ended by Ctrl-C (SIGINT); 143 by SIGTERM; 129 by SIGHUP. What is left is the mesh after the
-        last whole step as --output, and the report up to it; a line says so. mpirun makes 1 of it.
+        is left behind. The status is the same on every rank.
+  130   ended by Ctrl-C (SIGINT); 143 by SIGTERM; 129 by SIGHUP. The mesh after the last whole step
+        is left as --output, with the report up to that step; a line says so. mpirun returns 1.
 
-docs/command-line.md says more, docs/cluster.md how to run on a cluster."""
+docs/command-line.md has more details; docs/cluster.md explains how to run on a cluster."""
 
 
 class Layout(argparse.RawDescriptionHelpFormatter):

@@ -22,7 +22,7 @@ def open_mesh(path, terminal):
     mesh = open_with_groups(path) if files.can_read(path) else open_in_paraview(path)
     data = local_output(mesh)
     if not (data.IsA("vtkUnstructuredGrid") or data.IsA("vtkPolyData")):
-        raise Failure(f"{path}: holds a {data.GetClassName()}, not a mesh of cells")
+        raise Failure(f"{path}: contains a {data.GetClassName()}, not a mesh with cells")
     if mesh.GetDataInformation().GetNumberOfCells() == 0:
         raise Failure(f"{path}: the mesh has no cells")
     return mesh
@@ -50,7 +50,7 @@ def read_in_paraview(path):
     if reader is None or isinstance(reader, list):
         raise Failure(f"{path}: ParaView cannot read this as a mesh")
     if reader.GetXMLName() == "CADReader":
-        raise Failure(f"{path}: this is a CAD file where a mesh is due")
+        raise Failure(f"{path}: this is a CAD file, but a mesh is expected as MESH")
     session.update_reader(reader, path)
     if reader.GetXMLName() == "FLUENTReader" and reader.GetDataInformation().GetNumberOfDataSets() == 0:
         raise Failure(f"{path}: ParaView cannot read this as a mesh")  # This reader finds no fault with any text.

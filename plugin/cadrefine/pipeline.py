@@ -44,8 +44,8 @@ class Pipeline:
         for array, option in wanted + [(name, "--conserve") for name in options.conserve]:
             if self.mesh.CellData[array] is None:
                 names = ", ".join(self.mesh.CellData.keys()) or "none"
-                raise Failure(f"{self.mesh_path}: there is no cell array {array} ({option}); cell arrays there: "
-                              f"{names}")
+                raise Failure(f"{self.mesh_path}: the mesh has no cell array {array} ({option}); its cell "
+                              f"arrays: {names}")
         if options.quadratic and local_output(self.mesh).IsA("vtkPolyData"):
             raise Failure(f"{self.mesh_path}: poly data cannot hold quadratic cells (--quadratic); use a .vtu file")
 
@@ -60,8 +60,8 @@ class Pipeline:
         """Projects the mesh, unless an earlier run did, and adapts it. `end_step(kind)` is called after each step, when
         `mesh`, `values`, `seconds` and `costs` are those of the step. Returns why there was no further one."""
         if options.projected and self.mesh.PointData["CADDimension"] is None:
-            raise Failure(f"{self.mesh_path}: there is no point array CADDimension; --projected takes what an earlier "
-                          "run wrote")
+            raise Failure(f"{self.mesh_path}: the mesh has no point array CADDimension; --projected needs a mesh "
+                          "that an earlier run wrote")
         adaptation = simple.AdaptToCAD(Input=self.mesh, CAD=self.cad, **adaptation_properties(options))
 
         def take_step(mesh):

@@ -13,7 +13,7 @@ def load_report(path):
         report["steps"][0]["vertices"], report["steps"][0]["global_error"]
         return report
     except (ValueError, KeyError, IndexError, TypeError):
-        raise Failure(f"{path}: is no report of this driver") from None
+        raise Failure(f"{path}: is not a report written by --report") from None
 
 
 def plot(report, path, other=None):

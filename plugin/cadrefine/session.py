@@ -117,9 +117,9 @@ def check_readable(path):
     if not os.path.exists(path):
         raise Failure(f"{path}: no such file")
     if os.path.isdir(path) and not polymesh_of(path):
-        raise Failure(f"{path}: is a folder, not a file, and there is no constant/polyMesh in it")
+        raise Failure(f"{path}: is a folder, not a file, and contains no constant/polyMesh")
     if not os.access(path, os.R_OK):
-        raise Failure(f"{path}: may not be read")
+        raise Failure(f"{path}: cannot be read: permission denied")
     if os.path.getsize(path) == 0 and not path.endswith(".foam"):
         raise Failure(f"{path}: the file is empty")
 
@@ -131,7 +131,7 @@ def check_writable(path, endings):
     if not os.path.isdir(folder):
         raise Failure(f"{path}: there is no folder {folder}")
     if os.path.isdir(path) or not all(os.access(item, os.W_OK) for item in (path, folder) if os.path.exists(item)):
-        raise Failure(f"{path}: may not be written")
+        raise Failure(f"{path}: cannot be written")
 
 
 def plugin_candidates():

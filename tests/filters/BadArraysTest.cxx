@@ -132,10 +132,10 @@ TEST_F(BadArrays, cannotBeConservedWithoutRealNumbers)
     expectError(filters.attempt<vtkRefineWithCAD>(mesh, add), reason);
     expectError(filters.attempt<vtkAdaptToCAD>(mesh, add), reason);
   };
-  conserve("Counts", "the cell array Counts is of whole numbers, not of floating point");
+  conserve("Counts", "the cell array Counts holds integers, not floating-point numbers");
   for (const char* name : { "Missing", "Names", "OfPoints" })
   {
-    conserve(name, std::string("the mesh has no cell array ") + name + " of numbers");
+    conserve(name, std::string("the mesh has no numeric cell array ") + name + ", so its integral");
   }
 }
 
@@ -251,15 +251,15 @@ TEST_F(BadArrays, valuesThatMarkCells)
       mesh, [&](vtkRefineWithCAD* filter) { filter->SetMarkingArray(name); });
   };
   expectError(refineBy("Mark"), "the marking array Mark contains NaN");
-  expectError(refineBy("Text"), "the mesh has no cell array Text of numbers to mark cells by");
-  expectError(refineBy("Nothing"), "the mesh has no cell array Nothing");
+  expectError(refineBy("Text"), "the mesh has no numeric cell array Text to mark cells by");
+  expectError(refineBy("Nothing"), "the mesh has no numeric cell array Nothing");
   expectError(filters.attempt<vtkRefineWithCAD>(
                 projected(), [](vtkRefineWithCAD* filter) { filter->SetChordTolerance(0.1); }),
-    "the mesh has no cell array ChordError: measure it first with CAD Geometric Error; cell arrays "
-    "here: ");
+    "the mesh has no cell array ChordError; compute it first with CAD Geometric Error; numeric "
+    "cell arrays in the mesh: ");
   expectError(filters.attempt<vtkAdaptToCAD>(
                 mesh, [](vtkAdaptToCAD* filter) { filter->SetIndicatorArray("eta"); }),
-    "the mesh has no cell array eta of numbers to mark cells by; cell arrays here: ");
+    "the mesh has no numeric cell array eta to mark cells by; numeric cell arrays in the mesh: ");
 }
 
 /// They go where interpolation takes them, and nowhere else.

@@ -226,7 +226,7 @@ TEST_F(BadInput, noCADIsChosen)
 {
   expectFailure(filters.attempt<vtkProjectOntoCAD>(goodMesh(),
                   [](vtkProjectOntoCAD* filter) { filter->SetInputConnection(1, nullptr); }),
-    "choose a CAD: open the .step, .iges or .brep file");
+    "no CAD model is chosen: open the .step, .iges or .brep file");
 }
 
 TEST_F(BadInput, theCADOfTheProjectionNeedNotBeChosenAgain)

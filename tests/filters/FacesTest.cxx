@@ -270,7 +270,7 @@ TEST_F(Faces, thatAreNotThereAreErrors)
   for (const char* entry : { "0=", "0=-1", "0=thin", "0=0", "0=inf", "!0=1" })
   {
     EXPECT_NE(
-      messageOf({ entry }).find("after = there must be a chord tolerance"), std::string::npos)
+      messageOf({ entry }).find("\"=\" must be followed by a chord tolerance"), std::string::npos)
       << messageOf({ entry });
   }
   EXPECT_NE(messageOf({ "!*", "!0" }).find("Faces"), std::string::npos);

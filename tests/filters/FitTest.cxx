@@ -212,7 +212,8 @@ TEST_F(Fit, tellsAMeshElsewhere)
   {
     p = { 0.2 * p[0], p[1], 7 * p[2] - 6.9 };
   }
-  expectWarning(project(flat), "check that mesh and CAD have the same position and unit of length");
+  expectWarning(
+    project(flat), "check that the mesh and the CAD have the same position and unit of length");
 }
 
 TEST_F(Fit, isAnErrorWhereNothingIsOnTheCAD)

@@ -464,7 +464,7 @@ TEST_F(QuadraticRefused, withTwoNodesOnAnEdge)
   const vtkIdType edge[3] = { nodes->GetId(0), nodes->GetId(1), nodes->GetId(9) };
   vtkUnstructuredGrid::SafeDownCast(data)->InsertNextCell(VTK_QUADRATIC_EDGE, 3, edge);
   data->GetCellData()->Initialize();
-  expectFailure<vtkMeshValidity>(data, "different mid nodes on an edge");
+  expectFailure<vtkMeshValidity>(data, "different mid-edge nodes on an edge");
 }
 
 } // namespace

@@ -157,7 +157,7 @@ class BadOptions(Case):
         cases += [(["--region", "0", "1", "-1e-3", "-2e-3", "0", "1"], "--region: the box is empty"),
                   (["--focus", "0", "1", "0", "1", "0", "1e300"], "argument --focus: '1e300' is not a finite number"),
                   (["--marking", "threshold"], "--marking threshold needs a --threshold"),
-                  (["--marking", "off", "--threshold", "1"], "--threshold and --marking off exclude each other"),
+                  (["--marking", "off", "--threshold", "1"], "--threshold cannot be combined with --marking off"),
                   (["--view", "0", "0", "nan"], "argument --view: 'nan' is not a finite number")]
         self.assert_refused(cases)
 
@@ -221,7 +221,7 @@ class BadInput(Case):
 
     def test_mesh_that_was_not_projected(self):
         self.assert_fails(self.mesh, self.cad, "--projected",
-                          names="naca0012_coarse.vtu: there is no point array CADDimension")
+                          names="naca0012_coarse.vtu: the mesh has no point array CADDimension")
 
     def test_quadratic_poly_data(self):
         mesh, path = meshio.read(driver.data("three_arcs_coarse.vtu")), os.path.join(self.folder, "arcs.ply")
@@ -236,11 +236,11 @@ class BadInput(Case):
 
     def test_missing_density(self):
         self.assert_fails(self.mesh, self.cad, "--conserve", "heat",
-                          names="naca0012_coarse.vtu: there is no cell array heat (--conserve); cell arrays there: ")
+                          names="naca0012_coarse.vtu: the mesh has no cell array heat (--conserve); its cell arrays: ")
 
     def test_missing_indicator(self):
         self.assert_fails(self.mesh, self.cad, "--indicator", "velocity", "--indicator-threshold", "1",
-                          names="naca0012_coarse.vtu: there is no cell array velocity (--indicator); cell arrays there: ")
+                          names="naca0012_coarse.vtu: the mesh has no cell array velocity (--indicator); its cell ")
 
     def test_screenshot_without_display(self):
         path = os.path.join(self.folder, "picture.png")

@@ -255,7 +255,7 @@ class Options(Case):
         run = driver.Run(RANKS, path, WING[1], "--steps", "0", "--report", self.path("report.json"))
         self.assert_refused(run)
         self.assertIn("no vertex was put onto the CAD: ", run.errors[0])
-        self.assertIn("check that mesh and CAD have the same position and unit of length", run.errors[0])
+        self.assertIn("check that the mesh and the CAD have the same position and unit of length", run.errors[0])
         self.assertFalse(os.path.exists(self.path("report.json")))
 
     def test_fit(self):

@@ -269,7 +269,7 @@ class Formats(unittest.TestCase):
         wall = mesh.cells_dict["triangle6"][mesh.get_cell_data("gmsh:physical", "triangle6") == meshes.WALL]
         on_cad = mesh.point_data["CADDistance"][wall] < 1e-9
         self.assertGreater(on_cad.mean(), 0.9)
-        self.assertIn(f"{self.path('order2.msh')}: quadratic cells are taken by their corners, and made quadratic",
+        self.assertIn(f"{self.path('order2.msh')}: quadratic cells are read as linear ones, and made quadratic",
                       self.output)
 
     def test_second_order_of_others(self):

@@ -19,7 +19,7 @@ SCRIPT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "mesh_files.py
 AVS = "4 1 0 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n1 1 tet 1 2 3 4\n"
 BAD = {"bad.msh": ("$MeshFormat\n2.2 0 8\nhello", "the section MeshFormat has no end"),
        "bad.su2": ("NDIME= 3\n", ""), "bad.e": ("hello", "Unable to open"),
-       "bad.txt": ("hello", "is in none of the formats that are read here")}
+       "bad.txt": ("hello", "is not in a format that can be read here")}
 
 
 class MeshFiles(unittest.TestCase):

@@ -267,7 +267,7 @@ class Mixed(unittest.TestCase):
                                      ("mixed2", ".foam", "OpenFOAM has no quadratic cells"),
                                      ("mixed2", ".mesh", "Medit has no quadratic cells"),
                                      ("mixed2", ".inp", "Abaqus has no quadratic pyramids"),
-                                     ("mixed1", ".unv", "universal files have no pyramids but those of second order")):
+                                     ("mixed1", ".unv", "universal files can hold only quadratic pyramids")):
             path = self.path("lacks" + ending)
             self.assertEqual(files.write(self.made[name], path, "2.2", False), f"{path}: {reason}")
             self.assertFalse(os.path.exists(path))
@@ -395,8 +395,8 @@ class Mixed(unittest.TestCase):
             with openfoam_writing.open_file(folder, name, kind) as file:
                 file.write("\n".join([str(len(rows)), "(", *rows, ")\n"]))
         data = vtkUnstructuredGrid()
-        self.assertEqual(files.read(path, data), f"{path}: constant/polyMesh/faces: cells that are no hexahedra, "
-                                                 "wedges, pyramids or tetrahedra: 1, the first is cell 0, of 8 faces")
+        self.assertEqual(files.read(path, data), f"{path}: constant/polyMesh/faces: cells that are not hexahedra, "
+                                                 "wedges, pyramids or tetrahedra: 1, the first is cell 0, with 8 faces")
 
     def test_faces_that_do_not_fit(self):
         self.write(self.made["mixed1"], "broken/case.foam")

@@ -76,10 +76,10 @@ def says(text):
 
 MIDDLE = (0.47, 0.47), (0.53, 0.53)
 NOTHING = ("Nothing is selected: select cells of the CAD in the view (key S), choose this filter again in the Pipeline "
-           "Browser, then press.")
-NO_EDGE = ("What is selected lies on no CAD edge: select cells of the edges that the CAD Reader draws, or of CAD "
+           "Browser, then press the button.")
+NO_EDGE = ("The selected cells lie on no CAD edge: select cells of the edges that the CAD Reader draws, or of CAD "
            "Boundary.")
-OTHER_CAD = "The selection in cylinder.brep is of another CAD than this filter's: select faces of its own CAD."
+OTHER_CAD = "The selection in cylinder.brep belongs to another CAD than this filter's: select faces of its own CAD."
 
 
 def add_to(name):

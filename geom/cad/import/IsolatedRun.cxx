@@ -168,7 +168,7 @@ public:
     lastSteps_ = steps;
     if (idle_ >= limits_.idleSeconds)
     {
-      return "reading it stands still";
+      return "reading it makes no progress";
     }
     lateStep =
       limits_.stepSeconds > 0 && std::min(now - stepStart_, stepClock_) > limits_.stepSeconds;
@@ -308,7 +308,7 @@ std::string causeOf(
   {
     throwCannotBeRead(context, "the process that reads it was killed (signal " +
                                  std::to_string(end.signal) +
-                                 "), as systems do that run out of memory");
+                                 "), probably because the system ran out of memory");
   }
   return cause.empty() ? causeOf(end, limits) : cause;
 }
@@ -351,7 +351,7 @@ std::vector<char> runIsolated(const std::string& job, const std::string& context
   if (error != 0)
   {
     throwCannotBeRead(context, "the program " + program + ": " + std::strerror(error) +
-                                 " (CADREFINE_READER can name its place)");
+                                 " (set CADREFINE_READER to its path)");
   }
   Child child(process);
   to.close();
@@ -359,8 +359,8 @@ std::vector<char> runIsolated(const std::string& job, const std::string& context
   const End end = child.awaitEnd();
   if (!state.get()->started)
   {
-    throwCannotBeRead(
-      context, "the program " + program + " does not start, or is of another CADRefine");
+    throwCannotBeRead(context,
+      "the program " + program + " does not start, or belongs to another version of CADRefine");
   }
   const RunEnd reached{ state.get()->place, end.cpuSeconds, received.lateStep };
   if (!isComplete(received.bytes))

@@ -40,7 +40,7 @@ struct ReadOptions
   {
     return this->failureOnThreads.empty()
              ? std::vector<std::string>()
-             : std::vector<std::string>{ "done on one thread, as on several it failed: " +
+             : std::vector<std::string>{ "done on one thread, because it failed on several: " +
                                          this->failureOnThreads };
   }
 

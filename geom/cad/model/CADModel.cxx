@@ -34,8 +34,8 @@ void checkSize(double size)
 {
   if (!(size > 0) || !std::isfinite(size))
   {
-    throw Error(size == 0 ? "CAD model: it is degenerate, a single point"
-                          : "CAD model: its size is not finite");
+    throw Error(size == 0 ? "the CAD model is degenerate: a single point"
+                          : "the size of the CAD model is not finite");
   }
 }
 

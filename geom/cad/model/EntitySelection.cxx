@@ -38,7 +38,7 @@ Entry parse(const std::string& text, const std::string& property)
         *entry.tolerance <= 0 || entry.excluded)
     {
       throw Error(property + ": \"" + text +
-                  "\": after = there must be a chord tolerance, a length above 0, as in \"" +
+                  "\": \"=\" must be followed by a chord tolerance, a length above 0, as in \"" +
                   entry.name.substr(0, sign) + "=0.01\"");
     }
     entry.name.resize(sign);

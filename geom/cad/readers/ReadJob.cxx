@@ -136,7 +136,7 @@ ModelContent readContent(
   content.shape = makeModelShape(read, options, steps);
   if (content.shape.IsNull())
   {
-    throw Error(path + ": holds no face and no curve that can be read" +
+    throw Error(path + ": contains no face or curve that can be read" +
                 listOf("unread", read.report.unread) + listOf("left out", read.report.leftOut));
   }
   const ShapeIndex index(content.shape);

@@ -67,7 +67,7 @@ class Reader:
                    (word.partition("=") for word in words[1:])}
         keyword = " ".join(words[0].upper().split())
         if keyword == "INCLUDE":
-            raise BadFile("it includes another file; put both in one")
+            raise BadFile("it includes another file; merge both into one")
         for key in ("ELSET", "NAME"):
             if key in options:
                 self.names.setdefault(options[key].upper(), options[key])

@@ -35,7 +35,7 @@ class Bulk:
         nodes, ids = np.array(self.nodes, int), []
         mesh = Mesh(np.array(self.points, float), [])
         if len(np.unique(nodes)) < len(nodes):
-            raise BadFile("two nodes have the same number; join its parts in one first")
+            raise BadFile("two nodes have the same number; merge the parts of the mesh into one first")
         extra = {}
         for name, cells in self.extra.items():
             for kind, corners in cells:
@@ -45,7 +45,7 @@ class Bulk:
             added = [corners for _, corners in extra.get(kind, [])]
             rows = [*rows, *added]
             if any(len(row) != TYPES[kind][2] for row in rows):
-                raise BadFile(f"a {TYPES[kind][0]} has another number of nodes than {TYPES[kind][2]}")
+                raise BadFile(f"a {TYPES[kind][0]} does not have {TYPES[kind][2]} nodes")
             mesh.blocks.append((kind, positions(np.array(rows, int), nodes)))
             ids += [np.array(numbers, int), np.full(len(added), -1)]
         numbers = np.concatenate(ids)

@@ -231,7 +231,8 @@ def listed_in(condition, numbers):
     try:
         return positions(values, numbers)
     except BadFile:
-        raise BadFile(f"the boundary condition {condition.name} lists what is not in the file") from None
+        raise BadFile(f"the boundary condition {condition.name} lists nodes or elements that are not in the "
+                      "file") from None
 
 
 def elements_of(zone, condition):
@@ -258,7 +259,7 @@ def add_arrays(mesh, zones):
         places = {"Vertex": zone.places, "CellCenter": zone.first + cells[np.argsort(zone.numbers()[cells])]}
         for (location, name), values in solutions_of(zone.node).items():
             if len(values) != len(places[location]):
-                raise BadFile(f"{name} has {len(values)} values in {zone.node.name}, {len(places[location])} are due")
+                raise BadFile(f"{name} has {len(values)} values in {zone.node.name}, but needs {len(places[location])}")
             array = arrays[location].setdefault(name, np.zeros((counts[location], *values.shape[1:]), values.dtype))
             array[places[location]] = values
 

@@ -14,12 +14,12 @@ class Node:
     def __init__(self, group, name):
         self.name, self.group = name, group
         if not hasattr(group, "keys"):
-            raise BadFile(f"{name} is no node")
+            raise BadFile(f"{name} is not a node")
         if text(group.attrs.get("type", "")) == "LK":
             try:
                 self.group = group[" link"]
             except KeyError:
-                raise BadFile(f"{name} is in another place, or another file, and that is not there") from None
+                raise BadFile(f"{name} is a link to a place or a file that does not exist") from None
 
     def all(self, label):
         """The nodes in it that have the label, by name."""

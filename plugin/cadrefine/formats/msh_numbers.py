@@ -21,7 +21,7 @@ class Text:
             try:
                 self.values = np.fromstring(content[start:end], sep=" ")
             except DeprecationWarning:
-                raise BadFile(f"the section {name.decode()} does not hold numbers alone") from None
+                raise BadFile(f"the section {name.decode()} contains something other than numbers") from None
         self.at, self.name = 0, name
 
     def take(self, count):

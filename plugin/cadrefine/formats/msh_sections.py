@@ -57,7 +57,7 @@ class Reader:
         self.binary, self.order = words[1] == b"1", "<"
         if self.binary:
             if words[2] != b"8":
-                raise BadFile(f"numbers of {words[2].decode()} bytes, not of 8")
+                raise BadFile(f"its numbers have {words[2].decode()} bytes instead of 8")
             self.order = "<" if self.content[self.at:self.at + 4] == b"\1\0\0\0" else ">"
             self.at += 4
         self.skip(b"MeshFormat")

@@ -76,7 +76,7 @@ def add_card(bulk, fields):
             raise BadFile(f"node {fields[1]} is in a coordinate system of its own; save nodes in the basic one")
         bulk.add_node(int(fields[1]), [real(text) for text in (fields[3:6] + ["", "", ""])[:3]])
     elif name == "INCLUDE":
-        raise BadFile("it includes another file; put both in one")
+        raise BadFile("it includes another file; merge both into one")
     elif name in SOLIDS or name in SHELLS or name in LINES:
         nodes = [int(field) for field in fields[3:] if field] if name in SOLIDS else fields[3:]
         kind = kind_of(name, nodes)

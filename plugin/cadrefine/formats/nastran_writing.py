@@ -29,7 +29,7 @@ def write(path, mesh):
             numbers = np.array([properties.get((tag, TYPES[kind][1]), rest) for tag in tags])
             blocks.append((kind, numbers, reordered(kind, nodes, LAYERED) + 1))
     if max(len(mesh.points), first) > LARGEST:
-        raise BadFile(f"Nastran numbers nodes and elements up to {LARGEST}")
+        raise BadFile(f"the mesh is too large: Nastran numbers nodes and elements only up to {LARGEST}")
     with open(path, "w", encoding="utf-8") as file:
         file.write("$ CADRefine\n")
         for name, pair in mesh.groups.items():

@@ -27,7 +27,7 @@ class File:
         self.content = content_of(os.path.join(folder, name))
         head = HEAD.search(self.content)
         if not head:
-            raise BadFile(f"constant/polyMesh/{name} is no file of OpenFOAM")
+            raise BadFile(f"constant/polyMesh/{name} is not an OpenFOAM file")
         self.binary = re.search(rb"format\s+binary", head[1]) is not None
         label, scalar = (int(size[1]) if size else default for size, default in
                          ((re.search(rb"label=(\d+)", head[1]), 32), (re.search(rb"scalar=(\d+)", head[1]), 64)))
@@ -43,7 +43,7 @@ class File:
             self.at = comment.end()
         start = START.match(self.content, self.at)
         if not start:
-            raise BadFile(f"constant/polyMesh/{self.name} is malformed: no list where one is due")
+            raise BadFile(f"constant/polyMesh/{self.name} is malformed: a list is missing")
         count = int(start[1])
         self.at = start.end()
         if start[2] == b"{":
@@ -104,7 +104,7 @@ def content_of(path):
                     return file.read()
             except (OSError, EOFError, zlib.error) as error:
                 raise BadFile(f"{name} cannot be read: {error}") from None
-    raise BadFile(f"there is no {path}; of a decomposed case, join the mesh first (reconstructParMesh)")
+    raise BadFile(f"there is no {path}; if the case is decomposed, run reconstructParMesh first")
 
 
 def read(path):

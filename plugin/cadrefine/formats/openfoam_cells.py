@@ -47,8 +47,8 @@ def kinds_of(faces, cells, numbers):
         kinds[(triangles == of_three) & (quadrilaterals == of_four) & (counts == of_three + of_four)] = kind
     others = np.flatnonzero(kinds == 0)
     if len(others):
-        raise BadFile(f"{FILE}: cells that are no hexahedra, wedges, pyramids or tetrahedra: {len(others)}, the first "
-                      f"is cell {others[0]}, of {counts[others[0]]} faces")
+        raise BadFile(f"{FILE}: cells that are not hexahedra, wedges, pyramids or tetrahedra: {len(others)}, the "
+                      f"first is cell {others[0]}, with {counts[others[0]]} faces")
     return kinds
 
 

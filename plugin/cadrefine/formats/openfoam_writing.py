@@ -28,7 +28,7 @@ def check(mesh):
     """Throws BadFile where the format cannot hold the mesh."""
     dimensions = mesh.cell_dimensions()
     if dimensions.max(initial=0) < 3:
-        raise BadFile("OpenFOAM has meshes of volume cells alone; extrude the plane by one layer first")
+        raise BadFile("OpenFOAM meshes have volume cells only; extrude the mesh by one layer first")
     if any(kind in LINEAR for kind, _ in mesh.blocks):
         raise BadFile("OpenFOAM has no quadratic cells")
 

@@ -19,7 +19,7 @@ def write(path, mesh):
     """Vertices are left out."""
     mesh = grouped(mesh)
     if any(kind == PYRAMID for kind, _ in mesh.blocks):
-        raise BadFile("universal files have no pyramids but those of second order")
+        raise BadFile("universal files can hold only quadratic pyramids")
     dimensions = mesh.cell_dimensions()
     numbers = np.cumsum(dimensions > 0) * (dimensions > 0)
     with open(path, "w", encoding="utf-8") as file:

@@ -41,7 +41,7 @@ def read(path):
         name, _, inside = item.text.strip().rpartition(":")
         heavy = os.path.join(folder, name)
         if not os.path.isfile(heavy):
-            raise BadFile(f"its data file {name} is not there")
+            raise BadFile(f"its data file {name} does not exist")
         item.text = f"{SERIAL}{heavy}:{inside}"
         if item.get("NumberType", "Float") == "Float" and item.get("DataType", "Float") == "Float":
             item.set("Precision", "8")  # DOLFIN leaves it out, and has doubles; 4 would be the default.
@@ -90,7 +90,7 @@ def elements_at(tree, include):
     except SyntaxError:
         found = None
     if found is None:
-        raise BadFile(f"it includes {include.get('xpointer')}, which is not there")
+        raise BadFile(f"it includes {include.get('xpointer')}, which does not exist")
     return [part for part in found if part.tag in names] if names else [found]
 
 

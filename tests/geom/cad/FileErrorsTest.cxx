@@ -165,7 +165,7 @@ TEST_F(FileErrors, nothingInside)
   BRep_Builder().MakeCompound(nothing);
   const std::string path = this->folder.file("nothing.brep");
   cadtest::writeShape(nothing, path);
-  expectError(path, "no face and no curve");
+  expectError(path, "no face or curve");
 }
 
 } // namespace

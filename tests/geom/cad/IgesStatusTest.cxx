@@ -176,7 +176,8 @@ TEST(IgesStatus, aFileOfBlankedEntitiesIsReadAndSaysSo)
   EXPECT_EQ(model->count(1), 1);
   EXPECT_TRUE(model->report().leftOut.empty());
   ASSERT_EQ(model->report().repairs.size(), 1u);
-  EXPECT_EQ(model->report().repairs[0], "all of its geometry is blanked, and read all the same");
+  EXPECT_EQ(
+    model->report().repairs[0], "all of its geometry is blanked, but was read nevertheless");
 }
 
 TEST(IgesStatus, aBlankedPartOfAVisibleWholeIsRead)

@@ -169,7 +169,7 @@ TEST_F(IsolatedRun, endsWhatTakesTooMuchMemory)
 
 TEST_F(IsolatedRun, endsWhatStandsStill)
 {
-  expectError(errorOf("stand still", { 60, 0, 1 }), "stands still");
+  expectError(errorOf("stand still", { 60, 0, 1 }), "makes no progress");
 }
 
 constexpr double forEver = 1e9;
@@ -213,14 +213,14 @@ TEST_F(IsolatedRun, namesAProgramThatIsNotThere)
 {
   const OtherReader other("/no/such/program");
   EXPECT_EQ(errorOf("echo"), "file: cannot be read: the program /no/such/program: No such file or "
-                             "directory (CADREFINE_READER can name its place)");
+                             "directory (set CADREFINE_READER to its path)");
 }
 
 TEST_F(IsolatedRun, namesAProgramThatIsAnother)
 {
   const OtherReader other("/bin/true");
-  EXPECT_EQ(errorOf("echo"), "file: cannot be read: the program /bin/true does not start, or is of "
-                             "another CADRefine");
+  EXPECT_EQ(errorOf("echo"), "file: cannot be read: the program /bin/true does not start, or "
+                             "belongs to another version of CADRefine");
 }
 
 #ifdef __SSE2__
@@ -277,7 +277,7 @@ TEST_F(ReadAttempts, keepToOneLimitTogether)
 TEST_F(ReadAttempts, tellOfAFailureThatOnlyThreadsHave)
 {
   const std::string note = answerOf("tell notes", { 60, 1000 }, inputOf(false));
-  expectError(note, "on several it failed");
+  expectError(note, "because it failed on several");
   expectError(note, "memory");
   EXPECT_EQ(answerOf("tell notes", { 60, 1000 }, inputOf(true)), "none")
     << "the item is left out, which is told";

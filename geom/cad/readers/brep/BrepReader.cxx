@@ -90,7 +90,7 @@ ReadShape readBrep(const std::string& path, OptionalSteps&)
   }
   if (result.shape.IsNull())
   {
-    throw Error(path + ": not a BREP file that can be read");
+    throw Error(path + ": cannot be read as a BREP file");
   }
   numberEntities(result);
   dropFacesWithoutSurface(result);

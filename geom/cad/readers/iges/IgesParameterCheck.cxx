@@ -121,11 +121,11 @@ std::string checkSpline(const Values& values, std::size_t directions)
   const std::size_t header = directions == 1 ? 7 : 10;
   if (values.size() < header)
   {
-    return "has " + std::to_string(values.size()) + " parameters only";
+    return "has only " + std::to_string(values.size()) + " parameters";
   }
   if (!std::all_of(values.begin() + 1, values.begin() + 1 + 2 * directions, isInteger))
   {
-    return "its counts and degrees are no integers";
+    return "its counts and degrees are not integers";
   }
   long poles = 1;
   std::size_t needed = header;

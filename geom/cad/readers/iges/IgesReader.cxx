@@ -137,7 +137,7 @@ ReadShape readIges(const std::string& path, OptionalSteps& steps)
   IGESControl_Reader reader;
   if (reader.ReadFile(file.path().c_str()) != IFSelect_RetDone || reader.IGESModel().IsNull())
   {
-    throw Error(path + ": not an IGES file that can be read");
+    throw Error(path + ": cannot be read as an IGES file");
   }
   ReadShape result;
   IgesTopLevel roots = findIgesRoots(file);
@@ -151,7 +151,7 @@ ReadShape readIges(const std::string& path, OptionalSteps& steps)
   result.report.repairs = file.repairs();
   if (roots.allBlanked)
   {
-    result.report.repairs.emplace_back("all of its geometry is blanked, and read all the same");
+    result.report.repairs.emplace_back("all of its geometry is blanked, but was read nevertheless");
   }
   steps.run(
     ReadStep::Attributes, [&] { result.attributeMap = collectIgesAttributes(reader.WS()); });

@@ -216,7 +216,7 @@ void RepairedIges::checkReferences()
 {
   for (const std::size_t i : findCircles(parts_))
   {
-    setAside(text_.entries[i], "is made of itself");
+    setAside(text_.entries[i], "contains itself");
   }
   for (std::size_t i = 0; i < parts_.size(); ++i)
   {
@@ -229,7 +229,7 @@ void RepairedIges::checkReferences()
     };
     if (entry.type == solidType && !std::all_of(parts_[i].begin(), parts_[i].end(), isShell))
     {
-      setAside(entry, "is made of something that is no shell");
+      setAside(entry, "contains something that is not a shell");
     }
   }
 }

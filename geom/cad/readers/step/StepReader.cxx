@@ -161,7 +161,7 @@ ReadShape readStep(const std::string& path, OptionalSteps& steps)
   STEPControl_Reader reader;
   if (reader.ReadFile(path.c_str()) != IFSelect_RetDone || reader.StepModel().IsNull())
   {
-    throw Error(path + ": not a STEP file that can be read");
+    throw Error(path + ": cannot be read as a STEP file");
   }
   ReadShape result;
   const double millimetres = findLengthUnit(reader);
