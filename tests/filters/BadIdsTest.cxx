@@ -423,7 +423,7 @@ TEST_F(BadIds, ghostsThatAreNotMarked)
     const auto outcome = filters.attempt<vtkProjectOntoCAD>(grid, [](vtkProjectOntoCAD*) {});
     expectError(outcome, "on all but one");
     cadtest::addGlobalIds(grid); // by the numbers of points, which are the same on all ranks
-    expectErrors(filtersOfRawMeshes(), grid, "a cell that several ranks have must be marked");
+    expectErrors(filtersOfRawMeshes(), grid, "a cell that several ranks hold must be marked");
   }
 }
 

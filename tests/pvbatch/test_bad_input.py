@@ -102,7 +102,7 @@ class BadFiles(Case):
     def test_image(self):
         text = ("# vtk DataFile Version 3.0\nimage\nASCII\nDATASET STRUCTURED_POINTS\nDIMENSIONS 2 2 2\n"
                 "ORIGIN 0 0 0\nSPACING 1 1 1\n")
-        self.assert_fails(self.file("image.vtk", text), self.cad, names="image.vtk: holds a vtkImageData")
+        self.assert_fails(self.file("image.vtk", text), self.cad, names="image.vtk: contains a vtkImageData")
 
 
 class BadOptions(Case):
