@@ -19,6 +19,18 @@ from PIL import Image
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 IMAGES = os.path.join(ROOT, "docs", "images")
 ROD = "/usr/share/opencascade/data/step/linkrods.step"
+CRANK = "/usr/share/opencascade/data/occ/CrankArm.brep"
+TETRAHEDRA = """
+import sys, gmsh
+gmsh.initialize()
+gmsh.model.occ.importShapes(sys.argv[1])
+gmsh.model.occ.synchronize()
+gmsh.model.addPhysicalGroup(3, [tag for _, tag in gmsh.model.getEntities(3)])
+gmsh.option.setNumber("Mesh.MeshSizeMin", float(sys.argv[2]))
+gmsh.option.setNumber("Mesh.MeshSizeMax", float(sys.argv[2]))
+gmsh.model.mesh.generate(3)
+gmsh.write(sys.argv[3])
+"""
 BEARING = "/usr/share/opencascade/data/iges/bearing.iges"
 GREY, DARK, EDGE = (0.9, 0.91, 0.93), (0.15, 0.15, 0.2), (0.3, 0.3, 0.36)
 HEAT = ((0.96, 0.96, 0.96), (0.98, 0.7, 0.25), (0.7, 0.05, 0.1))
@@ -259,6 +271,24 @@ def quadratic_ball():
         save("quadratic_ball", *images)
 
 
+def quadratic_crank():
+    """With the nodes that stop on the way to the CAD, and with cells cut so that none does. The mesh has tetrahedra
+    alone: ParaView 5.11 crashes where it subdivides quadratic lines."""
+    with tempfile.TemporaryDirectory() as folder:
+        file = os.path.join(folder, "crank.vtk")
+        subprocess.run(["/usr/bin/python3", "-c", TETRAHEDRA, CRANK, "15.4", file], check=True,
+                       stdout=subprocess.DEVNULL)
+        cad = CADReader(FileName=CRANK)
+        images = []
+        for operations in ("Cut only", "All"):
+            projected = ProjectOntoCAD(Input=OpenDataFile(file), CAD=cad)
+            curved = RefineWithCAD(Input=projected, CAD=cad, Levels=0, QuadraticCells=1, Operations=operations)
+            scene = Scene((640, 300), (-0.1, -0.75, 0.65))
+            scene.show(ExtractSurface(Input=curved, NonlinearSubdivisionLevel=3), Ambient=0.25, Diffuse=0.75)
+            images.append(scene.image(1.9))
+        save("quadratic_crank", *images)
+
+
 @contextlib.contextmanager
 def rod_of_the_tutorial():
     """The rod as the tutorial meshes it (its first block)."""
@@ -295,7 +325,7 @@ def tutorial_meshes():
 
 
 PICTURES = (cad_reader, project_onto_cad, cad_geometric_error, refine_with_cad, coarsen_with_cad, adapt_to_cad,
-            cad_boundary, mesh_validity, quadratic_ball, tutorial_meshes)
+            cad_boundary, mesh_validity, quadratic_ball, quadratic_crank, tutorial_meshes)
 
 
 def main():
