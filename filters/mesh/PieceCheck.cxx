@@ -90,7 +90,7 @@ std::string describeTwins(
   {
     return "pieces of the mesh overlap: ranks " + ranks[0] + " and " + ranks[1] +
            " both have cells around the point " + places[0] +
-           " (a cell that several ranks hold must be marked as a ghost on all of them but one)";
+           " (a cell that several ranks hold must be marked as a ghost on all but one)";
   }
   return "two points of the mesh have the global id " + std::to_string(id) + ": " + places[0] +
          " on rank " + ranks[0] + " and " + places[1] + " on rank " + ranks[1];
@@ -209,8 +209,8 @@ void checkCells(RankExchange& exchange, const DistributedMesh& mesh, const Cells
                          std::to_string(numbers[shared.all[0]]) + " of rank " +
                          std::to_string(exchange.rank()) + " is also on rank " +
                          std::to_string(holders.first[holders.lowest() == exchange.rank()]) +
-                         " (a cell that several ranks hold must be marked as a ghost on all of "
-                         "them but one)");
+                         " (a cell that several ranks hold must be marked as a ghost on all but "
+                         "one)");
   }
 }
 
