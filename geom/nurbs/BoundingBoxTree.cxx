@@ -35,6 +35,14 @@ int longestAxis(const BoundingBox& box)
   return static_cast<int>(std::max_element(extent.begin(), extent.end()) - extent.begin());
 }
 
+/// The box of an empty bin is inside out: with it this one is infinite, and no cut beyond is cheap.
+void addBin(const Bin& bin, Bin& sum)
+{
+  sum.box.include(bin.box.low);
+  sum.box.include(bin.box.high);
+  sum.count += bin.count;
+}
+
 /// Where to cut between two bins: the number of entries before the best place. Zero: nowhere.
 std::size_t bestCut(const std::array<Bin, binCount>& bins, std::size_t total)
 {
@@ -42,8 +50,7 @@ std::size_t bestCut(const std::array<Bin, binCount>& bins, std::size_t total)
   Bin after;
   for (int i = binCount - 1; i > 0; --i)
   {
-    after.box.include(bins[i].box);
-    after.count += bins[i].count;
+    addBin(bins[i], after);
     costAfter[i] = after.count > 0 ? area(after.box) * static_cast<double>(after.count) : 0.0;
   }
   Bin before;
@@ -51,8 +58,7 @@ std::size_t bestCut(const std::array<Bin, binCount>& bins, std::size_t total)
   double least = std::numeric_limits<double>::infinity();
   for (int i = 1; i < binCount; ++i)
   {
-    before.box.include(bins[i - 1].box);
-    before.count += bins[i - 1].count;
+    addBin(bins[i - 1], before);
     if (8 * before.count < total || 8 * (total - before.count) < total || before.count == 0)
     {
       continue;
