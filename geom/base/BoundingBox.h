@@ -25,13 +25,11 @@ struct BoundingBox
       high[k] = std::max(high[k], p[k]);
     }
   }
+  /// An empty box, which is inside out, makes this one infinite.
   void include(const BoundingBox& box)
   {
-    if (!box.isEmpty())
-    {
-      include(box.low);
-      include(box.high);
-    }
+    include(box.low);
+    include(box.high);
   }
   bool isEmpty() const { return low[0] > high[0]; }
   double diagonal() const { return isEmpty() ? 0.0 : distance(low, high); }

@@ -35,22 +35,16 @@ int longestAxis(const BoundingBox& box)
   return static_cast<int>(std::max_element(extent.begin(), extent.end()) - extent.begin());
 }
 
-/// The box of an empty bin is inside out: with it this one is infinite, and no cut beyond is cheap.
-void addBin(const Bin& bin, Bin& sum)
-{
-  sum.box.include(bin.box.low);
-  sum.box.include(bin.box.high);
-  sum.count += bin.count;
-}
-
-/// Where to cut between two bins: the number of entries before the best place. Zero: nowhere.
+/// Where to cut between two bins: the number of entries before the best place. Zero: nowhere. An
+/// empty bin makes all cuts beyond it too expensive.
 std::size_t bestCut(const std::array<Bin, binCount>& bins, std::size_t total)
 {
   std::array<double, binCount> costAfter{};
   Bin after;
   for (int i = binCount - 1; i > 0; --i)
   {
-    addBin(bins[i], after);
+    after.box.include(bins[i].box);
+    after.count += bins[i].count;
     costAfter[i] = after.count > 0 ? area(after.box) * static_cast<double>(after.count) : 0.0;
   }
   Bin before;
@@ -58,7 +52,8 @@ std::size_t bestCut(const std::array<Bin, binCount>& bins, std::size_t total)
   double least = std::numeric_limits<double>::infinity();
   for (int i = 1; i < binCount; ++i)
   {
-    addBin(bins[i - 1], before);
+    before.box.include(bins[i - 1].box);
+    before.count += bins[i - 1].count;
     if (8 * before.count < total || 8 * (total - before.count) < total || before.count == 0)
     {
       continue;
