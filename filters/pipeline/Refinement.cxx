@@ -314,8 +314,12 @@ private:
   {
     const bool mayBisect = options_.projectNewVertices && options_.minimumQuality &&
                            !exchange_.any(state_.mesh.mesh().hasOtherThanSimplices());
-    const std::int64_t mostCells =
+    std::int64_t mostCells =
       std::max(largestGrowth * countMesh(exchange_, state_.mesh).cells, fewCells);
+    if (options_.maximumCells > 0)
+    {
+      mostCells = std::min(mostCells, options_.maximumCells);
+    }
     for (int round = 0;; ++round)
     {
       const GlobalId idBound = state_.mesh.vertexIdBound;
@@ -323,7 +327,7 @@ private:
         *state_.classification, options_.projectNewVertices, context_.statistics);
       auto plan =
         mayBisect && round < mostRounds ? planForNodes(placed.tooCurved, round) : std::nullopt;
-      if (!plan || isTooLarge(*plan) || countPlanned(*plan) > mostCells)
+      if (!plan || countPlanned(*plan) > mostCells)
       {
         projectedPoints_ += placed.projected;
         return;
