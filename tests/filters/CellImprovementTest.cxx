@@ -6,7 +6,6 @@
 #include "MeshChecks.h"
 #include "ParallelTest.h"
 #include "Partition.h"
-#include "QuadraticRuns.h"
 #include "SamePieces.h"
 #include "TestMeshes.h"
 #include "TestShapes.h"
@@ -164,10 +163,6 @@ protected:
   }
 };
 
-class TooCurvedCells : public ParallelTest
-{
-};
-
 class RankWithoutCells : public ParallelTest
 {
 };
@@ -298,25 +293,6 @@ TEST_P(CellImprovement, keepsFinsAndBeams)
     EXPECT_GT(beamsWithFin(mesh), 10);
     EXPECT_GE(beamsWithFin(after), beamsWithFin(mesh)); // halved with cells that are
   }
-}
-
-/// Cells that are too curved once their mid nodes are on the CAD are bisected.
-TEST_F(TooCurvedCells, areBisectedAsOnOneRank)
-{
-  const auto whole = cadtest::readGrid(CADREFINE_TRUTH "/linkrods_coarse.vtu");
-  cadtest::addGlobalIds(whole);
-  const auto toQuadratic = [](vtkPointSet* mesh, vtkMultiProcessController* controller)
-  {
-    const cadtest::FilterRun filters("/usr/share/opencascade/data/step/linkrods.step", controller);
-    return cadtest::refineToQuadratic(filters, filters.project(mesh), 0);
-  };
-  const auto rankOfCell = cadtest::deal(cadtest::Dealing::Random, whole, exchange.size());
-  const auto pieces =
-    toQuadratic(cadtest::pieceOf(whole, rankOfCell, exchange.rank(), false), worldController());
-  const auto serial = exchange.rank() == 0 ? toQuadratic(whole, nullptr) : nullptr;
-  cadtest::expectSame(exchange, pieces, serial);
-  EXPECT_GT(cadtest::fieldValue(pieces, "GlobalCells"), 2.0 * whole->GetNumberOfCells());
-  EXPECT_EQ(cadtest::fieldValue(pieces, "UnprojectedVertices"), 0);
 }
 
 /// Its only cell is taken out, whose vertices were shared.

@@ -5,6 +5,8 @@
 #include "FilterRun.h"
 #include "MeshChecks.h"
 #include "ParallelTest.h"
+#include "QuadraticRuns.h"
+#include "SamePieces.h"
 #include "SameSteps.h"
 #include "TestMeshes.h"
 #include "TestShapes.h"
@@ -372,6 +374,29 @@ TEST_P(QuadraticPartition, givesTheSameMeshAsOneRank)
   EXPECT_EQ(cadtest::fieldValue(pieces.back(), "InvalidCells"), 0);
   EXPECT_GT(cadtest::fieldValue(pieces.back(), "CADVertices"), 0);
   cadtest::expectFieldValuesAgree(exchange, pieces.back());
+}
+
+class TooCurvedCells : public ParallelTest
+{
+};
+
+/// Cells that are too curved once their mid nodes are on the CAD are bisected.
+TEST_F(TooCurvedCells, areBisectedAsOnOneRank)
+{
+  const auto whole = cadtest::readGrid(CADREFINE_TRUTH "/linkrods_coarse.vtu");
+  cadtest::addGlobalIds(whole);
+  const auto toQuadratic = [](vtkPointSet* mesh, vtkMultiProcessController* controller)
+  {
+    const cadtest::FilterRun filters("/usr/share/opencascade/data/step/linkrods.step", controller);
+    return cadtest::refineToQuadratic(filters, filters.project(mesh), 0);
+  };
+  const auto rankOfCell = cadtest::deal(cadtest::Dealing::Random, whole, exchange.size());
+  const auto pieces =
+    toQuadratic(cadtest::pieceOf(whole, rankOfCell, exchange.rank(), false), worldController());
+  const auto serial = exchange.rank() == 0 ? toQuadratic(whole, nullptr) : nullptr;
+  cadtest::expectSame(exchange, pieces, serial);
+  EXPECT_GT(cadtest::fieldValue(pieces, "GlobalCells"), 2.0 * whole->GetNumberOfCells());
+  EXPECT_EQ(cadtest::fieldValue(pieces, "UnprojectedVertices"), 0);
 }
 
 } // namespace
