@@ -149,6 +149,7 @@ FILES = {
     "bottle": ("/usr/share/opencascade/data/occ/bottle.brep", 4.7),
     "crank_arm": ("/usr/share/opencascade/data/occ/CrankArm.brep", 7.7),
     "crank_arm_coarse": ("/usr/share/opencascade/data/occ/CrankArm.brep", 12.25),
+    "linkrods_coarse": ("/usr/share/opencascade/data/step/linkrods.step", 0.6),
     "crank_arm_tagged": ("/usr/share/opencascade/data/occ/CrankArm.brep", 12.25),
 }
 TAGGED = ("crank_arm_tagged",)
