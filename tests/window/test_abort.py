@@ -10,6 +10,8 @@ import os
 import sys
 import time
 
+import numpy as np
+
 from test_window import APPLY, PANEL, choose_from_menu, open_file
 from window import Picture, Window, check, event, python
 
@@ -36,10 +38,9 @@ def enabled_button(dump):
     """The middle of the red cross in the status bar, which is grey where the button is disabled; None without."""
     with open(dump, "rb") as file:
         picture = Picture(file.read())
-    top = picture.height - STATUS_BAR
-    red = [(x, top + y) for y, row in enumerate(picture.rows[top:]) for x in range(picture.width)
-           if row[4 * x + 2] > 180 and row[4 * x] < 90 and row[4 * x + 1] < 90]
-    return tuple(sum(place) // len(red) for place in zip(*red)) if red else None
+    bar = picture.pixels[-STATUS_BAR:].astype(int)
+    y, x = np.nonzero((bar[:, :, 0] > 180) & (bar[:, :, 1:] < 90).all(axis=2))
+    return (int(x.mean()), len(picture.pixels) - STATUS_BAR + int(y.mean())) if len(x) else None
 
 
 def press_abort(window, display):

@@ -15,6 +15,8 @@ import threading
 import zlib
 from xml.sax.saxutils import quoteattr
 
+import numpy as np
+
 SETTINGS = """[General]
 GeneralSettings.ShowWelcomeDialog=false
 [MainWindow]
@@ -178,31 +180,29 @@ def as_xml(kind, widget, command, arguments):
 
 
 class Picture:
-    """The display's picture (X window dump, 32 bits a pixel)."""
+    """The display's picture (X window dump, 32 bits a pixel): `pixels` has shape (height, width, 3), red first."""
 
     def __init__(self, dump):
         header = struct.unpack(">25I", dump[:100])
-        self.width, self.height, stride = header[4], header[5], header[12]
+        width, height, stride = header[4], header[5], header[12]
         if header[11] != 32:
             raise ValueError(f"{header[11]} bits a pixel instead of 32")
-        start = header[0] + 12 * header[19]
-        self.rows = [dump[start + y * stride:start + y * stride + 4 * self.width] for y in range(self.height)]
+        rows = np.frombuffer(dump, np.uint8, height * stride, header[0] + 12 * header[19]).reshape(height, stride)
+        self.pixels = rows[:, :4 * width].reshape(height, width, 4)[:, :, 2::-1]
 
     def colors(self, box=None):
         """The number of colours within (left, top, right, bottom)."""
-        left, top, right, bottom = box or (0, 0, self.width, self.height)
-        return len({row[4 * x:4 * x + 3] for row in self.rows[top:bottom] for x in range(left, right)})
+        left, top, right, bottom = box or (0, 0, *self.pixels.shape[1::-1])
+        return len(np.unique(self.pixels[top:bottom, left:right].astype(np.uint32) @ (1 << 16, 1 << 8, 1)))
 
     def save(self, path):
         """Writes a PNG file."""
-        lines = bytearray()
-        for row in self.rows:
-            line = bytearray(3 * self.width)
-            line[0::3], line[1::3], line[2::3] = row[2::4], row[1::4], row[0::4]
-            lines += b"\0" + line
-        header = struct.pack(">IIBBBBB", self.width, self.height, 8, 2, 0, 0, 0)
+        height, width, _ = self.pixels.shape
+        lines = np.zeros((height, 1 + 3 * width), np.uint8)
+        lines[:, 1:] = self.pixels.reshape(height, -1)
+        header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
         with open(path, "wb") as file:
-            file.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(bytes(lines), 3)) +
+            file.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(lines.tobytes(), 3)) +
                        chunk(b"IEND", b""))
 
 
