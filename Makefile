@@ -126,8 +126,7 @@ lint: ## Look at the format of the sources (clang-format 14: others differ) and 
 
 .PHONY: tidy
 tidy: build-all ## Run clang-tidy on the sources
-	@.ci/install-packages tools
-	@run-clang-tidy -quiet -j $(JOBS) -p build/release '/(filters|geom)/.*\.cxx$$'
+	@.ci/tidy all
 
 .PHONY: pictures
 pictures: build ## Make the pictures of the documentation anew (docs/images)
