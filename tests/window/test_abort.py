@@ -38,7 +38,7 @@ def enabled_button(dump):
     """The middle of the red cross in the status bar, which is grey where the button is disabled; None without."""
     with open(dump, "rb") as file:
         picture = Picture(file.read())
-    bar = picture.pixels[-STATUS_BAR:].astype(int)
+    bar = picture.pixels[-STATUS_BAR:]
     y, x = np.nonzero((bar[:, :, 0] > 180) & (bar[:, :, 1:] < 90).all(axis=2))
     return (int(x.mean()), len(picture.pixels) - STATUS_BAR + int(y.mean())) if len(x) else None
 

@@ -12,10 +12,10 @@ import struct
 import subprocess
 import sys
 import threading
-import zlib
 from xml.sax.saxutils import quoteattr
 
 import numpy as np
+from PIL import Image
 
 SETTINGS = """[General]
 GeneralSettings.ShowWelcomeDialog=false
@@ -196,15 +196,4 @@ class Picture:
         return len(np.unique(self.pixels[top:bottom, left:right].astype(np.uint32) @ (1 << 16, 1 << 8, 1)))
 
     def save(self, path):
-        """Writes a PNG file."""
-        height, width, _ = self.pixels.shape
-        lines = np.zeros((height, 1 + 3 * width), np.uint8)
-        lines[:, 1:] = self.pixels.reshape(height, -1)
-        header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
-        with open(path, "wb") as file:
-            file.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(lines.tobytes(), 3)) +
-                       chunk(b"IEND", b""))
-
-
-def chunk(kind, data):
-    return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+        Image.fromarray(self.pixels).save(path)
