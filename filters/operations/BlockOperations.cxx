@@ -221,7 +221,6 @@ OperationTrace operateOnBlocks(RankExchange& exchange, DistributedMesh& mesh,
   markBesideOthers(exchange, mesh, ofVertices);
   const auto [members, others] =
     findMembers(mesh, task.blocks.ofCells, ofVertices, boundary.boundary);
-  const SurfaceRule rule(boundary.projector);
   std::vector<std::pair<std::int64_t, const Members*>> list;
   for (const auto& [number, ofBlock] : members)
   {
@@ -242,7 +241,7 @@ OperationTrace operateOnBlocks(RankExchange& exchange, DistributedMesh& mesh,
           meshes[i].fill(*list[i].second, mesh.converted.cellIds[mesh.mesh().dimension]);
           const MeshBefore before = meshes[i].before();
           const auto start = std::chrono::steady_clock::now();
-          results[i] = task.work(meshes[i], rule);
+          results[i] = task.work(meshes[i], SurfaceRule(boundary.projector));
           seconds[i] =
             std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
           rows[i] = findFieldRows(meshes[i].mesh(), before, task.rows);

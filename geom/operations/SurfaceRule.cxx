@@ -353,7 +353,22 @@ double SurfaceRule::distanceOfMiddle(
   const EditableMesh& mesh, const std::array<Index, 2>& segment) const
 {
   const Point3 middle = 0.5 * (mesh.vertex(segment[0]).wanted + mesh.vertex(segment[1]).wanted);
-  return projector_.nearest(middle, std::numeric_limits<double>::infinity()).distance;
+  return nearest(middle).where.distance;
+}
+
+const SurfaceRule::PlaceOnCAD& SurfaceRule::nearest(const Point3& point) const
+{
+  const auto [place, isNew] = found_.try_emplace(point);
+  if (isNew)
+  {
+    auto& [where, normal] = place->second;
+    where = projector_.nearest(point, std::numeric_limits<double>::infinity());
+    if (where.entity.dimension == 2)
+    {
+      normal = projector_.model().normal(where.entity.index, where.parameters);
+    }
+  }
+  return place->second;
 }
 
 /// Makes the fit that of another facet, too.
@@ -365,11 +380,10 @@ void SurfaceRule::widen(
   const Vector3 normal = normalOf(mesh, facet);
   const auto lookAt = [&](const Point3& point, bool isOnFace)
   {
-    const ClosestPoint where = projector_.nearest(point, std::numeric_limits<double>::infinity());
+    const auto& [where, ofCAD] = nearest(point);
     fit.distance = std::max(fit.distance, distance(point, where.point));
     if (where.entity.dimension == 2 && isOnFace)
     {
-      const Vector3 ofCAD = projector_.model().normal(where.entity.index, where.parameters);
       fit.cosine = std::min(fit.cosine, std::abs(dot(normal, ofCAD)));
     }
     return where;

@@ -5,7 +5,10 @@
 #include <cadrefine/error/GeometricError.h>
 #include <cadrefine/operations/EditableMesh.h>
 
+#include <boost/functional/hash.hpp>
+
 #include <array>
+#include <unordered_map>
 #include <vector>
 
 namespace cadrefine
@@ -29,7 +32,8 @@ struct SurfaceLimits
 
 /// Judges new boundary facets, of a planar mesh segments, with their vertices where they are
 /// wanted, and places new vertices. All answers are pure functions of the mesh at the cavity and
-/// the model.
+/// the model. It keeps the nearest points of the CAD that it has found, some 200 bytes each, since
+/// the same facets are asked for again and again: each thread needs a rule of its own.
 class SurfaceRule
 {
 public:
@@ -83,6 +87,13 @@ public:
   std::optional<ClosestPoint> placeOfMiddle(const EditableMesh& mesh, Index a, Index b) const;
 
 private:
+  /// The nearest to a point.
+  struct PlaceOnCAD
+  {
+    ClosestPoint where;
+    Vector3 normal{}; ///< Of the CAD there, inside a face.
+  };
+
   bool isOffCAD(const EditableMesh& mesh, Index a, Index b) const;
   bool acceptsSegments(const EditableMesh& mesh, const Cavity& cavity, double distance) const;
   double farthestMiddle(const EditableMesh& mesh, const std::vector<Index>& segments) const;
@@ -95,7 +106,10 @@ private:
   void widen(const EditableMesh& mesh, const Cavity& cavity, const std::array<Index, 3>& facet,
     Fit& fit) const;
 
+  const PlaceOnCAD& nearest(const Point3& point) const;
+
   const BoundaryProjector& projector_;
+  mutable std::unordered_map<Point3, PlaceOnCAD, boost::hash<Point3>> found_;
 };
 
 } // namespace cadrefine
