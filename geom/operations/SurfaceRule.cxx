@@ -10,6 +10,7 @@
 #include <iterator>
 #include <limits>
 #include <optional>
+#include <tuple>
 #include <vector>
 
 namespace cadrefine
@@ -185,109 +186,97 @@ EdgeClass SurfaceRule::classOf(
   return there < 0 ? added->edgeClass : mesh.segments()[there].edgeClass;
 }
 
-/// The facets on the CAD before (`isNew` false) or after an operation.
+/// One facet, of a planar mesh a segment.
+template<std::size_t Corners>
 ClassifiedSurface SurfaceRule::surfaceOf(
-  const EditableMesh& mesh, const Cavity& cavity, bool isNew) const
+  const EditableMesh& mesh, const Cavity& cavity, const std::array<Index, Corners>& facet) const
 {
   ClassifiedSurface surface;
   surface.kind = projector_.kind();
-  std::vector<Index> vertices;
-  const auto pointOf = [&](Index vertex)
+  surface.facets.emplace_back();
+  for (std::size_t k = 0; k < Corners; ++k)
   {
-    const auto found = std::find(vertices.begin(), vertices.end(), vertex);
-    const auto point = static_cast<Index>(found - vertices.begin());
-    if (found == vertices.end())
+    const auto here = static_cast<Index>(k);
+    surface.points.push_back({ mesh.vertex(facet[k]).wanted, mesh.vertex(facet[k]).entity });
+    surface.facets[0].corners[k] = here;
+    if (Corners == 3 || k == 0)
     {
-      vertices.push_back(vertex);
-      surface.points.push_back({ mesh.vertex(vertex).wanted, mesh.vertex(vertex).entity });
+      const auto next = static_cast<Index>((k + 1) % Corners);
+      surface.edges.push_back({ { here, next }, classOf(mesh, cavity, facet[k], facet[next]) });
+      surface.facets[0].edges[k] = here;
     }
-    return point;
-  };
-  const auto edgeOf = [&](Index a, Index b)
-  {
-    const std::array<Index, 2> ends{ pointOf(std::min(a, b)), pointOf(std::max(a, b)) };
-    const auto found = std::find_if(surface.edges.begin(), surface.edges.end(),
-      [&](const SurfaceEdge& edge) { return edge.ends == ends; });
-    const auto edge = static_cast<Index>(found - surface.edges.begin());
-    if (found == surface.edges.end())
-    {
-      surface.edges.push_back({ ends, classOf(mesh, cavity, a, b) });
-    }
-    return edge;
-  };
-  const auto add = [&](const auto& simplex)
-  {
-    SurfaceFacet facet;
-    const std::size_t count = simplex.corners.size();
-    for (std::size_t k = 0; k < count; ++k)
-    {
-      facet.corners[k] = pointOf(simplex.corners[k]);
-      if (count == 3 || k == 0)
-      {
-        facet.edges[k] = edgeOf(simplex.corners[k], simplex.corners[(k + 1) % count]);
-      }
-    }
-    surface.facets.push_back(facet);
-  };
-  const auto addAll = [&](const auto& store, const auto& old, const auto& added)
-  {
-    for (std::size_t i = 0; i < (isNew ? added.size() : old.size()); ++i)
-    {
-      const auto& simplex = isNew ? added[i] : store[old[i]];
-      if (simplex.label >= 0)
-      {
-        add(simplex);
-      }
-    }
-  };
-  if (surface.kind == BoundaryKind::Edges)
-  {
-    addAll(mesh.segments(), cavity.segments, cavity.newSegments);
-  }
-  else
-  {
-    addAll(mesh.facets(), cavity.facets, cavity.newFacets);
   }
   return surface;
 }
 
-double SurfaceRule::errorOf(const ClassifiedSurface& surface) const
+double SurfaceRule::errorOf(const ClassifiedSurface& facet) const
 {
-  const auto project = [&](const std::vector<BoundaryEdge>& edges)
+  FacetKey key{};
+  for (std::size_t k = 0; k < facet.points.size(); ++k)
   {
-    std::vector<ClosestPoint> places;
-    std::transform(edges.begin(), edges.end(), std::back_inserter(places),
-      [&](const BoundaryEdge& edge) { return projectMidpoint(projector_, edge); });
-    return places;
-  };
-  double error = 0;
-  for (const FacetError& facet :
-    geometricErrors(surface, project(surface.allEdges()), errorDepth, 1, project))
-  {
-    error += extrapolatedMeasure(facet);
+    const auto& [place, entity] = std::tie(facet.points[k].point, facet.points[k].entity);
+    const EdgeClass edge = k < facet.edges.size() ? facet.edges[k].edgeClass : EdgeClass{};
+    key[k] = { place[0], place[1], place[2], static_cast<double>(entity.dimension),
+      static_cast<double>(entity.index), static_cast<double>(edge.kind),
+      static_cast<double>(edge.entity) };
   }
-  return error;
+  const auto [error, isNew] = errors_.try_emplace(key);
+  if (isNew)
+  {
+    const auto project = [&](const std::vector<BoundaryEdge>& edges)
+    {
+      std::vector<ClosestPoint> places;
+      std::transform(edges.begin(), edges.end(), std::back_inserter(places),
+        [&](const BoundaryEdge& edge) { return projectMidpoint(projector_, edge); });
+      return places;
+    };
+    error->second = extrapolatedMeasure(
+      geometricErrors(facet, project(facet.allEdges()), errorDepth, 1, project).front());
+  }
+  return error->second;
 }
 
 SurfaceRule::MeasuredError SurfaceRule::errorBefore(
   const EditableMesh& mesh, const Cavity& cavity) const
 {
-  const ClassifiedSurface surface = surfaceOf(mesh, cavity, false);
+  MeasuredError error;
   double length = 0;
-  for (const SurfaceEdge& edge : surface.edges)
+  const auto add = [&](const auto& store, const std::vector<Index>& old)
   {
-    length = std::max(
-      length, distance(surface.points[edge.ends[0]].point, surface.points[edge.ends[1]].point));
-  }
-  const double rounding = ClassificationTolerances::leastExact * projector_.model().size() *
-                          (surface.kind == BoundaryKind::Edges ? length : length * length);
-  return { errorOf(surface), rounding };
+    for (const Index number : old)
+    {
+      if (store[number].label >= 0)
+      {
+        const ClassifiedSurface facet = surfaceOf(mesh, cavity, store[number].corners);
+        error.value += errorOf(facet);
+        for (const auto& [ends, edgeClass] : facet.edges)
+        {
+          length =
+            std::max(length, distance(facet.points[ends[0]].point, facet.points[ends[1]].point));
+        }
+      }
+    }
+  };
+  const bool ofEdges = projector_.kind() == BoundaryKind::Edges;
+  ofEdges ? add(mesh.segments(), cavity.segments) : add(mesh.facets(), cavity.facets);
+  error.rounding = ClassificationTolerances::leastExact * projector_.model().size() *
+                   (ofEdges ? length : length * length);
+  return error;
 }
 
 double SurfaceRule::errorGain(
   const EditableMesh& mesh, const Cavity& cavity, const MeasuredError& before) const
 {
-  const double gain = errorOf(surfaceOf(mesh, cavity, true)) - before.value;
+  double after = 0;
+  const auto add = [&](const auto& added)
+  {
+    for (const auto& simplex : added)
+    {
+      after += simplex.label >= 0 ? errorOf(surfaceOf(mesh, cavity, simplex.corners)) : 0;
+    }
+  };
+  projector_.kind() == BoundaryKind::Edges ? add(cavity.newSegments) : add(cavity.newFacets);
+  const double gain = after - before.value;
   return std::abs(gain) <= before.rounding ? 0 : gain;
 }
 

@@ -94,6 +94,10 @@ private:
     Vector3 normal{}; ///< Of the CAD there, inside a face.
   };
 
+  /// Of the corners of a facet and the edges from them to the next ones: where they are, and on
+  /// what.
+  using FacetKey = std::array<std::array<double, 7>, 3>;
+
   bool isOffCAD(const EditableMesh& mesh, Index a, Index b) const;
   bool acceptsSegments(const EditableMesh& mesh, const Cavity& cavity, double distance) const;
   double farthestMiddle(const EditableMesh& mesh, const std::vector<Index>& segments) const;
@@ -101,8 +105,10 @@ private:
   bool isOnCAD(const EditableMesh& mesh, const std::array<Index, 3>& facet) const;
   bool acceptsFacets(const EditableMesh& mesh, const Cavity& cavity, double distance) const;
   EdgeClass classOf(const EditableMesh& mesh, const Cavity& cavity, Index a, Index b) const;
-  double errorOf(const ClassifiedSurface& surface) const;
-  ClassifiedSurface surfaceOf(const EditableMesh& mesh, const Cavity& cavity, bool isNew) const;
+  double errorOf(const ClassifiedSurface& facet) const;
+  template<std::size_t Corners>
+  ClassifiedSurface surfaceOf(
+    const EditableMesh& mesh, const Cavity& cavity, const std::array<Index, Corners>& facet) const;
   void widen(const EditableMesh& mesh, const Cavity& cavity, const std::array<Index, 3>& facet,
     Fit& fit) const;
 
@@ -110,6 +116,7 @@ private:
 
   const BoundaryProjector& projector_;
   mutable std::unordered_map<Point3, PlaceOnCAD, boost::hash<Point3>> found_;
+  mutable std::unordered_map<FacetKey, double, boost::hash<FacetKey>> errors_;
 };
 
 } // namespace cadrefine
