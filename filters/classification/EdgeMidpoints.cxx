@@ -240,7 +240,7 @@ std::vector<MidpointOnCAD> projectMidpoints(RankExchange& exchange, const Mesh& 
   {
     midpoints[asking[i]].where = answers.values[i];
   }
-  const bool staysOffCreases = edges.withOperations || exchange.any(mesh.hasOtherThanSimplices());
+  const bool staysOffCreases = edges.withOperations || exchange.any(mesh.hasNonSimplices());
   for (std::size_t i = 0; staysOffCreases && i < midpoints.size(); ++i)
   {
     const Index e = edgesOf[i];

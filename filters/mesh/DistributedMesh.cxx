@@ -133,7 +133,7 @@ bool haveIds(const ConvertedMesh& converted)
 void numberCells(RankExchange& exchange, DistributedMesh& mesh)
 {
   const Mesh& cells = mesh.mesh();
-  const bool mixed = exchange.any(cells.hasOtherThanSimplices());
+  const bool mixed = exchange.any(cells.hasNonSimplices());
   const auto numbers =
     mixed ? numbersOfCells<7>(exchange, mesh) : numbersOfCells<3>(exchange, mesh);
   for (int d = 0; d < 4; ++d)

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <limits>
 #include <mutex>
-#include <numeric>
 #include <sstream>
 #include <string>
 #include <utility>

@@ -92,7 +92,7 @@ std::vector<Index> invalidCells(
 std::vector<unsigned char> findHeld(RankExchange& exchange, const DistributedMesh& mesh)
 {
   const Mesh& piece = mesh.mesh();
-  if (!exchange.any(piece.hasOtherThanSimplices()))
+  if (!exchange.any(piece.hasNonSimplices()))
   {
     return {};
   }

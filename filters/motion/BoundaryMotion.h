@@ -23,8 +23,8 @@ struct MoveSettings
   bool mendCells = false;
   /// Cells that lost much of their shape are smoothed even if all vertices are at their targets.
   bool smoothCells = false;
-  /// Smoothing is for the worst cell where local operations have nothing to do; else for most
-  /// cells, whichever get worse.
+  /// At a vertex where local operations have nothing to do, smoothing improves the worst cell;
+  /// elsewhere the sum over the cells, even if some get worse.
   bool smoothWorst = false;
   /// The ends of the lines in whose middles the last vertices are; none: of no vertex.
   const std::vector<std::array<Index, 2>>* parents = nullptr;

@@ -185,14 +185,7 @@ void appendCells(const std::vector<std::vector<CellRecord>>& fromOthers, Patch& 
   {
     for (const CellRecord& record : records)
     {
-      if (patch.mesh.dimension == 3)
-      {
-        append(record, patch.mesh.tetrahedra);
-      }
-      else
-      {
-        append(record, patch.mesh.triangles);
-      }
+      visitOwnSimplices(patch.mesh, [&](auto& cells) { append(record, cells); });
     }
   }
 }

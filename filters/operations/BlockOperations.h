@@ -12,7 +12,6 @@
 #include <cadrefine/operations/SurfaceRule.h>
 #include <cadrefine/refinement/RefinementTrace.h>
 
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <vector>

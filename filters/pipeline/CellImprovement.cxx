@@ -185,7 +185,7 @@ private:
   {
     return mesh().dimension == 3 && !options_.inRegion &&
            (left.verticesOff > 0 || (options_.cutsBadCells && left.areFewBad())) &&
-           !exchange_.any(mesh().hasOtherThanSimplices());
+           !exchange_.any(mesh().hasNonSimplices());
   }
 
   /// Bisects cells that are badly shaped and those at vertices off the CAD.

@@ -100,7 +100,7 @@ private:
     };
     if (!options_.criteria.empty())
     {
-      mesh.dimension == 3 ? keepMarked(mesh.tetrahedra) : keepMarked(mesh.triangles);
+      visitOwnSimplices(mesh, keepMarked);
     }
     std::for_each(mesh.vertices.begin(), mesh.vertices.end(), keep);
     visitOwnShapes(mesh,
@@ -151,8 +151,8 @@ private:
                           static_cast<double>(counts.vertices) / static_cast<double>(counts.cells);
     const auto staying = static_cast<double>(countFates(VertexFate::MayGo));
     const auto left = static_cast<double>(countFates(VertexFate::Goes));
-    if (exchange_.any(state_.mesh.mesh().hasOtherThanSimplices()) || excess < 1 ||
-        excess > staying || left > nearlyAll * static_cast<double>(flagged))
+    if (exchange_.any(state_.mesh.mesh().hasNonSimplices()) || excess < 1 || excess > staying ||
+        left > nearlyAll * static_cast<double>(flagged))
     {
       return false;
     }
@@ -244,7 +244,7 @@ private:
     if (isCounted())
     {
       const auto excess = static_cast<double>(countSimplices() - wanted_);
-      limits.cellsAVertex = std::max(0.0, excess / static_cast<double>(left));
+      limits.cellsPerVertex = std::max(0.0, excess / static_cast<double>(left));
     }
     if (options_.targetError > 0)
     {

@@ -313,7 +313,7 @@ private:
   void placeNodes()
   {
     const bool mayBisect = options_.projectNewVertices && options_.minimumQuality &&
-                           !exchange_.any(state_.mesh.mesh().hasOtherThanSimplices());
+                           !exchange_.any(state_.mesh.mesh().hasNonSimplices());
     std::int64_t mostCells =
       std::max(largestGrowth * countMesh(exchange_, state_.mesh).cells, fewCells);
     if (options_.maximumCells > 0)

@@ -16,7 +16,6 @@
 #include <iterator>
 #include <numeric>
 #include <sstream>
-#include <string>
 #include <utility>
 
 namespace cadrefine
@@ -128,7 +127,7 @@ void orderStacks(RankExchange& exchange, const Mesh& mesh, RefinementPlan& plan)
   stacks.spread();
   do
   {
-    combineLargest(exchange, plan.sharedEdges, stacks.ranks());
+    combineLargest(exchange, plan.sharedEdges, stacks.lengths());
   } while (exchange.any(stacks.spread()));
   stacks.writeTo(plan.table);
 }

@@ -4,7 +4,6 @@
 #include "classification/DistributedBoundary.h"
 #include "classification/EdgeMidpoints.h"
 #include "comm/RunStatistics.h"
-#include "fields/CADArrays.h"
 #include "mesh/DistributedMesh.h"
 
 #include <cadrefine/base/Moves.h>

@@ -78,10 +78,10 @@ std::size_t countCellEdges(const Mesh& mesh)
   return count;
 }
 
-/// A cell's edge in the bucket of its end of lower rank.
+/// A cell's edge in the bucket of its end of lower position.
 struct CellEdge
 {
-  Index other; ///< Rank of its other end.
+  Index other; ///< Position of its other end.
   std::uint32_t place;
 
   static constexpr std::size_t most = std::numeric_limits<std::uint32_t>::max();
@@ -139,13 +139,13 @@ public:
   EdgeNumberer(const Mesh& mesh, const std::vector<Index>& order, EdgeTable& table)
     : order_(order), table_(table), places_(mesh, table), edgeTo_(order.size(), -1)
   {
-    table_.firstOfRank.reserve(order.size() + 1);
-    table_.firstOfRank.push_back(0);
+    table_.firstOfPosition.reserve(order.size() + 1);
+    table_.firstOfPosition.push_back(0);
   }
 
-  void operator()(Index rank, const CellEdge* first, const CellEdge* last)
+  void operator()(Index position, const CellEdge* first, const CellEdge* last)
   {
-    const Index firstEdge = table_.firstOfRank.back();
+    const Index firstEdge = table_.firstOfPosition.back();
     others_.clear();
     for (const CellEdge* edge = first; edge != last; ++edge)
     {
@@ -159,20 +159,20 @@ public:
     for (const Index other : others_)
     {
       edgeTo_[other] = static_cast<Index>(table_.edges.size());
-      table_.edges.push_back({ order_[rank], order_[other] });
+      table_.edges.push_back({ order_[position], order_[other] });
     }
     for (const CellEdge* edge = first; edge != last; ++edge)
     {
       places_[edge->place] = edgeTo_[edge->other];
     }
-    table_.firstOfRank.push_back(static_cast<Index>(table_.edges.size()));
+    table_.firstOfPosition.push_back(static_cast<Index>(table_.edges.size()));
   }
 
 private:
   const std::vector<Index>& order_;
   EdgeTable& table_;
   CellEdgePlaces places_;
-  std::vector<Index> edgeTo_; ///< The last edge that was found to end at a rank.
+  std::vector<Index> edgeTo_; ///< The last edge that was found to end at a position.
   std::vector<Index> others_;
 };
 
@@ -220,11 +220,12 @@ Index EdgeList::findOrAdd(Index a, Index b)
 
 Index EdgeTable::find(Index a, Index b) const
 {
-  const auto [low, high] = std::minmax(rankOfVertex[a], rankOfVertex[b]);
-  const auto last = edges.begin() + firstOfRank[low + 1];
-  const auto found = std::lower_bound(edges.begin() + firstOfRank[low], last, high,
-    [&](const std::array<Index, 2>& ends, Index rank) { return rankOfVertex[ends[1]] < rank; });
-  return found != last && rankOfVertex[(*found)[1]] == high
+  const auto [low, high] = std::minmax(positionOfVertex[a], positionOfVertex[b]);
+  const auto last = edges.begin() + firstOfPosition[low + 1];
+  const auto found = std::lower_bound(edges.begin() + firstOfPosition[low], last, high,
+    [&](const std::array<Index, 2>& ends, Index position)
+    { return positionOfVertex[ends[1]] < position; });
+  return found != last && positionOfVertex[(*found)[1]] == high
            ? static_cast<Index>(found - edges.begin())
            : -1;
 }
@@ -234,26 +235,26 @@ EdgeTable buildEdgeTable(const Mesh& mesh)
   requireAtMost(countCellEdges(mesh), "edges of cells", CellEdge::most);
   EdgeTable table;
   const std::vector<Index> order = orderByIds(mesh.ids);
-  table.rankOfVertex.resize(order.size());
-  for (std::size_t rank = 0; rank < order.size(); ++rank)
+  table.positionOfVertex.resize(order.size());
+  for (std::size_t position = 0; position < order.size(); ++position)
   {
-    table.rankOfVertex[order[rank]] = static_cast<Index>(rank);
+    table.positionOfVertex[order[position]] = static_cast<Index>(position);
   }
-  const auto& ranks = table.rankOfVertex;
+  const auto& positions = table.positionOfVertex;
   VertexBuckets<CellEdge> cellEdges(order.size(),
     [&](const auto& use)
     {
       forEachCellEdge(mesh,
         [&](std::size_t place, Index a, Index b)
         {
-          const auto [low, high] = std::minmax(ranks[a], ranks[b]);
+          const auto [low, high] = std::minmax(positions[a], positions[b]);
           use(low, { high, static_cast<std::uint32_t>(place) });
         });
     });
 
   EdgeNumberer numberer(mesh, order, table);
-  cellEdges.forEach(
-    [&](Index rank, const CellEdge* first, const CellEdge* last) { numberer(rank, first, last); });
+  cellEdges.forEach([&](Index position, const CellEdge* first, const CellEdge* last)
+    { numberer(position, first, last); });
   requireAtMost(table.edges.size(), "edges");
   measureLengths(mesh, table);
   return table;

@@ -39,7 +39,7 @@ struct EdgeTable
   /// End vertices, the one with the smaller global id first; in ascending order of (smaller id,
   /// larger id).
   std::vector<std::array<Index, 2>> edges;
-  /// Of edges that stand over each other in wedges (see joinStacks) that of the longest.
+  /// Of edges that stand over each other in wedges (see EdgeStacks) that of the longest.
   std::vector<double> squaredLengths;
   /// Of the edges that stand over each other the ids of the ends of the longest; none: no edges do.
   std::vector<std::array<GlobalId, 2>> idsInStack;
@@ -52,9 +52,9 @@ struct EdgeTable
   std::vector<std::array<Index, 4>> ofQuadrilaterals;
   std::vector<std::array<Index, 1>> ofSegments;
   /// Place of each vertex in the order of the ids.
-  std::vector<Index> rankOfVertex;
-  /// The edges whose smaller end has rank r: firstOfRank[r] up to firstOfRank[r + 1].
-  std::vector<Index> firstOfRank;
+  std::vector<Index> positionOfVertex;
+  /// The edges whose smaller end is at position p: firstOfPosition[p] up to firstOfPosition[p + 1].
+  std::vector<Index> firstOfPosition;
 
   /// Number of the edge between two vertices, or -1. Takes the logarithm of the edges there.
   Index find(Index a, Index b) const;

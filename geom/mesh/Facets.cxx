@@ -337,7 +337,7 @@ std::vector<Facet> findOuterFacets(
   const Mesh& mesh, const std::vector<unsigned char>& among, const ParallelFor& parallelFor)
 {
   const std::size_t vertices = mesh.points.size();
-  if (mesh.hasOtherThanSimplices())
+  if (mesh.hasNonSimplices())
   {
     return outerFacets(vertices, MixedSides(mesh, among), parallelFor);
   }

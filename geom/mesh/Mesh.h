@@ -4,6 +4,7 @@
 #include <cadrefine/base/MeshTypes.h>
 #include <cadrefine/base/Vector3.h>
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -38,7 +39,7 @@ struct Mesh
 
   std::size_t cellCount() const;
   std::size_t cellCount(int ofDimension) const;
-  bool hasOtherThanSimplices() const
+  bool hasNonSimplices() const
   {
     return !pyramids.empty() || !wedges.empty() || !hexahedra.empty() || !quadrilaterals.empty();
   }
@@ -69,6 +70,12 @@ constexpr int tetrahedronEdges[6][2] = { { 0, 1 }, { 0, 2 }, { 0, 3 }, { 1, 2 },
 
 /// Local faces of a tetrahedron, face i opposite to vertex i, normals pointing outward.
 constexpr int tetrahedronFaces[4][3] = { { 1, 2, 3 }, { 0, 3, 2 }, { 0, 1, 3 }, { 0, 2, 1 } };
+
+/// The local face of a tetrahedron that is opposite to this vertex of it.
+inline const int (&faceOppositeTo(Index vertex, const std::array<Index, 4>& cell))[3]
+{
+  return tetrahedronFaces[std::find(cell.begin(), cell.end(), vertex) - cell.begin()];
+}
 
 /// Local edges of each of these faces: edge k joins corners k and k + 1.
 constexpr int tetrahedronFaceEdges[4][3] = { { 3, 5, 4 }, { 2, 5, 1 }, { 0, 4, 2 }, { 1, 3, 0 } };

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cadrefine/base/Vector3.h>
-#include <cadrefine/mesh/Mesh.h>
 
 #include <array>
 

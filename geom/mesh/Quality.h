@@ -35,6 +35,12 @@ inline double squaredEdgeLengths(const Point3& a, const Point3& b, const Point3&
          squaredNorm(d - b) + squaredNorm(d - c);
 }
 
+/// Of the three edges.
+inline double squaredEdgeLengths(const Point3& a, const Point3& b, const Point3& c)
+{
+  return squaredNorm(b - a) + squaredNorm(c - b) + squaredNorm(a - c);
+}
+
 /// Mean ratio, signed: 12 (3 V)^(2/3) / sum of squared edge lengths; 1 for the equilateral
 /// tetrahedron, 0 for a flat one, negative for an inverted one. (A. Liu, B. Joe, "Relationship
 /// between tetrahedron shape measures", BIT 34, 1994, eq. 2.4.)
@@ -42,5 +48,9 @@ double meanRatio(const Point3& a, const Point3& b, const Point3& c, const Point3
 
 /// Mean ratio of a triangle: 4 sqrt(3) A / sum of squared edge lengths, never negative.
 double meanRatio(const Point3& a, const Point3& b, const Point3& c);
+
+/// The largest mean ratio of any tetrahedron that has this triangle as a face: that with its apex
+/// over the centroid, at a height whose square is 2/9 of the sum of the squared edges.
+double largestMeanRatioOver(const Point3& a, const Point3& b, const Point3& c);
 
 } // namespace cadrefine

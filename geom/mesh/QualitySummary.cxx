@@ -1,6 +1,5 @@
 #include <cadrefine/mesh/QualitySummary.h>
 
-#include <cadrefine/mesh/CellJacobian.h>
 #include <cadrefine/mesh/CellState.h>
 
 #include <algorithm>

@@ -71,14 +71,7 @@ PatchOptimiser::PatchOptimiser(
     firstOfStar_(patch.mesh.points.size() + 1, 0), turns_(patch.mesh.points.size()),
     done_(patch.mesh.points.size(), 0)
 {
-  if (patch.mesh.dimension == 3)
-  {
-    prepare(patch.mesh.tetrahedra);
-  }
-  else
-  {
-    prepare(patch.mesh.triangles);
-  }
+  visitOwnSimplices(patch.mesh, [&](const auto& cells) { prepare(cells); });
   for (std::size_t v = 0; v < turns_.size(); ++v)
   {
     turns_[v] = hashOf(patch.mesh.ids[v]);
@@ -95,15 +88,8 @@ void PatchOptimiser::forCornersRound(Index vertex, const Visit& visit) const
 {
   for (std::size_t s = firstOfStar_[vertex]; s < firstOfStar_[vertex + 1]; ++s)
   {
-    const Index c = stars_[s];
-    if (patch_.mesh.dimension == 3)
-    {
-      std::for_each(patch_.mesh.tetrahedra[c].begin(), patch_.mesh.tetrahedra[c].end(), visit);
-    }
-    else
-    {
-      std::for_each(patch_.mesh.triangles[c].begin(), patch_.mesh.triangles[c].end(), visit);
-    }
+    visitOwnSimplices(patch_.mesh, [&, cell = stars_[s]](const auto& cells)
+      { std::for_each(cells[cell].begin(), cells[cell].end(), visit); });
   }
 }
 
@@ -192,8 +178,8 @@ double PatchOptimiser::smallestMeasure() const
   double smallest = 1;
   for (std::size_t c = 0; c < sizes_.size(); ++c)
   {
-    const double size = patch_.mesh.dimension == 3 ? measure(patch_.mesh.tetrahedra[c])
-                                                   : measure(patch_.mesh.triangles[c]);
+    const double size =
+      visitOwnSimplices(patch_.mesh, [&](const auto& cells) { return measure(cells[c]); });
     smallest = sizes_[c] > 0 ? std::min(smallest, size / sizes_[c]) : smallest;
   }
   return smallest;
@@ -256,8 +242,7 @@ ShapeEnergy PatchOptimiser::energyAt(Index vertex) const
     if (mesh.dimension == 3)
     {
       const auto& cell = mesh.tetrahedra[c];
-      const auto& face =
-        tetrahedronFaces[std::find(cell.begin(), cell.end(), vertex) - cell.begin()];
+      const auto& face = faceOppositeTo(vertex, cell);
       // The faces' normals point away from the vertex.
       energy.addTetrahedron(p[cell[face[0]]], p[cell[face[2]]], p[cell[face[1]]], delta);
     }

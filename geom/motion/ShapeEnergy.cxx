@@ -118,8 +118,7 @@ double equilateralMeasure(int dimension, double squaredLengths)
 
 void ShapeEnergy::addTetrahedron(const Point3& a, const Point3& b, const Point3& c, double delta)
 {
-  const double others = squaredNorm(b - a) + squaredNorm(c - b) + squaredNorm(a - c);
-  terms_.push_back({ { a, b, c }, others, twofoldAreaVector(a, b, c), delta });
+  terms_.push_back({ { a, b, c }, squaredEdgeLengths(a, b, c), twofoldAreaVector(a, b, c), delta });
 }
 
 void ShapeEnergy::addTriangle(const Point3& a, const Point3& b, const Vector3& normal, double delta)

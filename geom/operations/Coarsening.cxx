@@ -1,6 +1,7 @@
 #include <cadrefine/operations/Coarsening.h>
 
 #include <cadrefine/operations/Improvement.h>
+#include <cadrefine/operations/ImprovementRule.h>
 
 #include <algorithm>
 #include <cmath>
@@ -89,8 +90,11 @@ class Coarsener
 public:
   Coarsener(EditableMesh& mesh, const SurfaceRule& rule, std::vector<VertexFate>& fates,
     const CoarseningLimits& limits, double& errorLeft)
-    : mesh_(mesh), rule_(rule), fates_(fates), limits_(limits), errorLeft_(errorLeft),
-      waits_(fates.size(), 0)
+    : mesh_(mesh), rule_(rule), fates_(fates), minimumQuality_(limits.minimumQuality),
+      judge_(mesh, &rule,
+        { aim, limits.minimumQuality,
+          { limits.distance, false, SurfaceLimits::Walls::LoseVertices } }),
+      errorLeft_(errorLeft), waits_(fates.size(), 0)
   {
   }
 
@@ -183,17 +187,6 @@ private:
     return neighbours;
   }
 
-  /// The worst of the cells at a vertex, so far as it is below the minimum.
-  double worstAt(Index vertex) const
-  {
-    double worst = limits_.minimumQuality;
-    for (const Index cell : cells().at(vertex))
-    {
-      worst = std::min(worst, mesh_.quality(cells()[cell].corners));
-    }
-    return worst;
-  }
-
   /// The worst cell once the vertex has gone to another; -1 where that is below `least`.
   double worstAfter(Index vertex, Index to, double least) const
   {
@@ -214,23 +207,10 @@ private:
     return worst;
   }
 
-  /// Where vertices are, which may not be where they are wanted.
-  bool keepsPresentQuality() const
-  {
-    double before = limits_.minimumQuality;
-    for (const Index cell : cavity_.cellsOf<Dimension>())
-    {
-      before = std::min(before, mesh_.presentQuality(cells()[cell].corners));
-    }
-    const auto& newCells = cavity_.newCellsOf<Dimension>();
-    return std::all_of(newCells.begin(), newCells.end(),
-      [&](const auto& cell) { return mesh_.presentQuality(cell.corners) >= before; });
-  }
-
   /// Those of a vertex into neighbours.
   void addWays(Index from, const std::vector<Index>& neighbours, std::vector<Collapse>& ways) const
   {
-    const double least = worstAt(from);
+    const double least = std::min(minimumQuality_, mesh_.worst(cells().at(from)));
     for (const Index to : neighbours)
     {
       const double worst = worstAfter(from, to, least);
@@ -307,10 +287,7 @@ private:
   bool isAllowed(const Collapse& way)
   {
     return proposeCollapse(mesh_, way.from, way.to, cavity_) && mesh_.isValid(cavity_) &&
-           keepsPresentQuality() &&
-           (!mesh_.touchesBoundary(cavity_) ||
-             rule_.accepts(
-               mesh_, cavity_, { limits_.distance, false, SurfaceLimits::Walls::LoseVertices }));
+           judge_.keepsCurrentQuality(cavity_) && judge_.keepsSurface(cavity_);
   }
 
   /// What the collapse of a vertex that is proposed adds to the error, where that is limited.
@@ -347,7 +324,8 @@ private:
   EditableMesh& mesh_;
   const SurfaceRule& rule_;
   std::vector<VertexFate>& fates_;
-  const CoarseningLimits limits_;
+  const double minimumQuality_;
+  const ImprovementRule<Dimension> judge_;
   double& errorLeft_;
   std::vector<unsigned char> waits_; ///< 1: to be tried.
   double mostGain_ = infinity;       ///< Of the error, by a collapse.
@@ -367,10 +345,10 @@ OperationResult coarsen(EditableMesh& mesh, const SurfaceRule& rule, std::vector
   double errorLeft =
     limits.errorPerFacet < infinity ? limits.errorPerFacet * countFacetsOnCAD(mesh) : infinity;
   std::optional<std::int64_t> fewest;
-  if (limits.cellsAVertex)
+  if (limits.cellsPerVertex)
   {
     const auto flagged = static_cast<double>(candidates(mesh, fates).size());
-    fewest = countCells<Dimension>(mesh) - std::llround(*limits.cellsAVertex * flagged);
+    fewest = countCells<Dimension>(mesh) - std::llround(*limits.cellsPerVertex * flagged);
   }
   const std::int64_t collapses =
     Coarsener<Dimension>(mesh, rule, fates, limits, errorLeft).run(false, fewest);

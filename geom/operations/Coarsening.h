@@ -21,9 +21,10 @@ struct CoarseningLimits
   /// What the sum of the geometric errors of facets on the CAD may gain for each facet that is
   /// there at first; infinite: not looked at.
   double errorPerFacet = 0;
-  /// How many cells have to go for each vertex that is to: once so many have, no more vertices go;
-  /// before, also others, in the place of those that cannot. Empty: each goes that can.
-  std::optional<double> cellsAVertex = {};
+  /// How many cells are to go for each vertex that is to go. Once so many have gone, no more
+  /// vertices go; until then, others may go in place of those that cannot. Empty: every vertex goes
+  /// that can.
+  std::optional<double> cellsPerVertex = {};
 };
 
 /// What is to become of a vertex.

@@ -281,7 +281,7 @@ double EditableMesh::quality(const std::array<Index, 4>& cell) const
     vertices_[cell[3]].wanted);
 }
 
-double EditableMesh::presentQuality(const std::array<Index, 4>& cell) const
+double EditableMesh::currentQuality(const std::array<Index, 4>& cell) const
 {
   return meanRatio(vertices_[cell[0]].point, vertices_[cell[1]].point, vertices_[cell[2]].point,
     vertices_[cell[3]].point);
@@ -294,7 +294,7 @@ double EditableMesh::quality(const std::array<Index, 3>& cell) const
   return std::copysign(meanRatio(at(0), at(1), at(2)), turn);
 }
 
-double EditableMesh::presentQuality(const std::array<Index, 3>& cell) const
+double EditableMesh::currentQuality(const std::array<Index, 3>& cell) const
 {
   return meanRatio(vertices_[cell[0]].point, vertices_[cell[1]].point, vertices_[cell[2]].point);
 }

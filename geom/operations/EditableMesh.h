@@ -227,8 +227,8 @@ public:
   /// Of a cell that is there (of a mesh of triangles a facet). It is computed once.
   double qualityOf(Index cell) const;
   /// Mean ratio with the vertices where they are.
-  double presentQuality(const std::array<Index, 4>& cell) const;
-  double presentQuality(const std::array<Index, 3>& cell) const;
+  double currentQuality(const std::array<Index, 4>& cell) const;
+  double currentQuality(const std::array<Index, 3>& cell) const;
   /// With the vertices where they are; exact. A triangle is valid where it turns as seen from the
   /// end of `side`, or of the plane's normal.
   bool isValid(const std::array<Index, 4>& cell, const Vector3& side = {}) const;

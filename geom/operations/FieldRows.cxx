@@ -192,11 +192,6 @@ private:
   /// The old cells and the new ones, but for those that are in both.
   void findChanged()
   {
-    const auto sorted = [](Corner corners)
-    {
-      std::sort(corners.begin(), corners.end());
-      return corners;
-    };
     std::map<Corner, Index> gone; // cells whose vertices are where they were
     std::vector<Index> old;
     std::vector<Index> made;

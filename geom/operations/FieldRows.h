@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cadrefine/base/WeightedRows.h>
-#include <cadrefine/mesh/Mesh.h>
 #include <cadrefine/operations/EditableMesh.h>
 
 #include <cstddef>
@@ -41,10 +40,10 @@ struct FieldRows
 /// where they were, keeps its value to the last bit; the others overlap only with those of their
 /// own label. Of densities the parts of an old cell are in proportion to the overlaps of
 /// new cells with it, and sum to 1, so that the sum over all cells of density times volume stays,
-/// also where the boundary changed. A new cell that overlaps no old one takes part in the nearest
-/// one (by centroids) with its whole volume, and what overlaps no new one gives to the nearest of
-/// these. Rows are in the order of the cells and vertices, sources ascending, so that the result
-/// depends on these alone.
+/// also where the boundary changed. A new cell that overlaps no old one counts as overlapping the
+/// nearest one (by centroids) with its whole volume; an old cell that overlaps no new one gives its
+/// content to the nearest new one. Rows are in the order of the cells and vertices, sources
+/// ascending, so that the result depends on these alone.
 ///
 /// (P. Farrell, J. Maddison, "Conservative interpolation between volume meshes by local Galerkin
 /// projection", Comput. Methods Appl. Mech. Engng 200, 2011, for constants in each cell.)

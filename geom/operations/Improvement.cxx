@@ -225,7 +225,7 @@ private:
         return false;
       }
     }
-    if (!mesh_.isValid(cavity_) || !judge_.keepsPresentQuality(cavity_) ||
+    if (!mesh_.isValid(cavity_) || !judge_.keepsCurrentQuality(cavity_) ||
         !judge_.keepsSurface(cavity_))
     {
       return false;
@@ -318,14 +318,14 @@ private:
       return;
     }
     const Point3 start = mesh_.vertex(vertex).point;
-    const double present = judge_.worstPresent(around);
+    const double present = judge_.worstCurrent(around);
     const bool mayMove = move(corners);
     const GroupQuality after = judge_.qualityOf(around);
     if (!mayMove || !judge_.gains(before, after))
     {
       failed_.noteVertex(vertex);
     }
-    else if (after.worst > best_.worst && judge_.worstPresent(around) >= present)
+    else if (after.worst > best_.worst && judge_.worstCurrent(around) >= present)
     {
       best_.worst = after.worst;
       best_.count = &OperationCounts::moves;

@@ -1,5 +1,7 @@
 #include <cadrefine/operations/ImprovementRule.h>
 
+#include <cadrefine/mesh/Quality.h>
+
 namespace cadrefine
 {
 
@@ -42,8 +44,7 @@ bool ImprovementRule<Dimension>::mayGain(
   {
     if constexpr (Dimension == 3)
     {
-      const auto& face =
-        tetrahedronFaces[std::find(cell.begin(), cell.end(), vertex) - cell.begin()];
+      const auto& face = faceOppositeTo(vertex, cell);
       const auto at = [&](int k) -> const Point3& { return mesh_.vertex(cell[face[k]]).wanted; };
       least += cost_.of(largestMeanRatioOver(at(0), at(1), at(2)));
     }
@@ -52,24 +53,24 @@ bool ImprovementRule<Dimension>::mayGain(
 }
 
 template<int Dimension>
-double ImprovementRule<Dimension>::worstPresent(const std::vector<Index>& cells) const
+double ImprovementRule<Dimension>::worstCurrent(const std::vector<Index>& cells) const
 {
   double worst = limits_.minimum;
   for (const Index cell : cells)
   {
     const Corners& corners = mesh_.cellsOf<Dimension>()[cell].corners;
-    worst = std::min(worst, mesh_.presentQuality(corners));
+    worst = std::min(worst, mesh_.currentQuality(corners));
   }
   return worst;
 }
 
 template<int Dimension>
-bool ImprovementRule<Dimension>::keepsPresentQuality(const Cavity& cavity) const
+bool ImprovementRule<Dimension>::keepsCurrentQuality(const Cavity& cavity) const
 {
-  const double least = worstPresent(cavity.cellsOf<Dimension>());
+  const double least = worstCurrent(cavity.cellsOf<Dimension>());
   const auto& cells = cavity.newCellsOf<Dimension>();
   return std::all_of(cells.begin(), cells.end(),
-    [&](const auto& cell) { return mesh_.presentQuality(cell.corners) >= least; });
+    [&](const auto& cell) { return mesh_.currentQuality(cell.corners) >= least; });
 }
 
 template<int Dimension>

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cadrefine/operations/EditableMesh.h>
-#include <cadrefine/operations/QualityCost.h>
 #include <cadrefine/operations/SurfaceRule.h>
 
 #include <algorithm>
@@ -19,6 +18,41 @@ struct ImprovementLimits
   double floor = 0.3;   ///< Cells below this, with their vertices where they are wanted, are tried.
   double minimum = 0.1; ///< Edges of cells below this are split; below it none gets worse in place.
   SurfaceLimits surface = {};
+};
+
+/// The cost of cells by their mean ratios: none above a floor, then growing without limit, so that
+/// of two sets of cells that with the worse ones costs more, but an operation that mends some of
+/// several bad cells gains even where the worst stays.
+class QualityCost
+{
+public:
+  explicit QualityCost(double floor) : floor_(floor) {}
+
+  /// (floor / quality - 1)^2; far more than that of any other cell where it is inverted.
+  double of(double quality) const
+  {
+    if (quality >= floor_)
+    {
+      return 0;
+    }
+    if (quality < least)
+    {
+      const double worst = floor_ / least - 1;
+      return worst * worst + (least - quality) * costOfInversion;
+    }
+    const double lacks = floor_ / quality - 1;
+    return lacks * lacks;
+  }
+
+  /// Whether so much less is worth an operation.
+  static bool isGain(double before, double after) { return after <= (1 - leastGain) * before; }
+
+private:
+  static constexpr double least = 1e-4;
+  static constexpr double costOfInversion = 1e12;
+  static constexpr double leastGain = 0.01;
+
+  double floor_;
 };
 
 /// The worst quality of some cells, and what they cost together (see QualityCost).
@@ -56,8 +90,8 @@ public:
 
   /// The worst of the cells where the vertices are, so far as that is bad: no operation may leave a
   /// worse one, as vertices may never come to where they are wanted.
-  double worstPresent(const std::vector<Index>& cells) const;
-  bool keepsPresentQuality(const Cavity& cavity) const;
+  double worstCurrent(const std::vector<Index>& cells) const;
+  bool keepsCurrentQuality(const Cavity& cavity) const;
   bool keepsSurface(const Cavity& cavity) const;
 
 private:

@@ -29,11 +29,12 @@ enum class NewCells
   NoWorse
 };
 
-/// Takes the edge out: the ring of up to `largestRing` vertices round it is triangulated anew, by
-/// all triangulations that which has the best worst cell (G. Klincsek, "Minimal triangulations of
-/// polygonal domains", Ann. Discrete Math. 9, 1980; work cubic in the ring). Three cells round the
-/// edge become two; an edge between two facets becomes the other diagonal of these, so that one
-/// cell with two facets, as is flat where they are, is none. Of triangles: proposeSwap.
+/// Removes the edge: the ring of at most `largestRing` vertices around it is triangulated again,
+/// with the triangulation whose worst cell is best (G. Klincsek, "Minimal triangulations of
+/// polygonal domains", Ann. Discrete Math. 9, 1980; work cubic in the ring). Three cells around the
+/// edge become two. An edge between two boundary facets is replaced by their other diagonal; if
+/// both are facets of one cell, which is flat where they are coplanar, that cell disappears. Of
+/// triangles: proposeSwap.
 bool proposeEdgeRemoval(
   const EditableMesh& mesh, Index a, Index b, Cavity& cavity, NewCells newCells = NewCells::Any);
 constexpr std::size_t largestRing = 7;

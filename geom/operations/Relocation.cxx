@@ -105,8 +105,7 @@ Measure measureOf(const EditableMesh& mesh, const std::array<Index, 4>& cell, co
 Measure measureOf(const EditableMesh& mesh, const std::array<Index, 3>& cell, const Vector3& side)
 {
   const auto at = [&](int k) -> const Point3& { return mesh.vertex(cell[k]).wanted; };
-  const double lengths =
-    squaredNorm(at(1) - at(0)) + squaredNorm(at(2) - at(1)) + squaredNorm(at(0) - at(2));
+  const double lengths = squaredEdgeLengths(at(0), at(1), at(2));
   return { dot(side, twofoldAreaVector(at(0), at(1), at(2))), equilateralMeasure(2, lengths) };
 }
 
@@ -114,7 +113,7 @@ void addTo(ShapeEnergy& energy, const EditableMesh& mesh, Index vertex,
   const std::array<Index, 4>& cell, const Vector3&, double delta)
 {
   const auto at = [&](int k) -> const Point3& { return mesh.vertex(cell[k]).wanted; };
-  const auto& face = tetrahedronFaces[std::find(cell.begin(), cell.end(), vertex) - cell.begin()];
+  const auto& face = faceOppositeTo(vertex, cell);
   energy.addTetrahedron(at(face[0]), at(face[2]), at(face[1]), delta);
 }
 

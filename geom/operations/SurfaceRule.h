@@ -45,8 +45,8 @@ public:
     /// Largest, of the middle of an edge or a centroid from the CAD; of a mesh of triangles also of
     /// a vertex from where it is wanted.
     double distance = 0;
-    /// Smallest, between a facet's normal and the CAD's at these points, but for the middles of
-    /// segments, where faces meet.
+    /// Smallest, between a facet's normal and the CAD's at these points. The middles of segments
+    /// are left out, since two faces meet there.
     double cosine = 1;
   };
   /// Work: 4 projections a facet.

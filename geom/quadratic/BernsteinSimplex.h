@@ -1,9 +1,7 @@
 // Polynomials in Bezier form on segments, triangles and tetrahedra.
 #pragma once
 
-#include <algorithm>
 #include <array>
-#include <cstddef>
 
 namespace cadrefine
 {

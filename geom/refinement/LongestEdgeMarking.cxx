@@ -136,34 +136,34 @@ EdgeStacks::EdgeStacks(const EdgeTable& table, const std::vector<GlobalId>& ids)
   for (std::size_t e = 0; e < table.edges.size(); ++e)
   {
     const auto& [a, b] = table.edges[e];
-    ranks_.push_back({ table.squaredLengths[e], { ids[a], ids[b] } });
+    lengths_.push_back({ table.squaredLengths[e], { ids[a], ids[b] } });
   }
 }
 
 bool EdgeStacks::spread()
 {
-  std::vector<StackRank> largest = ranks_;
-  for (std::size_t e = 0; e < ranks_.size(); ++e)
+  std::vector<StackLength> largest = lengths_;
+  for (std::size_t e = 0; e < lengths_.size(); ++e)
   {
-    largest[stackOf_[e]] = std::max(largest[stackOf_[e]], ranks_[e]);
+    largest[stackOf_[e]] = std::max(largest[stackOf_[e]], lengths_[e]);
   }
   bool changed = false;
-  for (std::size_t e = 0; e < ranks_.size(); ++e)
+  for (std::size_t e = 0; e < lengths_.size(); ++e)
   {
-    const StackRank& ofStack = largest[stackOf_[e]];
-    changed = changed || ranks_[e] < ofStack;
-    ranks_[e] = ofStack;
+    const StackLength& ofStack = largest[stackOf_[e]];
+    changed = changed || lengths_[e] < ofStack;
+    lengths_[e] = ofStack;
   }
   return changed;
 }
 
 void EdgeStacks::writeTo(EdgeTable& table) const
 {
-  table.idsInStack.resize(ranks_.size());
-  for (std::size_t e = 0; e < ranks_.size(); ++e)
+  table.idsInStack.resize(lengths_.size());
+  for (std::size_t e = 0; e < lengths_.size(); ++e)
   {
-    table.squaredLengths[e] = ranks_[e].squaredLength;
-    table.idsInStack[e] = ranks_[e].ids;
+    table.squaredLengths[e] = lengths_[e].squaredLength;
+    table.idsInStack[e] = lengths_[e].ids;
   }
 }
 

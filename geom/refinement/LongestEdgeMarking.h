@@ -51,12 +51,12 @@ void markLongestEdges(const Mesh& mesh, const EdgeTable& table,
   const std::vector<unsigned char>& cellMarks, bool keepLayers, EdgeMarks& marks);
 
 /// What an edge counts as in the order of edges (see EdgeOrder).
-struct StackRank
+struct StackLength
 {
   double squaredLength;
   std::array<GlobalId, 2> ids; ///< Of its ends, smaller first.
 
-  friend bool operator<(const StackRank& a, const StackRank& b)
+  friend bool operator<(const StackLength& a, const StackLength& b)
   {
     return a.squaredLength != b.squaredLength ? a.squaredLength < b.squaredLength : a.ids < b.ids;
   }
@@ -72,13 +72,13 @@ public:
   bool spread();
   /// What each edge counts as; over ranks, give shared edges the largest and spread again, until
   /// none changes.
-  std::vector<StackRank>& ranks() { return ranks_; }
+  std::vector<StackLength>& lengths() { return lengths_; }
   /// Makes it the order of the edges.
   void writeTo(EdgeTable& table) const;
 
 private:
   std::vector<Index> stackOf_; ///< The smallest of the edges that stand over each other.
-  std::vector<StackRank> ranks_;
+  std::vector<StackLength> lengths_;
 };
 
 /// Rules 2 and 3 within this piece. Where few marks spread, as is usual, a few sweeps over all

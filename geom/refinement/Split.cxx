@@ -287,7 +287,7 @@ ChildRanges countMarkedChildren(
   const Mesh& mesh, const EdgeTable& table, const QuadTable& quads, const EdgeMarks& marks)
 {
   ChildRanges firsts = countPartsOfSimplices(mesh, table, marks);
-  if (mesh.hasOtherThanSimplices())
+  if (mesh.hasNonSimplices())
   {
     const Midpoints midpoints = makeMidpoints(mesh, table, quads, marks, false);
     const CellCutting cutting(mesh, table, quads, midpoints);
@@ -342,7 +342,7 @@ SplitMesh splitMarked(const Mesh& mesh, const EdgeTable& table, const QuadTable&
     result.mesh.triangles);
   bisectAll<4, 6>(mesh.tetrahedra, table.ofTetrahedra, order, midpoints, result.firstChildren[3],
     result.mesh.tetrahedra);
-  if (mesh.hasOtherThanSimplices())
+  if (mesh.hasNonSimplices())
   {
     splitOthers(mesh, table, quads, midpoints, result);
   }

@@ -219,7 +219,7 @@ Plan::Plan(Random& random, const FilterProblem& problem)
   minimumQuality = random.chance(0.5) ? 0.1 : random.between(0.2, 0.5);
   coarseningLevels = straight || random.chance(0.5) ? 0 : random.among(1, 2);
   coarseningError = random.chance(0.3) ? 0 : random.between(0.3, 1.2);
-  if (problem.mesh.hasOtherThanSimplices())
+  if (problem.mesh.hasNonSimplices())
   {
     keepLayers = random.chance(0.6);
     levels = random.among(1, 2);

@@ -1,7 +1,7 @@
 // What cells cost, and the best that can stand on a triangle.
 
 #include <cadrefine/mesh/Quality.h>
-#include <cadrefine/operations/QualityCost.h>
+#include <cadrefine/operations/ImprovementRule.h>
 
 #include <gtest/gtest.h>
 
@@ -53,7 +53,7 @@ TEST(LargestMeanRatio, isReachedAndNeverPassed)
     const Point3 b = point();
     const Point3 c = t % 2 == 0 ? point() : a + 0.5 * (b - a) + 0.01 * point(); // or narrow
     const double largest = largestMeanRatioOver(a, b, c);
-    const double edges = squaredNorm(b - a) + squaredNorm(c - b) + squaredNorm(a - c);
+    const double edges = squaredEdgeLengths(a, b, c);
     const Point3 centroid = (1.0 / 3) * (a + b + c);
     const Point3 best =
       centroid + std::sqrt(2 * edges / 9) * normalized(twofoldAreaVector(a, b, c));

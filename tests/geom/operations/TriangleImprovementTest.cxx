@@ -77,7 +77,7 @@ std::vector<std::array<Index, 3>> cellsOf(const EditableMesh& mesh)
 struct Summary
 {
   double worst = 2;
-  double worstPresent = 2;
+  double worstCurrent = 2;
   std::array<double, 2> areas{};
   bool isValid = true;
 };
@@ -93,7 +93,7 @@ Summary summaryOf(const EditableMesh& mesh)
       const auto& [corners, label, parent] = mesh.facets()[facet];
       summary.isValid = summary.isValid && mesh.isValid(corners, upward);
       summary.worst = std::min(summary.worst, mesh.quality(corners));
-      summary.worstPresent = std::min(summary.worstPresent, mesh.presentQuality(corners));
+      summary.worstCurrent = std::min(summary.worstCurrent, mesh.currentQuality(corners));
       summary.areas[label] +=
         0.5 * twofoldAreaVector(mesh.vertex(corners[0]).point, mesh.vertex(corners[1]).point,
                 mesh.vertex(corners[2]).point)[2];
@@ -167,7 +167,7 @@ TEST(TriangleImprovement, neverMakesTheWorstCellWorse)
     const Summary after = summaryOf(mesh);
     EXPECT_TRUE(after.isValid) << "seed " << seed;
     EXPECT_GE(after.worst, before.worst);
-    EXPECT_GE(after.worstPresent, std::min(before.worstPresent, 0.1));
+    EXPECT_GE(after.worstCurrent, std::min(before.worstCurrent, 0.1));
     improved += after.worst > before.worst;
   }
   EXPECT_GT(improved, 20);
