@@ -6,7 +6,6 @@
 #include "fields/CADArrays.h"
 #include "vtkCADModelCache.h"
 
-#include <cadrefine/base/Error.h>
 #include <cadrefine/cad/model/CADModel.h>
 #include <cadrefine/cad/model/EntitySelection.h>
 

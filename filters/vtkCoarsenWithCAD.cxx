@@ -41,7 +41,7 @@ cadrefine::PipelineResult vtkCoarsenWithCAD::Execute(
   cadrefine::readClassification(context, input, state);
   const cadrefine::Mesh& mesh = state.mesh.mesh();
   const auto isEmpty = [](const auto& cells) { return cells.empty(); };
-  if (exchange.any(mesh.hasOtherThanSimplices()) &&
+  if (exchange.any(mesh.hasNonSimplices()) &&
       !exchange.any(!cadrefine::visitOwnSimplices(mesh, isEmpty)))
   {
     throw cadrefine::Error(
@@ -58,7 +58,7 @@ cadrefine::PipelineResult vtkCoarsenWithCAD::Execute(
   options.maximumDistance = this->MaximumDistance;
   options.levels = minimumQuality ? this->Levels : 0;
   options.minimumQuality = minimumQuality.value_or(0);
-  if (!minimumQuality && exchange.rank() == 0)
+  if (!minimumQuality)
   {
     context.warn("nothing is coarsened, because Operations is set to Cut only; set it to All");
   }

@@ -101,7 +101,13 @@ cadrefine::PipelineContext vtkMeshAlgorithm::MakeContext(
   cadrefine::RankExchange& exchange, const cadrefine::CADModel& model)
 {
   return { exchange, model, *this->Statistics,
-    [this](const std::string& warning) { vtkWarningMacro(<< warning); } };
+    [this, isFirst = exchange.rank() == 0](const std::string& warning)
+    {
+      if (isFirst)
+      {
+        vtkWarningMacro(<< warning);
+      }
+    } };
 }
 
 void vtkMeshAlgorithm::AddFace(const char* face)

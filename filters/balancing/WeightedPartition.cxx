@@ -2,8 +2,6 @@
 
 #include "comm/RankExchangeLink.h"
 
-#include <cadrefine/base/Error.h>
-
 #include <zoltan_cpp.h>
 
 #include <algorithm>

@@ -4,7 +4,6 @@
 
 #include <cadrefine/base/MixedBits.h>
 
-#include <algorithm>
 #include <tuple>
 
 namespace cadrefine

@@ -6,7 +6,6 @@
 #include <cadrefine/error/GeometricError.h>
 
 #include <array>
-#include <cstdint>
 #include <unordered_map>
 #include <vector>
 

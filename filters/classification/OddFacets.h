@@ -12,15 +12,17 @@ namespace cadrefine
 
 /// Finds the odd facets (FacetRecord::odd) of a coarse mesh that are on the CAD, and their faces:
 /// they come in patches, joined at their edges, and
-///   1. a triangle that only facets on the CAD surround is on it; so is a patch, but where a mesh
-///      ends in the midst of a pipe of the CAD, turned by more than 60 degrees from all that
-///      surround it, which are on the faces it would be on; or at a rim of a pipe, as it is beside
-///      a CAD edge that bounds one face alone, or beyond it are faces that go on to another rim;
-///   2. an ear (BoundaryProjector::earOf) beside a facet on the CAD is on it too, one of a patch
-///      only if the patch turns by less than 60 degrees from such a facet.
-/// The face of a patch is what lies beyond the CAD edges between it and its surroundings, or, where
-/// there is no such edge, theirs; of an ear or a patch for which they differ the face of the
-/// neighbour from which it turns least, of an ear, or of all neighbours; if all corners lie on it.
+///   1. a triangle is on the CAD if all facets beside it are; so is a patch, unless the mesh ends
+///      there, in one of two ways. In the middle of a pipe of the CAD: the patch is turned by more
+///      than 60 degrees from all facets beside it, and these are on the faces that it would be on.
+///      At the rim of a pipe: a CAD edge that bounds a single face is beside the patch, or the
+///      faces beyond the edges beside it go on to another rim;
+///   2. an ear (BoundaryProjector::earOf) beside a facet on the CAD is on the CAD too; one that is
+///      part of a patch only if the patch turns by less than 60 degrees from such a facet.
+/// The face of a patch is the one beyond the CAD edges between it and the facets beside it; where
+/// there is no such edge, that of these facets. Where these differ, an ear takes the face of the
+/// neighbour from which it turns least, another facet the face that all its neighbours have. Always
+/// all corners must lie on that face.
 ///
 /// Given the records of the facets beside each edge (gatherFacetRecords). Returns whether there are
 /// any on some rank. Collective. Work: linear in the boundary, as often as the widest patch is

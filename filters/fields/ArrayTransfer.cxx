@@ -11,7 +11,6 @@
 #include <vtkDataArray.h>
 #include <vtkDataArrayRange.h>
 #include <vtkFieldData.h>
-#include <vtkIdList.h>
 #include <vtkIdTypeArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -19,7 +18,6 @@
 
 #include <algorithm>
 #include <type_traits>
-#include <utility>
 
 namespace cadrefine
 {

@@ -87,6 +87,24 @@ double sizeOfCurved(Shape, const CurvedCell<Shape>& nodes, const Vector3& plane)
   }
 }
 
+/// New vertices that are elsewhere than halfway between two others.
+void placeByRows(const WeightedRows& rows, std::size_t oldCount, std::vector<Point3>& points)
+{
+  for (std::size_t r = 0; r < rows.size(); ++r)
+  {
+    const Index target = rows.targets[r];
+    Point3 sum{};
+    for (Index k = rows.firsts[r]; k < rows.firsts[r + 1]; ++k)
+    {
+      sum = sum + rows.weights[k] * points[rows.sources[k]];
+    }
+    if (target >= static_cast<Index>(oldCount))
+    {
+      points[target] = sum;
+    }
+  }
+}
+
 } // namespace
 
 WeightedRows densitiesOfCurved(const Mesh& mesh, const MidNodes& nodes, const Vector3& plane)
@@ -124,24 +142,6 @@ WeightedRows densitiesOfMoved(const Mesh& mesh, const std::vector<Point3>& befor
   std::iota(sources.begin(), sources.end(), 0);
   const auto first = static_cast<Index>(firstCellOfDimension(mesh, mesh.dimension));
   return rowsOf(mesh, before, sources, first);
-}
-
-/// New vertices that are elsewhere than halfway between two others.
-void placeByRows(const WeightedRows& rows, std::size_t oldCount, std::vector<Point3>& points)
-{
-  for (std::size_t r = 0; r < rows.size(); ++r)
-  {
-    const Index target = rows.targets[r];
-    Point3 sum{};
-    for (Index k = rows.firsts[r]; k < rows.firsts[r + 1]; ++k)
-    {
-      sum = sum + rows.weights[k] * points[rows.sources[k]];
-    }
-    if (target >= static_cast<Index>(oldCount))
-    {
-      points[target] = sum;
-    }
-  }
 }
 
 WeightedRows densitiesOfRefined(

@@ -50,7 +50,7 @@ public:
   /// The mesh became one of second order, with a mid node on each edge.
   void addMidNodes(std::vector<std::array<Index, 2>> edges);
 
-  /// The arrays at the end of the way, given those after its first `done` legs. Collective where
+  /// The arrays after all stages, given those after the first `done` of them. Collective where
   /// cells went to other ranks.
   MeshArrays follow(RankExchange& exchange, MeshArrays arrays, std::size_t done = 0) const;
 

@@ -20,7 +20,6 @@
 #include <cmath>
 #include <iterator>
 #include <string>
-#include <utility>
 
 namespace cadrefine
 {

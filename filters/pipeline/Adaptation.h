@@ -6,10 +6,8 @@
 #include "pipeline/PipelineResult.h"
 #include "pipeline/Refinement.h"
 
-#include <cstdint>
 #include <functional>
 #include <string>
-#include <vector>
 
 class vtkPointSet;
 

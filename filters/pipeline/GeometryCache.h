@@ -16,8 +16,7 @@ namespace cadrefine
 {
 
 /// 128 bits (XXH3 by Y. Collet) of the content: two that differ have the same with a probability of
-/// 2^-128, if nobody made them to. (Data made to collide would give its maker the mesh of his other
-/// data.)
+/// 2^-128, if nobody made them to.
 using ContentHash = std::array<std::uint64_t, 2>;
 
 /// Of a time series on a mesh that stays, only the fields change: what was made of the geometry is

@@ -144,7 +144,7 @@ bool warnOfInvalidCells(const PipelineContext& context, MeshState& state)
 {
   const std::string warning = warningOfInvalidCells(
     qualityOf(context.exchange, state), countMesh(context.exchange, state.mesh));
-  if (!warning.empty() && context.exchange.rank() == 0)
+  if (!warning.empty())
   {
     context.warn(warning);
   }

@@ -17,7 +17,7 @@ struct PipelineContext
   RankExchange& exchange;
   const CADModel& model;
   RunStatistics& statistics;
-  /// Tells the user of something that is no failure. Called on rank 0 alone.
+  /// Tells the user of something that is no failure, once for all ranks.
   std::function<void(const std::string&)> warn;
 };
 

@@ -84,7 +84,7 @@ void judge(const PipelineContext& context, const Projection& projection,
   }
   const bool isWhole = !options.region && options.faces.empty();
   const std::string warning = warningOfMisfit(projection.fit, unit, isWhole);
-  if (!warning.empty() && context.exchange.rank() == 0)
+  if (!warning.empty())
   {
     context.warn(warning);
   }

@@ -9,10 +9,10 @@ namespace cadrefine
 
 /// The point of the CAD for the midpoint of an edge; with no entity for Straight. Where an end of
 /// the edge is nearest, as under a bow of the CAD that is as high as it is wide, a point between
-/// the ends, as far from one as from the other. The same on the CAD edge that both ends are on
-/// where another one is nearest, as to a diameter, and on the face of the edge where another one is
-/// nearest, but by less than a fifth, as to a diameter under a dome. Of a chord that cuts a nose
-/// off, its tip (see onNose).
+/// the ends, as far from one as from the other. If both ends lie on one CAD edge and another one is
+/// nearest, as for a diameter: such a point on their own CAD edge. Likewise on the face of the
+/// edge, unless another face is nearer by a fifth or more (a diameter under a dome). Of a chord
+/// that cuts off a nose, its tip (see onNose).
 ClosestPoint projectMidpoint(const BoundaryProjector& projector, const BoundaryEdge& edge);
 
 /// Of a smooth edge whose midpoint is nearest to `where`: where the normals at its ends are more

@@ -6,11 +6,11 @@
 namespace cadrefine
 {
 
-/// Removes edges opposite to the vertex of a split, which is where it is to be, as long as the
-/// worst of the cells at such an edge gets better, the one that gains most first; the cavity of the
-/// split becomes that of all together. Between two CAD edges that run beside each other, and round
-/// a short edge, halving one edge alone makes worse cells. The mesh is then as it was. Work: the
-/// rings of the edges, once for each that is removed.
+/// After a split: removes edges opposite to the new vertex, which is already where it is to stay,
+/// as long as this improves the worst cell at such an edge, the largest gain first. `cavity`
+/// becomes that of the split and the removals together; the mesh itself is left as it was. Halving
+/// one edge alone makes bad cells between two CAD edges that run beside each other, and around a
+/// short edge. Work: the rings of the edges, once for each that is removed.
 void swapRoundMiddle(EditableMesh& mesh, Index middle, Cavity& cavity);
 
 } // namespace cadrefine

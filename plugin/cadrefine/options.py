@@ -5,7 +5,7 @@ import re
 
 from cadrefine import output
 from cadrefine.checks import (DEEPEST, MOST_CELLS, MOST_STEPS, RESULTS, angle, check, coordinate, number, names,
-                              part, positive, whole)
+                              option_of, part, positive, whole)
 from cadrefine.help import DESCRIPTION, EPILOG, USAGE, Layout
 from cadrefine.pipeline import METHODS, OPERATIONS, STRATEGIES
 from cadrefine.session import Failure, flush, speaks
@@ -45,8 +45,8 @@ def remarks(options):
     """What is worth a word, though it is no mistake."""
     given = [name for name in MARKING if getattr(options, name) not in (None, 0.0)]
     if options.method == "uniform" and given:
-        names = ", ".join("--" + name.replace("_", "-") for name in given)
-        yield f"No effect, because --method uniform refines all cells: {names}"
+        listed = ", ".join(map(option_of, given))
+        yield f"No effect, because --method uniform refines all cells: {listed}"
 
 
 class OptionParser(argparse.ArgumentParser):

@@ -189,4 +189,3 @@ SECTIONS = {
     "2.2": {"Nodes": write_nodes_2, "Elements": write_elements_2},
     "4.1": {"Entities": write_entities_4, "Nodes": write_nodes_4, "Elements": write_elements_4},
 }
-VERSIONS = tuple(SECTIONS)
