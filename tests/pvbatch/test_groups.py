@@ -250,6 +250,18 @@ class Groups(unittest.TestCase):
         np.testing.assert_array_equal(back.point_data["CADEntity"], points)
         np.testing.assert_array_equal(back.cell_data["CADEntity"][0], cells)
 
+    def test_xdmf_with_numbers_of_64_bits(self):
+        """NumPy's whole numbers, which VTK's writer does not know under their own types."""
+        count = len(self.mesh.blocks[-1][1])
+        arrays = {"signed": np.arange(count) - (1 << 40), "unsigned": np.arange(count, dtype=np.uint64),
+                  "large": np.full(count, 1 << 63, dtype=np.uint64)}
+        mesh = grid.Mesh(self.mesh.points, self.mesh.blocks[-1:], {"numbers": np.arange(len(self.mesh.points))}, arrays)
+        xdmf.write(self.path("long.xdmf"), mesh)
+        for back in (grid.from_grid(xdmf.read(self.path("long.xdmf"))).cell_data,
+                     {name: values[0] for name, values in meshio.xdmf.read(self.path("long.xdmf")).cell_data.items()}):
+            for name, values in arrays.items():
+                np.testing.assert_array_equal(back[name], values.astype(float if name == "large" else np.int64))
+
     def test_openfoam(self):
         os.makedirs(self.path("case"))
         mesh = dataclasses.replace(self.mesh, patch_types={"wall": "wall", "Face_1": "cyclic"})

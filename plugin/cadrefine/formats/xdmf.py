@@ -6,7 +6,7 @@ import os
 import xml.etree.ElementTree as ElementTree
 
 import numpy as np
-from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.util.numpy_support import numpy_to_vtkIdTypeArray, vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkMultiBlockDataSet, vtkUnstructuredGrid
 from vtkmodules.vtkIOXdmf2 import vtkXdmfReader, vtkXdmfWriter
 
@@ -189,8 +189,19 @@ def with_numbered_arrays(grid, names):
         for name, values in arrays_of(source).items():
             number = next((key for key, value in names.items() if value == name), f"array{len(names)}")
             names[number] = name
-            target.AddArray(to_vtk(number, values))
+            target.AddArray(with_64_bits(number, values) if values.dtype.kind in "iu" and values.itemsize == 8
+                            else to_vtk(number, values))
     return copy
+
+
+def with_64_bits(name, values):
+    """Whole numbers as a vtkIdTypeArray: VTK's writer knows no other array of 64 bits. Of numbers without a sign, those
+    that are too large for it become floating point numbers."""
+    if values.dtype.kind == "u" and np.any(values > np.iinfo(np.int64).max):
+        return to_vtk(name, values.astype(float))
+    array = numpy_to_vtkIdTypeArray(np.ascontiguousarray(values, np.int64), deep=True)
+    array.SetName(name)
+    return array
 
 
 def arrange(path, grid_names, array_names, mesh):
