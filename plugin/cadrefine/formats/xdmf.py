@@ -189,15 +189,16 @@ def with_numbered_arrays(grid, names):
         for name, values in arrays_of(source).items():
             number = next((key for key, value in names.items() if value == name), f"array{len(names)}")
             names[number] = name
-            target.AddArray(with_64_bits(number, values) if values.dtype.kind in "iu" and values.itemsize == 8
-                            else to_vtk(number, values))
+            target.AddArray(writable(number, values))
     return copy
 
 
-def with_64_bits(name, values):
-    """Whole numbers as a vtkIdTypeArray: VTK's writer knows no other array of 64 bits. Of numbers without a sign, those
-    that are too large for it become floating point numbers."""
-    if values.dtype.kind == "u" and np.any(values > np.iinfo(np.int64).max):
+def writable(name, values):
+    """Whole numbers of 64 bits as a vtkIdTypeArray: VTK's writer knows no other array of them. Numbers without a sign
+    become floating point numbers where some are too large for it."""
+    if values.dtype.kind not in "iu" or values.itemsize < 8:
+        return to_vtk(name, values)
+    if int(values.max(initial=0)) > np.iinfo(np.int64).max:
         return to_vtk(name, values.astype(float))
     array = numpy_to_vtkIdTypeArray(np.ascontiguousarray(values, np.int64), deep=True)
     array.SetName(name)
