@@ -24,10 +24,10 @@ namespace cadrefine
 /// Nodes of a column that are on a boundary keep to it: those on the CAD to their entity, others
 /// move if they stay in the planes of their facets; where the last one cannot go along, all of the
 /// move fades out. Where the last one is on another wall, from which a column comes back, the move
-/// fades into that of this wall, and the two columns go as one. Where a
-/// height is less than twice the move that fades out, the profile blends from the cubic to scaling
-/// all heights in proportion. A node that is to move along the boundary
-/// itself, as on a plane of symmetry, goes with a column that does so too.
+/// fades into that of this wall, and the two columns go as one. Where a height
+/// is less than twice the move that fades out, the profile blends from the cubic to scaling all
+/// heights in proportion. A node that is to move along the boundary itself, as on a plane of
+/// symmetry, goes with a column that does so too.
 ///
 /// Work: linear in the cells that are not simplices. Messages: one to and from each neighbour for
 /// every time that columns cross between ranks, and a few more.
