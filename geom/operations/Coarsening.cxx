@@ -131,13 +131,6 @@ private:
     Index to;
   };
 
-  /// The error of the facets at a vertex.
-  struct Measured
-  {
-    Index vertex;
-    SurfaceRule::MeasuredError error;
-  };
-
   void tryAll(const std::vector<Index>& vertices)
   {
     std::vector<Index> costly;
@@ -259,10 +252,9 @@ private:
       [](const Collapse& a, const Collapse& b) { return a.worst > b.worst; });
     const Collapse* best = nullptr;
     double leastGain = infinity;
-    std::optional<Measured> before;
     for (const Collapse& way : ways)
     {
-      const double gain = isAllowed(way) ? errorGain(way.from, before) : infinity;
+      const double gain = isAllowed(way) ? errorGain() : infinity;
       if (gain < leastGain)
       {
         best = &way;
@@ -290,19 +282,12 @@ private:
            judge_.keepsCurrentQuality(cavity_) && judge_.keepsSurface(cavity_);
   }
 
-  /// What the collapse of a vertex that is proposed adds to the error, where that is limited.
-  /// `before`: of the vertex last asked for.
-  double errorGain(Index vertex, std::optional<Measured>& before) const
+  /// What the collapse that is proposed adds to the error, where that is limited.
+  double errorGain() const
   {
-    if (errorLeft_ == infinity || !mesh_.touchesBoundary(cavity_))
-    {
-      return 0;
-    }
-    if (!before || before->vertex != vertex)
-    {
-      before = { vertex, rule_.errorBefore(mesh_, cavity_) };
-    }
-    return rule_.errorGain(mesh_, cavity_, before->error);
+    return errorLeft_ == infinity || !mesh_.touchesBoundary(cavity_)
+             ? 0
+             : rule_.errorGain(mesh_, cavity_);
   }
 
   void carryOut(const Collapse& way)

@@ -10,7 +10,6 @@
 #include <iterator>
 #include <limits>
 #include <optional>
-#include <tuple>
 #include <vector>
 
 namespace cadrefine
@@ -129,7 +128,7 @@ bool SurfaceRule::accepts(
   return keepsWalls &&
          (isPlane ? acceptsSegments(mesh, cavity, limits.distance)
                   : acceptsFacets(mesh, cavity, limits.distance)) &&
-         (!limits.keepsError || errorGain(mesh, cavity, errorBefore(mesh, cavity)) <= 0);
+         (!limits.keepsError || errorGain(mesh, cavity) <= 0);
 }
 
 bool SurfaceRule::acceptsFacets(
@@ -214,11 +213,11 @@ double SurfaceRule::errorOf(const ClassifiedSurface& facet) const
   FacetKey key{};
   for (std::size_t k = 0; k < facet.points.size(); ++k)
   {
-    const auto& [place, entity] = std::tie(facet.points[k].point, facet.points[k].entity);
+    const SurfacePoint& corner = facet.points[k];
     const EdgeClass edge = k < facet.edges.size() ? facet.edges[k].edgeClass : EdgeClass{};
-    key[k] = { place[0], place[1], place[2], static_cast<double>(entity.dimension),
-      static_cast<double>(entity.index), static_cast<double>(edge.kind),
-      static_cast<double>(edge.entity) };
+    key[k] = { corner.point[0], corner.point[1], corner.point[2],
+      static_cast<double>(corner.entity.dimension), static_cast<double>(corner.entity.index),
+      static_cast<double>(edge.kind), static_cast<double>(edge.entity) };
   }
   const auto [error, isNew] = errors_.try_emplace(key);
   if (isNew)
@@ -236,19 +235,19 @@ double SurfaceRule::errorOf(const ClassifiedSurface& facet) const
   return error->second;
 }
 
-SurfaceRule::MeasuredError SurfaceRule::errorBefore(
-  const EditableMesh& mesh, const Cavity& cavity) const
+double SurfaceRule::errorGain(const EditableMesh& mesh, const Cavity& cavity) const
 {
-  MeasuredError error;
-  double length = 0;
-  const auto add = [&](const auto& store, const std::vector<Index>& old)
+  double before = 0;
+  double after = 0;
+  double length = 0; // of the longest edge before
+  const auto addOld = [&](const auto& store, const std::vector<Index>& old)
   {
     for (const Index number : old)
     {
       if (store[number].label >= 0)
       {
         const ClassifiedSurface facet = surfaceOf(mesh, cavity, store[number].corners);
-        error.value += errorOf(facet);
+        before += errorOf(facet);
         for (const auto& [ends, edgeClass] : facet.edges)
         {
           length =
@@ -257,27 +256,20 @@ SurfaceRule::MeasuredError SurfaceRule::errorBefore(
       }
     }
   };
-  const bool ofEdges = projector_.kind() == BoundaryKind::Edges;
-  ofEdges ? add(mesh.segments(), cavity.segments) : add(mesh.facets(), cavity.facets);
-  error.rounding = ClassificationTolerances::leastExact * projector_.model().size() *
-                   (ofEdges ? length : length * length);
-  return error;
-}
-
-double SurfaceRule::errorGain(
-  const EditableMesh& mesh, const Cavity& cavity, const MeasuredError& before) const
-{
-  double after = 0;
-  const auto add = [&](const auto& added)
+  const auto addNew = [&](const auto& added)
   {
     for (const auto& simplex : added)
     {
       after += simplex.label >= 0 ? errorOf(surfaceOf(mesh, cavity, simplex.corners)) : 0;
     }
   };
-  projector_.kind() == BoundaryKind::Edges ? add(cavity.newSegments) : add(cavity.newFacets);
-  const double gain = after - before.value;
-  return std::abs(gain) <= before.rounding ? 0 : gain;
+  const bool ofEdges = projector_.kind() == BoundaryKind::Edges;
+  ofEdges ? addOld(mesh.segments(), cavity.segments) : addOld(mesh.facets(), cavity.facets);
+  ofEdges ? addNew(cavity.newSegments) : addNew(cavity.newFacets);
+  const double rounding = ClassificationTolerances::leastExact * projector_.model().size() *
+                          (ofEdges ? length : length * length);
+  const double gain = after - before;
+  return std::abs(gain) <= rounding ? 0 : gain;
 }
 
 SurfaceRule::Fit SurfaceRule::fitAt(const EditableMesh& mesh, Index vertex) const

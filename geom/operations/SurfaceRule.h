@@ -32,8 +32,9 @@ struct SurfaceLimits
 
 /// Judges new boundary facets, of a planar mesh segments, with their vertices where they are
 /// wanted, and places new vertices. All answers are pure functions of the mesh at the cavity and
-/// the model. It keeps the nearest points of the CAD that it has found, some 200 bytes each, since
-/// the same facets are asked for again and again: each thread needs a rule of its own.
+/// the model. It keeps the nearest points of the CAD and the errors of facets that it has found,
+/// some 200 bytes each, since the same facets are asked for again and again: each thread needs a
+/// rule of its own.
 class SurfaceRule
 {
 public:
@@ -68,18 +69,10 @@ public:
   bool accepts(
     const EditableMesh& mesh, const Cavity& cavity, const SurfaceLimits& limits = {}) const;
 
-  /// The geometric error of some facets, and what of it is rounding.
-  struct MeasuredError
-  {
-    double value = 0;
-    double rounding = 0;
-  };
-  /// Of a cavity's facets before an operation (see geometricErrors; extrapolated from depth 2).
-  /// Work: some 10 projections a facet.
-  MeasuredError errorBefore(const EditableMesh& mesh, const Cavity& cavity) const;
-  /// By how much that of the new facets is larger; 0 where that is rounding. The same work.
-  double errorGain(
-    const EditableMesh& mesh, const Cavity& cavity, const MeasuredError& before) const;
+  /// By how much the geometric error of a cavity's facets grows with an operation (see
+  /// geometricErrors; extrapolated from depth 2); 0 where that is rounding. Work: some 10
+  /// projections for each facet that was not measured before.
+  double errorGain(const EditableMesh& mesh, const Cavity& cavity) const;
 
   /// The place on the CAD of the middle of an edge of facets, between its ends where they are
   /// wanted; of no entity, halfway between its ends, where it is of the boundary off the CAD, or of
