@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <iterator>
 #include <limits>
 #include <numeric>
@@ -81,16 +80,16 @@ public:
   void run(RankExchange& exchange, const Moves& moves, const std::vector<unsigned char>& fixed);
 
 private:
-  /// Which column has a node: that of the lowest level, of these the smallest one; -1: the node
+  /// Which column has a node: the one that is lowest there, of these the smallest one; -1: the node
   /// moves by itself.
   struct Claim
   {
-    std::int64_t level = std::numeric_limits<std::int64_t>::max();
+    double height = infinity;
     GlobalId column = -1;
 
     friend bool operator<(const Claim& a, const Claim& b)
     {
-      return a.level != b.level ? a.level < b.level : a.column < b.column;
+      return a.height != b.height ? a.height < b.height : a.column < b.column;
     }
   };
 
@@ -113,7 +112,7 @@ private:
     RankExchange& exchange, const Moves& moves, const std::vector<unsigned char>& isLeftOut) const;
   Claim claimOf(const ColumnMember& member) const
   {
-    return { member.level, columns_.ids[member.column] };
+    return { member.height, columns_.ids[member.column] };
   }
   std::vector<unsigned char> findFacing(RankExchange& exchange, const Moves& moves,
     const std::vector<Claim>& claims, const std::vector<double>& tops);

@@ -434,6 +434,27 @@ TEST_P(ThinWalls, followBothSides)
   }
 }
 
+/// Ten thin layers on the inner one of two walls on the CAD, and three thick ones to the outer one,
+/// which is within fewer cells of half of the thin ones.
+TEST_F(LayersTest, ofOneWallAreKeptBesideAnother)
+{
+  constexpr int parts = 3;
+  const LayerCase thin{ "", 3, BoxKind::Hexahedron, 0.01, 1.3, 10, 0, parts };
+  auto heights = heightsOf(thin);
+  heights.insert(heights.end(), { 1.5, 2.7 });
+  const Mesh mesh = cadtest::hexahedralShellMesh(2, 0, parts, heights); // to a radius of 6
+  const cadtest::FilterRun filters(
+    cadtest::writeInto(folder, cadtest::together(cadtest::sphere(2), cadtest::sphere(6)), ".brep"),
+    worldController());
+  auto refined = filters.project(pieceOf(cadtest::withListedBoundary(mesh)));
+  for (int level = 1; level <= 2; ++level)
+  {
+    refined = filters.refineUniformly(refined);
+    const auto facets = static_cast<std::size_t>(6 * parts * parts) << (2 * level);
+    expectKept(refined, facets + 2, [&](const Edge&) { return thin.first / (1 << level); });
+  }
+}
+
 } // namespace
 
 } // namespace cadrefine
