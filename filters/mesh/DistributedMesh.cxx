@@ -10,6 +10,7 @@
 #include <cadrefine/mesh/VertexFlags.h>
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <tuple>
 
@@ -101,13 +102,17 @@ VertexKey<K> keyOf(const Mesh& mesh, Index* first, Index* last)
   return key;
 }
 
-/// Numbers of all cells, those of dimension 0 first, of which each has at most K + 1 corners.
+/// Numbers of all cells, those of dimension 0 first, of which each has at most K + 1 corners. A
+/// cell of lower dimension has fewer, and may be listed twice: its key ends with a negative number
+/// that grows with the rank and within the piece.
 template<std::size_t K>
 std::vector<GlobalId> numbersOfCells(RankExchange& exchange, const DistributedMesh& mesh)
 {
+  constexpr GlobalId cellsOfARank = GlobalId{ 1 } << 32;
   const Mesh& piece = mesh.mesh();
   std::vector<VertexKey<K>> keys;
   reserveLong(keys, piece.cellCount());
+  GlobalId place = std::numeric_limits<GlobalId>::min() + exchange.rank() * cellsOfARank;
   visitShapes(piece,
     [&](auto, const auto& cells)
     {
@@ -116,6 +121,10 @@ std::vector<GlobalId> numbersOfCells(RankExchange& exchange, const DistributedMe
         if constexpr (std::tuple_size_v<decltype(cell)> <= K + 1)
         {
           keys.push_back(keyOf<K>(piece, cell.data(), cell.data() + cell.size()));
+        }
+        if constexpr (std::tuple_size_v<decltype(cell)> <= K)
+        {
+          keys.back().rest.back() = place++;
         }
       }
     });

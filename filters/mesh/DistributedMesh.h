@@ -33,8 +33,9 @@ struct DistributedMesh
 DistributedMesh makeDistributedMesh(
   RankExchange& exchange, vtkPointSet* input, CellOrder order = CellOrder::First);
 
-/// Gives the cells ids by those of their vertices: cells with the same vertices have the same one,
-/// wherever they are. Collective; see numberAtVertices.
+/// Gives the cells ids by those of their vertices. Of cells of lower dimension with the same
+/// vertices, as where a line or a triangle is listed for each of two bodies, those of lower ranks
+/// come first, and on a rank the first one. Collective; see numberAtVertices.
 void numberCells(RankExchange& exchange, DistributedMesh& mesh);
 
 /// Numbers of facets by the ids of their vertices: from 0 on without a gap over all ranks, the same

@@ -277,11 +277,11 @@ void complainOfRepeatedCells(
   }
   exchange.agree(corners.empty()
                    ? ""
-                   : "the mesh has duplicate cells: two cells have the same points, or "
-                     "the same global id (" +
-                       std::to_string(id) + "); the corners of one are" + corners +
-                       " (merge them with the filter Clean Cells to Grid)");
-  throw Error("the mesh has duplicate cells");
+                   : "two cells of the mesh have the same global id (" + std::to_string(id) +
+                       "); the corners of one are" + corners +
+                       " (remove the array of global cell ids, or make it anew with the filter "
+                       "Generate Global Ids)");
+  throw Error("two cells of the mesh have the same global id");
 }
 
 } // namespace cadrefine

@@ -18,6 +18,7 @@
 #include <vtkTypeInt64Array.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -204,19 +205,48 @@ TEST_F(BadCells, trianglesThatAreListedTwice)
     "the mesh has duplicate cells: 4 and 20");
 }
 
-/// Tags do not matter to the boundary; they cannot be told apart by ids of their own making.
+/// As where bodies that touch are meshed one by one, and each lists its triangles, lines and
+/// vertices: all of them are kept, and cut. It is the order in which they are listed that counts.
 TEST_F(BadCells, tagsThatAreListedTwice)
 {
-  const Grid grid = withCell(VTK_TRIANGLE, { 0, 1, 2 });
-  if (isLast())
+  const Grid whole = vtkUnstructuredGrid::SafeDownCast(cadtest::taggedBall());
+  const vtkIdType once = whole->GetNumberOfCells();
+  for (vtkIdType c = 0; c < once; ++c)
   {
-    const vtkIdType again[] = { 1, 2, 0 };
-    grid->InsertNextCell(VTK_TRIANGLE, 3, again);
+    if (whole->GetCell(c)->GetCellDimension() < 3)
+    {
+      vtkNew<vtkIdList> points;
+      whole->GetCellPoints(c, points);
+      std::reverse(points->begin(), points->end());
+      whole->InsertNextCell(whole->GetCellType(c), points);
+    }
   }
-  const auto projected = filters.project(grid);
-  EXPECT_EQ(cadtest::fieldValue(projected, "GlobalCells"), 20);
-  expectError(filters.attempt<vtkRefineWithCAD>(projected, [](vtkRefineWithCAD*) {}),
-    "the corners of one are (");
+  const vtkNew<vtkTypeInt32Array> bodies;
+  bodies->SetName("Body");
+  for (vtkIdType c = 0; c < whole->GetNumberOfCells(); ++c)
+  {
+    bodies->InsertNextValue(c < once ? 1 : 2);
+  }
+  whole->GetCellData()->AddArray(bodies);
+  // A piece on several ranks has all of those that are listed again, or none.
+  vtkSmartPointer<vtkPointSet> piece = whole;
+  if (exchange.size() > 1)
+  {
+    piece = pieceOf(whole);
+  }
+  expectSame(filtersOfRawMeshes(), piece, whole);
+
+  const auto refined = filters.refineUniformly(filters.project(piece));
+  std::array<std::int64_t, 2> triangles{};
+  for (vtkIdType c = 0; c < refined->GetNumberOfCells(); ++c)
+  {
+    if (refined->GetCellType(c) == VTK_TRIANGLE)
+    {
+      ++triangles.at(static_cast<int>(refined->GetCellData()->GetArray("Body")->GetTuple1(c)) - 1);
+    }
+  }
+  EXPECT_EQ(exchange.sum(triangles[0]), 4 * 20);
+  EXPECT_EQ(exchange.sum(triangles[1]), 4 * 20);
 }
 
 /// Said, counted, mended where it can be, and the same on any number of ranks.
