@@ -1,5 +1,6 @@
 """Writes the last mesh, in the format that the file's name tells."""
 
+import itertools
 import os
 
 from paraview import servermanager, simple
@@ -76,7 +77,8 @@ def files_of(place):
 
 
 def write(proxy, path, options):
-    """Writes the output of `proxy` to `path`, which will later be `options.output`. Failures name that."""
+    """Writes the output of `proxy` to `path`, which will later be `options.output`. Failures name that. A mesh that the
+    format cannot hold is kept in a .vtu file beside it."""
     place = options.output
     session.messages.take()
     try:
@@ -85,14 +87,23 @@ def write(proxy, path, options):
         else:
             grid = gathered(proxy)
             if session.speaks():
-                write_grid(merged_grid(grid), path, options)
+                grid = merged_grid(grid)
+                try:
+                    write_grid(grid, path, options)
+                except BadFile as error:
+                    kept = free_name(os.path.splitext(place)[0], ".vtu")
+                    pieces.write_grid(grid, kept)
+                    raise Failure(f"{place}: {error}; the mesh is in {kept}") from None
     except OSError as error:
         raise Failure(f"{place}: {error.strerror or error}") from None
-    except BadFile as error:
-        raise Failure(f"{place}: {error}") from None
     except RuntimeError as error:
         session.messages.errors.append(str(error))
     session.raise_errors(place)
+
+
+def free_name(stem, ending):
+    names = itertools.chain([stem + ending], (f"{stem}_{number}{ending}" for number in itertools.count(1)))
+    return next(name for name in names if not os.path.exists(name))
 
 
 def write_grid(grid, path, options):

@@ -121,6 +121,18 @@ class Results(Case):
         self.assertTrue(os.path.isfile(output))
         self.assertEqual(driver.report_of(RANKS, output, ARCS[1], "--steps", "0")["steps"][0]["invalid_cells"], 0)
 
+    def test_what_the_format_lacks(self):
+        """The result is not lost, and neither is a file of that name."""
+        mesh, output = self.path("pyramid.vtu"), self.path("pyramid.unv")
+        points = [[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0], [0, 0, 1]]
+        meshio.Mesh(np.array(points, float), [("pyramid", [[0, 1, 2, 3, 4]])]).write(mesh)
+        run = driver.Run(RANKS, mesh, driver.data("cylinder.brep"), "--steps", "0", "--output", output)
+        kept = self.path("pyramid_1.vtu")
+        self.assertEqual(run.errors, [f"cadrefine: {output}: universal files can hold only quadratic pyramids; "
+                                      f"the mesh is in {kept}"])
+        self.assertFalse(os.path.exists(output))
+        self.assertIn("pyramid", meshio.read(kept).cells_dict)
+
     def test_densities(self):
         mesh = meshio.read(ARCS[0])
         [cells] = [block.data for block in mesh.cells if block.type == "triangle"]

@@ -15,6 +15,7 @@ import numpy as np
 
 sys.path.insert(0, os.path.join(driver.ROOT, "plugin"))
 
+from cadrefine import pieces
 from cadrefine.formats import BadFile, abaqus, exodus, exodus_writing, grid, med, msh, msh_writing, nastran, openfoam
 from cadrefine.formats import openfoam_writing, su2, unv, xdmf
 from cadrefine.formats.groups import grouped
@@ -272,6 +273,8 @@ class Groups(unittest.TestCase):
         self.assertEqual(meshes.counts(grouped(back)), expected)
         np.testing.assert_array_equal(back.points, self.mesh.points)
         self.assertEqual({back.patch_types["wall"], back.patch_types["Face_1"]}, {"wall", "patch"})
+        pieces.write_grid(grid.to_grid(back), self.path("boxes.vtu"))
+        self.assertIn("wall", meshio.read(self.path("boxes.vtu")).field_data)
         cells = back.blocks[-1][1]
         np.testing.assert_array_equal(np.sort(cells, axis=1), np.sort(self.mesh.blocks[-1][1], axis=1))
         corners = back.points[cells]

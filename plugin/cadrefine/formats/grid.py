@@ -4,14 +4,15 @@ import dataclasses
 
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkPoints, vtkStringArray
+from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkCellTypes, vtkUnstructuredGrid
 
 from cadrefine.formats import BadFile
 from cadrefine.formats.cells import REDUCED, TURNED, TYPES, reordered, turned_where_negative
 
 PHYSICAL, GEOMETRICAL = "gmsh:physical", "gmsh:geometrical"  # Cell arrays, named as meshio names them.
-PATCH_TYPES = "OpenFOAMPatchTypes"  # Field data: names of patches, and the type of each behind it.
+# Field data: names of patches, and the type of each behind it, in lines, as bytes: meshio reads no arrays of text.
+PATCH_TYPES = "OpenFOAMPatchTypes"
 SERIAL = "SERIAL:"  # Before the name of an HDF5 file: this process opens it alone, not all ranks together.
 # Cell arrays that tell groups of cells, the first of them counts: of gmsh, Medit, Exodus, SU2, Nastran, universal
 # files, Netgen, .vtk files.
@@ -60,16 +61,9 @@ def to_grid(mesh):
         for name, values in arrays.items():
             data.AddArray(to_vtk(name, np.asarray(values)))
     if mesh.patch_types:
-        grid.GetFieldData().AddArray(texts(PATCH_TYPES, [text for pair in mesh.patch_types.items() for text in pair]))
+        lines = "\n".join(text for pair in mesh.patch_types.items() for text in pair)
+        grid.GetFieldData().AddArray(to_vtk(PATCH_TYPES, np.frombuffer(lines.encode(), np.uint8)))
     return grid
-
-
-def texts(name, values):
-    array = vtkStringArray()
-    array.SetName(name)
-    for value in values:
-        array.InsertNextValue(value)
-    return array
 
 
 def make_grid(coordinates, types, offsets, corners):
@@ -142,9 +136,9 @@ def entity_names_of(cell_data):
 
 
 def patch_types_of(field_data):
-    array = field_data.GetAbstractArray(PATCH_TYPES)
-    values = [array.GetValue(index) for index in range(array.GetNumberOfValues())] if array else []
-    return dict(zip(values[::2], values[1::2]))
+    array = field_data.GetArray(PATCH_TYPES)
+    lines = vtk_to_numpy(array).tobytes().decode().split("\n") if array else []
+    return dict(zip(lines[::2], lines[1::2]))
 
 
 def arrays_of(data):
