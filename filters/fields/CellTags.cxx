@@ -174,25 +174,34 @@ std::vector<std::uint64_t> findNumberings(
   return names;
 }
 
-std::vector<Index> labelsOf(
+std::vector<std::uint64_t> tagHashesOf(
   vtkCellData* data, const CellRange& cells, const std::vector<std::uint64_t>& numberings)
 {
-  std::vector<Index> labels(cells.count, 0);
+  std::vector<std::uint64_t> hashes(cells.count, 0);
   forEachTag(data,
     [&](vtkDataArray* array)
     {
-      if (std::binary_search(numberings.begin(), numberings.end(), hashOf(array->GetName())))
+      const std::uint64_t name = hashOf(array->GetName());
+      if (!std::binary_search(numberings.begin(), numberings.end(), name))
       {
-        return;
+        forEachTuple(array, cells,
+          [&](std::size_t c, const std::vector<double>& tuple)
+          { hashes[c] += mixedBits(name ^ hashOf(tuple)); }); // in whatever order arrays are
       }
-      std::map<std::pair<Index, std::vector<double>>, Index> numbers;
-      forEachTuple(array, cells,
-        [&](std::size_t c, const std::vector<double>& tuple)
-        {
-          const auto next = static_cast<Index>(numbers.size());
-          labels[c] = numbers.emplace(std::pair(labels[c], tuple), next).first->second;
-        });
     });
+  return hashes;
+}
+
+std::vector<Index> labelsOf(
+  vtkCellData* data, const CellRange& cells, const std::vector<std::uint64_t>& numberings)
+{
+  std::vector<Index> labels;
+  labels.reserve(cells.count);
+  std::map<std::uint64_t, Index> numbers;
+  for (const std::uint64_t hash : tagHashesOf(data, cells, numberings))
+  {
+    labels.push_back(numbers.emplace(hash, static_cast<Index>(numbers.size())).first->second);
+  }
   return labels;
 }
 

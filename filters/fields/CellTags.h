@@ -35,7 +35,12 @@ struct CellRange
 std::vector<std::uint64_t> findNumberings(
   RankExchange& exchange, vtkCellData* data, const CellRange& cells);
 
-/// Numbers of the different tags of the cells, but for the arrays that number these.
+/// Hashes of all tags of each cell, but for the arrays that number these: of cells with the same
+/// tags the same, on whatever rank.
+std::vector<std::uint64_t> tagHashesOf(
+  vtkCellData* data, const CellRange& cells, const std::vector<std::uint64_t>& numberings);
+
+/// Numbers of the different ones of these hashes on this rank.
 std::vector<Index> labelsOf(
   vtkCellData* data, const CellRange& cells, const std::vector<std::uint64_t>& numberings);
 

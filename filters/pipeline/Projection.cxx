@@ -1,17 +1,24 @@
 #include "pipeline/Projection.h"
 
 #include "comm/WorkSteps.h"
+#include "fields/CellTags.h"
 #include "pipeline/CellImprovement.h"
 #include "pipeline/FitReport.h"
+#include "pipeline/LocalOperations.h"
 #include "pipeline/MeshSummary.h"
 #include "pipeline/PropertyCheck.h"
 #include "projection/InitialProjection.h"
 
 #include <cadrefine/base/Error.h>
+#include <cadrefine/base/IndicesWhere.h>
+#include <cadrefine/base/MixedBits.h>
 
 #include <vtkPointData.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <map>
 #include <string>
 #include <utility>
 
@@ -26,6 +33,84 @@ struct Projection
   Fit fit;
 };
 
+/// Vertices of this rank, inside the mesh, between cells of different tags. Collective.
+std::vector<Index> verticesBetweenTags(RankExchange& exchange, MeshState& state)
+{
+  const Mesh& mesh = state.mesh.mesh();
+  findNumberings(exchange, state);
+  const auto tags = tagHashesOf(state.arrays.ofCells,
+    { firstCellOfDimension(mesh, mesh.dimension), mesh.cellCount(mesh.dimension) },
+    *state.numberings);
+  std::vector<std::uint64_t> smallest(
+    mesh.points.size(), std::numeric_limits<std::uint64_t>::max());
+  std::vector<std::uint64_t> largest(mesh.points.size(), 0);
+  auto tag = tags.begin();
+  visitOwnShapes(mesh,
+    [&](auto, const auto& cells)
+    {
+      for (const auto& cell : cells)
+      {
+        for (const Index v : cell)
+        {
+          smallest[v] = std::min(smallest[v], *tag);
+          largest[v] = std::max(largest[v], *tag);
+        }
+        ++tag;
+      }
+    });
+  combineSmallest(exchange, state.mesh.shared, smallest);
+  combineLargest(exchange, state.mesh.shared, largest);
+  const auto owned = state.mesh.shared.ownedHere(static_cast<Index>(mesh.points.size()));
+  return indicesWhere(mesh.points.size(),
+    [&](std::size_t v) { return owned[v] && !state.onBoundary[v] && smallest[v] < largest[v]; });
+}
+
+/// Warns where cells of different tags meet on curved CAD faces (of a planar mesh: edges), but the
+/// mesh lists no cells between them: there its vertices and facets are not taken for those of the
+/// CAD. Looks at about a thousand vertices at most. Collective.
+void warnOfUnlistedInterface(const PipelineContext& context, MeshState& state,
+  const BoundaryProjector& projector, const ProjectionOptions& options)
+{
+  constexpr std::int64_t most = 1000;
+  constexpr double onCAD = 1e-5; // of the size
+  constexpr double alike = 1e-3; // directions
+  constexpr std::int64_t fewest = 3;
+  const CADModel& model = context.model;
+  const Mesh& mesh = state.mesh.mesh();
+  const auto vertices = verticesBetweenTags(context.exchange, state);
+  const auto stride = static_cast<std::uint64_t>(1 + context.exchange.sum(vertices.size()) / most);
+  std::map<EntityId, Vector3> first;
+  std::int64_t count = 0;
+  for (const Index v : vertices)
+  {
+    if (mixedBits(static_cast<std::uint64_t>(mesh.ids[v])) % stride != 0 ||
+        !options.inRegion(mesh.points[v]))
+    {
+      continue;
+    }
+    const ClosestPoint where = projector.nearest(mesh.points[v], onCAD * model.size());
+    if (where.entity.dimension == dimensionOf(projector.kind()))
+    {
+      const auto [index, parameters] = std::pair(where.entity.index, where.parameters);
+      const Vector3 direction = where.entity.dimension == 2 ? model.normal(index, parameters)
+                                                            : model.tangent(index, parameters[0]);
+      const Vector3& other = first.emplace(where.entity, direction).first->second;
+      count += norm(cross(direction, other)) > alike;
+    }
+  }
+  if (context.exchange.sum(count) >= fewest)
+  {
+    context.warn(
+      "cells of different tags (cell arrays of whole numbers, such as gmsh:physical) meet on "
+      "curved " +
+      std::string(projector.kind() == BoundaryKind::Faces ? "faces" : "edges") +
+      " of the CAD, but the mesh lists no cells between them: this interface will not follow the "
+      "CAD, and its geometric error does not count; list its " +
+      (projector.kind() == BoundaryKind::Faces ? "triangles" : "lines") +
+      " as cells of the mesh (in gmsh, as a physical group)");
+  }
+}
+
 Projection projectCells(const PipelineContext& context, MeshState& state, ProjectionOptions options)
 {
   context.exchange.progress().say(0.05, "finding the boundary");
@@ -38,6 +123,10 @@ Projection projectCells(const PipelineContext& context, MeshState& state, Projec
   Projection projection;
   projection.result = projectBoundary(context.exchange, state.mesh, projector, boundary, options);
   steps.begin(0.9, 1);
+  if (options.faces.empty())
+  {
+    warnOfUnlistedInterface(context, state, projector, options);
+  }
   projection.fit =
     findFit({ context.exchange, state.mesh, projector, boundary, options }, projection.result);
   return projection;

@@ -13,11 +13,13 @@
 #include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
+#include <vtkProjectOntoCAD.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <string>
 
 namespace
 {
@@ -198,6 +200,23 @@ TEST_F(InteriorBoundary, isLeftWhereItIsNotListed)
   Mesh coarse = cadtest::ballInShellMesh(radius, 0.03);
   coarse.triangles.clear();
   EXPECT_THROW(filters.project(cadtest::toGrid(coarse)), std::runtime_error);
+}
+
+/// A user who lists the materials' cells alone, as many programs write them, is told so.
+TEST_F(InteriorBoundary, isMissedWhereMaterialsMeetOnTheCAD)
+{
+  const cadtest::FilterRun filters(cadtest::writeInto(
+    folder, cadtest::together(cadtest::sphere(radius), cadtest::sphere(2 * radius)), ".brep"));
+  const Mesh listed = cadtest::ballInShellMesh(radius, 0);
+  Mesh cellsAlone = listed;
+  cellsAlone.triangles.clear();
+  const auto warnings = [&](vtkPointSet* mesh)
+  { return filters.attempt<vtkProjectOntoCAD>(mesh, [](vtkProjectOntoCAD*) {}).warnings; };
+  EXPECT_TRUE(warnings(withMaterials(listed, 20)).empty());
+  EXPECT_TRUE(warnings(cadtest::toGrid(cellsAlone)).empty()) << "without materials";
+  const auto found = warnings(withMaterials(cellsAlone, 20));
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NE(found[0].find("the mesh lists no cells between them"), std::string::npos) << found[0];
 }
 
 class NoManifold : public testing::Test
