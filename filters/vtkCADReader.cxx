@@ -7,6 +7,7 @@
 #include "vtkCADModelCache.h"
 
 #include <cadrefine/base/Error.h>
+#include <cadrefine/base/SortUniquely.h>
 #include <cadrefine/cad/import/CADFile.h>
 
 #include <vtkCompositeDataSet.h>
@@ -90,8 +91,7 @@ Lines LinesOfAll(cadrefine::RankExchange& exchange, const Lines& mine)
       all.push_back(line);
     }
   }
-  std::sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end()), all.end());
+  cadrefine::sortUniquely(all);
   return all;
 }
 

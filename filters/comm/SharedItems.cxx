@@ -1,5 +1,7 @@
 #include "comm/SharedItems.h"
 
+#include <cadrefine/base/SortUniquely.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -16,8 +18,7 @@ std::vector<Index> sortedUnion(const std::vector<std::vector<Index>>& lists)
   {
     all.insert(all.end(), list.begin(), list.end());
   }
-  std::sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end()), all.end());
+  sortUniquely(all);
   return all;
 }
 

@@ -7,6 +7,7 @@
 #include "comm/SharedVertices.h"
 
 #include <cadrefine/base/MixedBits.h>
+#include <cadrefine/base/SortUniquely.h>
 
 #include <algorithm>
 #include <string>
@@ -38,8 +39,7 @@ std::string sortCandidates(const std::vector<GlobalId>& ids, std::vector<Index>&
              std::to_string(ids.size()) + " vertices.";
     }
   }
-  std::sort(candidates.begin(), candidates.end());
-  candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+  sortUniquely(candidates);
   std::sort(
     candidates.begin(), candidates.end(), [&](Index a, Index b) { return idOf(a) < idOf(b); });
   const auto twins = std::adjacent_find(

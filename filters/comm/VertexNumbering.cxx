@@ -8,6 +8,7 @@
 #include "comm/VertexNumbering.h"
 
 #include <cadrefine/base/LargeMemory.h>
+#include <cadrefine/base/SortUniquely.h>
 #include <cadrefine/base/VertexBuckets.h>
 
 #include <algorithm>
@@ -126,8 +127,7 @@ private:
       [&](std::size_t, std::size_t slot, const Rest<K>& rest) { merged[slot].push_back(rest); });
     for (Rests& rests : merged)
     {
-      std::sort(rests.begin(), rests.end());
-      rests.erase(std::unique(rests.begin(), rests.end()), rests.end());
+      sortUniquely(rests);
     }
     const auto placeIn = [](const Rests& rests, const Rest<K>& rest) {
       return static_cast<Index>(std::lower_bound(rests.begin(), rests.end(), rest) - rests.begin());

@@ -3,6 +3,7 @@
 #include "fields/CADArrays.h"
 
 #include <cadrefine/base/MixedBits.h>
+#include <cadrefine/base/SortUniquely.h>
 
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
@@ -85,13 +86,6 @@ void forEachTuple(vtkDataArray* array, const CellRange& cells, const Visit& visi
     array->GetTuple(cells.first + static_cast<vtkIdType>(c), tuple.data());
     visit(c, tuple);
   }
-}
-
-template<class Value>
-void sortUniquely(std::vector<Value>& values)
-{
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
 /// How many values each tag has over all ranks, by the hashes of their names: each value is counted

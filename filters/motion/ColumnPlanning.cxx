@@ -3,6 +3,8 @@
 #include "mesh/BoundaryFacets.h"
 #include "motion/FirstEdges.h"
 
+#include <cadrefine/base/SortUniquely.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -181,8 +183,7 @@ void ColumnPlanning::listMembers(
 {
   std::transform(visits.begin(), visits.end(), std::back_inserter(columns_.ids),
     [](const ColumnVisit& visit) { return visit.column; });
-  std::sort(columns_.ids.begin(), columns_.ids.end());
-  columns_.ids.erase(std::unique(columns_.ids.begin(), columns_.ids.end()), columns_.ids.end());
+  sortUniquely(columns_.ids);
   std::vector<Index> numbers(columns_.ids.size());
   std::iota(numbers.begin(), numbers.end(), 0);
   columns_.shared = findSharedVertices(exchange, columns_.ids, numbers);

@@ -3,6 +3,7 @@
 #include "comm/Threads.h"
 
 #include <cadrefine/base/IndicesWhere.h>
+#include <cadrefine/base/SortUniquely.h>
 #include <cadrefine/mesh/VertexFlags.h>
 #include <cadrefine/motion/PatchOptimiser.h>
 
@@ -119,8 +120,7 @@ void collectRecords(const Cells<Corners>& cells, const Patch& patch,
       const auto& neighbours = neighboursOf[vertex];
       receivers.insert(receivers.end(), neighbours.begin(), neighbours.end());
     }
-    std::sort(receivers.begin(), receivers.end());
-    receivers.erase(std::unique(receivers.begin(), receivers.end()), receivers.end());
+    sortUniquely(receivers);
     for (const int n : receivers)
     {
       toOthers[n].push_back(recordOf(cell, patch));

@@ -2,6 +2,7 @@
 
 #include "operations/VertexBlocks.h"
 
+#include <cadrefine/base/SortUniquely.h>
 #include <cadrefine/classification/CADAdjacency.h>
 
 #include <algorithm>
@@ -217,8 +218,7 @@ Index BlockMesh::lineOf(const std::array<Index, 2>& ends) const
       entitiesAround(projector.model().nurbs(), classification_.entities[vertex], 1);
     std::transform(lines.begin(), lines.end(), lines.begin(),
       [&](std::int32_t edge) { return projector.lines()[edge]; });
-    std::sort(lines.begin(), lines.end());
-    lines.erase(std::unique(lines.begin(), lines.end()), lines.end());
+    sortUniquely(lines);
     return lines;
   };
   const auto first = linesAt(ends[0]);

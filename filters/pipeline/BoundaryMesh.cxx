@@ -5,6 +5,7 @@
 
 #include <cadrefine/base/Error.h>
 #include <cadrefine/base/IndicesWhere.h>
+#include <cadrefine/base/SortUniquely.h>
 
 #include <vtkCellData.h>
 
@@ -160,8 +161,7 @@ Sides compareWithListed(RankExchange& exchange, const DistributedMesh& mesh,
     std::sort(key.begin(), std::find(key.begin(), key.end(), -1));
   }
   auto distinct = keys;
-  std::sort(distinct.begin(), distinct.end());
-  distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
+  sortUniquely(distinct);
   std::vector<EntityId> entities(distinct.size());
   std::vector<unsigned char> isListed(distinct.size(), 0);
   std::vector<std::size_t> placeOf(keys.size());

@@ -1,6 +1,7 @@
 #include <cadrefine/classification/CADAdjacency.h>
 
 #include <cadrefine/base/DisjointSets.h>
+#include <cadrefine/base/SortUniquely.h>
 #include <cadrefine/classification/ClassificationTolerances.h>
 
 #include <algorithm>
@@ -111,8 +112,7 @@ std::vector<std::int32_t> entitiesAround(const NurbsModel& model, EntityId entit
   {
     faces.insert(faces.end(), model.edges[edge].faces.begin(), model.edges[edge].faces.end());
   }
-  std::sort(faces.begin(), faces.end());
-  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  sortUniquely(faces);
   return faces;
 }
 

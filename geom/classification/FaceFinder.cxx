@@ -1,5 +1,6 @@
 #include <cadrefine/classification/FaceFinder.h>
 
+#include <cadrefine/base/SortUniquely.h>
 #include <cadrefine/classification/CADAdjacency.h>
 #include <cadrefine/classification/ClassificationTolerances.h>
 #include <cadrefine/mesh/Quality.h>
@@ -155,8 +156,7 @@ std::vector<std::int32_t> FaceFinder::facesAround(const std::vector<EntityId>& e
     const auto more = entitiesAround(model_.nurbs(), entity, 2);
     faces.insert(faces.end(), more.begin(), more.end());
   }
-  std::sort(faces.begin(), faces.end());
-  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  sortUniquely(faces);
   return faces;
 }
 

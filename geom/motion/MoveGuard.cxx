@@ -1,6 +1,7 @@
 #include <cadrefine/motion/MoveGuard.h>
 
 #include <cadrefine/base/LargeMemory.h>
+#include <cadrefine/base/SortUniquely.h>
 #include <cadrefine/mesh/VertexFlags.h>
 
 #include <algorithm>
@@ -150,8 +151,7 @@ bool MoveGuard::halveUnaccepted(Moves& moves)
              !accepts(shape, guarded, moves);
     });
   lastFractions_ = moves.fractions;
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  sortUniquely(vertices);
   bool halved = false;
   for (const Index vertex : vertices)
   {

@@ -2,6 +2,7 @@
 
 #include <cadrefine/base/IndicesWhere.h>
 #include <cadrefine/base/MixedBits.h>
+#include <cadrefine/base/SortUniquely.h>
 #include <cadrefine/classification/ClassificationTolerances.h>
 #include <cadrefine/mesh/Quality.h>
 
@@ -313,9 +314,7 @@ PatchOptimiser::Boundary PatchOptimiser::boundaryAt(Index vertex) const
     }
     pair = next;
   }
-  std::sort(boundary.neighbours.begin(), boundary.neighbours.end());
-  boundary.neighbours.erase(
-    std::unique(boundary.neighbours.begin(), boundary.neighbours.end()), boundary.neighbours.end());
+  sortUniquely(boundary.neighbours);
   return boundary;
 }
 

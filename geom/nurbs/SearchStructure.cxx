@@ -1,5 +1,6 @@
 #include <cadrefine/nurbs/SearchStructure.h>
 
+#include <cadrefine/base/SortUniquely.h>
 #include <cadrefine/nurbs/LeafBuilder.h>
 #include <cadrefine/nurbs/ModelCheck.h>
 #include <cadrefine/nurbs/PolynomialFit.h>
@@ -341,8 +342,7 @@ private:
         }
       }
     }
-    std::sort(numbers.begin(), numbers.end());
-    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+    sortUniquely(numbers);
     Entries border;
     for (const int number : numbers)
     {

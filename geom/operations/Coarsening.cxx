@@ -1,5 +1,6 @@
 #include <cadrefine/operations/Coarsening.h>
 
+#include <cadrefine/base/SortUniquely.h>
 #include <cadrefine/operations/Improvement.h>
 #include <cadrefine/operations/ImprovementRule.h>
 
@@ -175,8 +176,7 @@ private:
         }
       }
     }
-    std::sort(neighbours.begin(), neighbours.end());
-    neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
+    sortUniquely(neighbours);
     return neighbours;
   }
 

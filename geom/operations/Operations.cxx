@@ -1,5 +1,6 @@
 #include <cadrefine/operations/Operations.h>
 
+#include <cadrefine/base/SortUniquely.h>
 #include <cadrefine/operations/TriangleOperations.h>
 
 #include <algorithm>
@@ -208,8 +209,7 @@ std::vector<Index> otherCorners(
     std::copy_if(corners.begin(), corners.end(), std::back_inserter(result),
       [&](Index vertex) { return vertex != a && vertex != b; });
   }
-  std::sort(result.begin(), result.end());
-  result.erase(std::unique(result.begin(), result.end()), result.end());
+  sortUniquely(result);
   return result;
 }
 

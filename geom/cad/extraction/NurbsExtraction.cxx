@@ -2,6 +2,7 @@
 
 #include <cadrefine/cad/extraction/NurbsExtraction.h>
 
+#include <cadrefine/base/SortUniquely.h>
 #include <cadrefine/nurbs/TrimMeasure.h>
 
 #include <BRep_Tool.hxx>
@@ -10,20 +11,12 @@
 #include <TopoDS.hxx>
 #include <gp_Pnt.hxx>
 
-#include <algorithm>
-
 namespace cadrefine
 {
 namespace
 {
 
 constexpr std::size_t entityGrain = 8; // about a millisecond
-
-void sortUnique(std::vector<std::int32_t>& list)
-{
-  std::sort(list.begin(), list.end());
-  list.erase(std::unique(list.begin(), list.end()), list.end());
-}
 
 NurbsVertex extractVertex(const TopoDS_Vertex& vertex)
 {
@@ -67,7 +60,7 @@ void linkVertices(const ShapeIndex& index, NurbsModel& model)
   }
   for (NurbsVertex& vertex : model.vertices)
   {
-    sortUnique(vertex.edges);
+    sortUniquely(vertex.edges);
   }
 }
 
@@ -88,12 +81,12 @@ void linkFaces(const ShapeIndex& index, const ParallelFor& parallelFor, NurbsMod
         model.edges[e].faces.push_back(static_cast<std::int32_t>(f));
       }
     }
-    sortUnique(model.faces[f].edges);
+    sortUniquely(model.faces[f].edges);
   }
   forEachIndex(parallelFor, model.edges.size(), entityGrain,
     [&](std::size_t e)
     {
-      sortUnique(model.edges[e].faces);
+      sortUniquely(model.edges[e].faces);
       model.edges[e].sharp = isSharp(uses[e]);
     });
 }

@@ -2,6 +2,7 @@
 #include "ParallelTest.h"
 
 #include <cadrefine/base/Error.h>
+#include <cadrefine/base/SortUniquely.h>
 
 #include <vtkDummyController.h>
 #include <vtkNew.h>
@@ -189,8 +190,7 @@ TEST_F(RankExchangeTest, exchangeWithNeighboursOnly)
   {
     neighbours.push_back((exchange.rank() + step) % exchange.size());
   }
-  std::sort(neighbours.begin(), neighbours.end());
-  neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
+  sortUniquely(neighbours);
 
   std::vector<std::vector<double>> outgoing;
   outgoing.reserve(neighbours.size());
