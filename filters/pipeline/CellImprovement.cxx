@@ -30,10 +30,10 @@ constexpr int maximumRounds = 6;
 constexpr int ringsOfCells = 3;
 /// Cells below this are operated on in the neighbourhood of those below the user's limit.
 constexpr double aim = 0.3;
-/// Cells are cut so many times at most, each time twice if once is not worth it, for so many new
-/// cells for each bad one that is gone, or for one new cell in so many.
+/// Cells are cut so many times at most, each time in so many tries if one is not worth it, for so
+/// many new cells for each bad one that is gone, or for one new cell in so many.
 constexpr int maximumCuts = 8;
-constexpr int mostTries = 2;
+constexpr int mostTries = 4;
 constexpr std::int64_t newCellsForOne = 300;
 constexpr std::int64_t cellsForOneNew = 4;
 /// Where no vertex is off the CAD, there are so many times as many cells at most, or so many, and
@@ -158,23 +158,25 @@ private:
   }
 
   /// Cuts until less is left, worth the new cells; where that does not come, the mesh is as it was.
+  /// Where operations take back what is cut, cells are cut once more before the next ones.
   bool cutUntilWorthwhile(Left& left, std::int64_t mostCells)
   {
     const Backup before(state_);
     Left now = left;
+    int cutsAtOnce = 1;
     for (int tries = 0; tries < mostTries && mayCut(now); ++tries)
     {
-      cutBad();
+      for (int cut = 0; cut < cutsAtOnce; ++cut)
+      {
+        cutBad();
+      }
       const Left last = std::exchange(now, operateInRounds());
       if (now.isWorthwhile(left, mostCells))
       {
         left = now;
         return true;
       }
-      if (now == last)
-      {
-        break; // operations take back what is cut
-      }
+      cutsAtOnce += now == last;
     }
     before.restore(state_);
     return false;
