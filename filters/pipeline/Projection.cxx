@@ -41,6 +41,11 @@ std::vector<Index> verticesBetweenTags(RankExchange& exchange, MeshState& state)
   const auto tags = tagHashesOf(state.arrays.ofCells,
     { firstCellOfDimension(mesh, mesh.dimension), mesh.cellCount(mesh.dimension) },
     *state.numberings);
+  if (!exchange.any(
+        std::any_of(tags.begin(), tags.end(), [](std::uint64_t tag) { return tag != 0; })))
+  {
+    return {};
+  }
   std::vector<std::uint64_t> smallest(
     mesh.points.size(), std::numeric_limits<std::uint64_t>::max());
   std::vector<std::uint64_t> largest(mesh.points.size(), 0);
