@@ -169,8 +169,10 @@ std::string warningOfMisfit(const Fit& fit, const std::string& cadUnit, bool isW
   constexpr double half = 0.5;
   constexpr double most = 0.7; // facets are chords
   constexpr double little = 0.2;
+  constexpr double nearlyAll = 0.9; // a box in another unit may share half of its sides
   const std::string shift = describeShift(fit);
-  const bool fits = fit.boundaryOnCAD >= half && fit.cadCovered.value_or(0) >= most;
+  const bool fits = (fit.boundaryOnCAD >= half && fit.cadCovered.value_or(0) >= most) ||
+                    fit.boundaryOnCAD * fit.boundaryInBox >= nearlyAll;
   std::string cause = fits || !shift.empty() ? shift : describeUnits(ratioOf(fit), cadUnit);
   const bool isElsewhere =
     fit.boundaryOnCAD * fit.boundaryInBox < half && fit.cadCovered.value_or(1) < little;

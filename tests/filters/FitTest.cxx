@@ -198,6 +198,20 @@ TEST_F(Fit, namesTheUnit)
   expectWarning(project(placed(0.3048, {})), "as if the mesh were in metres and the CAD in feet");
 }
 
+/// One body of two, in a box that is ten times as large.
+TEST_F(Fit, ofOneBodyTellsNoUnit)
+{
+  const cadtest::FilterRun two(
+    cadtest::writeInto(folder,
+      cadtest::together(cadtest::box(1, 1, 1), cadtest::moved(cadtest::box(1, 1, 1), { 9, 9, 9 })),
+      ".brep"),
+    worldController());
+  const auto outcome =
+    two.attempt<vtkProjectOntoCAD>(pieceOf(cadtest::toGrid(mesh)), [](vtkProjectOntoCAD*) {});
+  expectWarning(outcome, "");
+  EXPECT_NEAR(value(outcome, "CADCovered"), 0.5, 1e-12);
+}
+
 TEST_F(Fit, tellsAShift)
 {
   expectWarning(project(placed(1, { 0.003, 0.003, 0.003 })), "shifted by (0.003, 0.003, 0.003)");
