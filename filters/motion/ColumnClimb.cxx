@@ -22,8 +22,8 @@ ColumnClimb::ColumnClimb(
 void ColumnClimb::start(const Facet& facet, int place, double highest, double reach)
 {
   const GlobalId wall = nodes_.ids[nodes_.at(facet, place)];
-  climb(facet, { 2 * wall, {}, place, 0, 0, highest, reach });
-  goBeyond(facet, { 2 * wall + 1, {}, place, 0, 0, highest, reach });
+  climb(facet, { 2 * wall, {}, place, 0, highest, reach });
+  goBeyond(facet, { 2 * wall + 1, {}, place, 0, highest, reach });
 }
 
 std::vector<ColumnVisit> ColumnClimb::run(RankExchange& exchange)
@@ -60,13 +60,13 @@ void ColumnClimb::climb(Facet side, Front front)
     }
     const auto place = static_cast<int>(front.place);
     const Index node = nodes_.at(above, place);
+    const bool isFirst = front.height == 0;
     front.height += distance(nodes_.points[nodes_.at(side, place)], nodes_.points[node]);
-    ++front.level;
-    if (front.level == 1 && front.height > front.highest)
+    if (isFirst && front.height > front.highest)
     {
       return;
     }
-    visited_.push_back({ node, front.column, front.level, front.height });
+    visited_.push_back({ node, front.column, front.height });
     if (front.height >= front.reach)
     {
       return;

@@ -39,12 +39,11 @@ struct ColumnNodes
   }
 };
 
-/// A node that a column comes to, so many cells and so far above the wall.
+/// A node that a column comes to, so far above the wall.
 struct ColumnVisit
 {
   Index node;
   GlobalId column;
-  std::int64_t level;
   double height;
 };
 
@@ -71,7 +70,6 @@ private:
     GlobalId column;
     std::array<GlobalId, 4> side;
     std::int64_t place; ///< Of the node there, see ColumnNodes::at.
-    std::int64_t level;
     double height;
     double highest; ///< Of the first cell.
     double reach;   ///< The column ends at this height.

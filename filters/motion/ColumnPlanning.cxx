@@ -187,11 +187,11 @@ void ColumnPlanning::listMembers(
   std::vector<Index> numbers(columns_.ids.size());
   std::iota(numbers.begin(), numbers.end(), 0);
   columns_.shared = findSharedVertices(exchange, columns_.ids, numbers);
-  for (const auto& [node, column, level, height] : visits)
+  for (const auto& [node, column, height] : visits)
   {
     const auto found = std::lower_bound(columns_.ids.begin(), columns_.ids.end(), column);
     columns_.members.push_back(
-      { node, static_cast<Index>(found - columns_.ids.begin()), level, height, 1 });
+      { node, static_cast<Index>(found - columns_.ids.begin()), height, 1 });
   }
 
   std::vector<std::pair<GlobalId, Index>> moving;
@@ -270,7 +270,7 @@ void ColumnPlanning::findLifts(
   for (const ColumnMember& member : columns_.members)
   {
     const Index wall = columns_.walls[member.column];
-    if (member.level == 1 && wall >= 0 &&
+    if (wall >= 0 &&
         edges[wall].up == columns_.nodes.points[member.node] - columns_.nodes.points[wall])
     {
       const double way = distance(moves.targets[wall], columns_.nodes.points[wall]);
@@ -307,7 +307,7 @@ std::vector<unsigned char> ColumnPlanning::findFacing(RankExchange& exchange, co
 {
   std::vector<GlobalId> ends(columns_.ids.size(), -1); // moving nodes
   columns_.facing.assign(columns_.ids.size(), -1);
-  for (const auto& [node, c, level, height, part] : columns_.members)
+  for (const auto& [node, c, height, part] : columns_.members)
   {
     if (height == tops[c] && claims[node].column < 0)
     {
@@ -390,7 +390,7 @@ std::vector<ColumnPlanning::Span> ColumnPlanning::findSpans(
   std::vector<double> lasts(columns_.ids.size(), 0); // below the tops
   for (std::size_t k = 0; k < columns_.members.size(); ++k)
   {
-    const auto& [node, c, level, height, part] = columns_.members[k];
+    const auto& [node, c, height, part] = columns_.members[k];
     lost[c] = isLost[k] && !faces[c] ? std::min(lost[c], height) : lost[c];
     lasts[c] = height < tops[c] ? std::max(lasts[c], height) : lasts[c];
   }

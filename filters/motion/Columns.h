@@ -8,7 +8,6 @@
 #include <cadrefine/classification/BoundaryProjector.h>
 #include <cadrefine/mesh/Facets.h>
 
-#include <cstdint>
 #include <vector>
 
 namespace cadrefine
@@ -19,7 +18,6 @@ struct ColumnMember
 {
   Index node;
   Index column;
-  std::int64_t level;
   double height;
   double part; ///< Of the move of the wall's node; the rest is of the facing one's.
 };
