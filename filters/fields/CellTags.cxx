@@ -1,6 +1,7 @@
 #include "fields/CellTags.h"
 
 #include "fields/CADArrays.h"
+#include "mesh/PointSetConversion.h"
 
 #include <cadrefine/base/MixedBits.h>
 #include <cadrefine/base/SortUniquely.h>
@@ -137,6 +138,11 @@ bool isTag(vtkDataArray* array)
     name == arrays::validity || name == arrays::dimension || name == arrays::entity;
   return type != VTK_FLOAT && type != VTK_DOUBLE && !name.empty() && name.rfind("vtk", 0) != 0 &&
          !isOwn;
+}
+
+CellRange cellsOf(const Mesh& mesh, int dimension)
+{
+  return { firstCellOfDimension(mesh, dimension), mesh.cellCount(dimension) };
 }
 
 std::vector<std::uint64_t> findNumberings(

@@ -4,6 +4,7 @@
 #include "comm/RankExchange.h"
 
 #include <cadrefine/base/MeshTypes.h>
+#include <cadrefine/mesh/Mesh.h>
 
 #include <vtkType.h>
 
@@ -27,6 +28,9 @@ struct CellRange
   vtkIdType first;
   std::size_t count;
 };
+
+/// Those of this dimension.
+CellRange cellsOf(const Mesh& mesh, int dimension);
 
 /// Hashes of the names, ascending, of arrays that look like tags but number the cells: over all
 /// ranks they have more than 32 different values, and more than half as many as there are cells in

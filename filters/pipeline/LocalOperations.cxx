@@ -14,11 +14,6 @@ namespace cadrefine
 namespace
 {
 
-CellRange cellsOf(const Mesh& mesh, int dimension)
-{
-  return { firstCellOfDimension(mesh, dimension), mesh.cellCount(dimension) };
-}
-
 /// Brings each block to one rank. The blocks after that.
 OperationBlocks gather(const PipelineContext& context, MeshState& state, OperationBlocks blocks)
 {

@@ -38,9 +38,8 @@ std::vector<Index> verticesBetweenTags(RankExchange& exchange, MeshState& state)
 {
   const Mesh& mesh = state.mesh.mesh();
   findNumberings(exchange, state);
-  const auto tags = tagHashesOf(state.arrays.ofCells,
-    { firstCellOfDimension(mesh, mesh.dimension), mesh.cellCount(mesh.dimension) },
-    *state.numberings);
+  const auto tags =
+    tagHashesOf(state.arrays.ofCells, cellsOf(mesh, mesh.dimension), *state.numberings);
   if (!exchange.any(
         std::any_of(tags.begin(), tags.end(), [](std::uint64_t tag) { return tag != 0; })))
   {
@@ -96,9 +95,10 @@ void warnOfUnlistedInterface(const PipelineContext& context, MeshState& state,
     const ClosestPoint where = projector.nearest(mesh.points[v], onCAD * model.size());
     if (where.entity.dimension == dimensionOf(projector.kind()))
     {
-      const auto [index, parameters] = std::pair(where.entity.index, where.parameters);
-      const Vector3 direction = where.entity.dimension == 2 ? model.normal(index, parameters)
-                                                            : model.tangent(index, parameters[0]);
+      const std::int32_t index = where.entity.index;
+      const Vector3 direction = where.entity.dimension == 2
+                                  ? model.normal(index, where.parameters)
+                                  : model.tangent(index, where.parameters[0]);
       const Vector3& other = first.emplace(where.entity, direction).first->second;
       count += norm(cross(direction, other)) > alike;
     }
