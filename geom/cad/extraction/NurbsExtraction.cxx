@@ -37,7 +37,7 @@ void extractGeometry(const ShapeIndex& index, const ParallelFor& parallelFor, Nu
     [&](std::size_t e) { model.edges[e] = extractEdge(index.edges()[e]); });
   for (const TopoDS_Vertex& vertex : index.vertices())
   {
-    model.vertices.push_back(extractVertex(vertex));
+    model.vertices.push_back(extractVertex(index.vertices()[index.vertex(vertex)]));
   }
 }
 

@@ -6,6 +6,7 @@
 #include <cadrefine/cad/import/CADFile.h>
 
 #include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepPrimAPI_MakeBox.hxx>
 #include <BRep_Builder.hxx>
 #include <TopoDS_Compound.hxx>
 #include <TopoDS_Shell.hxx>
@@ -14,6 +15,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 
 namespace
 {
@@ -97,6 +99,33 @@ TEST(Gaps, betweenOpenShellsAreSewnToo)
   EXPECT_EQ(model->count(2), 2);
   EXPECT_EQ(model->count(1), 7);
   EXPECT_EQ(model->count(0), 6);
+}
+
+/// Bodies that touch share no topology; else two vertices of a mesh would be wanted at one place.
+TEST(Gaps, bodiesThatTouchHaveOneVertexAtEachPlace)
+{
+  TopoDS_Compound bodies;
+  const BRep_Builder builder;
+  builder.MakeCompound(bodies);
+  builder.Add(bodies, BRepPrimAPI_MakeBox(gp_Pnt(0, 0, 0), gp_Pnt(1, 1, 1)).Shape());
+  builder.Add(bodies, BRepPrimAPI_MakeBox(gp_Pnt(1, 0, 0), gp_Pnt(2, 1, 1)).Shape());
+  const TemporaryFolder folder;
+  writeShape(bodies, folder.file("bodies.brep"));
+  const auto model = readCADFile(folder.file("bodies.brep"));
+  ASSERT_EQ(model->count(0), 16);
+  std::map<std::size_t, int> verticesWith;
+  for (const NurbsVertex& vertex : model->nurbs().vertices)
+  {
+    ++verticesWith[vertex.edges.size()];
+  }
+  EXPECT_EQ(verticesWith, (std::map<std::size_t, int>{ { 0, 4 }, { 3, 8 }, { 6, 4 } }));
+  for (int v = 0; v < model->count(0); ++v)
+  {
+    const Point3& point = model->nurbs().vertices[v].point;
+    const EntityId found = model->nearest(point).entity;
+    EXPECT_EQ(found.dimension, 0);
+    EXPECT_EQ(model->nurbs().vertices[found.index].edges.size(), point[0] == 1 ? 6u : 3u);
+  }
 }
 
 } // namespace
