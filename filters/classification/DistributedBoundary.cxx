@@ -147,6 +147,7 @@ ClassifiedFacet classifiedFacet(
 {
   ClassifiedFacet result;
   result.corners = facet.corners();
+  result.isInside = facet.isInside;
   for (int k = 0; k < result.corners; ++k)
   {
     result.points[k] = mesh.points[facet.vertices[k]];

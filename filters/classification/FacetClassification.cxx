@@ -65,6 +65,41 @@ std::vector<FacetRecord> makeRecords(
   return records;
 }
 
+/// Takes facets between two cells off the CAD where outer ones are on the same face (of a planar
+/// mesh, edge) of it.
+void leaveEndsOfLayers(const ProjectionTask& task, const std::vector<ClosestPoint>& hits,
+  std::vector<FacetRecord>& records)
+{
+  const auto& facets = task.boundary.facets;
+  const int dimension = task.boundary.facetDimension();
+  std::vector<std::int64_t> outer(task.model().count(dimension), 0);
+  for (std::size_t f = 0; f < facets.size(); ++f)
+  {
+    for (const Index vertex : facets[f])
+    {
+      const EntityId entity = hits[vertex].entity;
+      if (records[f].onCAD && !facets[f].isInside && entity.dimension == dimension)
+      {
+        outer[entity.index] = 1;
+      }
+    }
+  }
+  outer = task.exchange.max(outer);
+  const auto isBeside = [&](Index vertex)
+  {
+    const ClosestPoint& hit = hits[vertex];
+    return hit.entity.dimension == dimension && hit.distance > task.exact(vertex) &&
+           outer[hit.entity.index] > 0;
+  };
+  for (std::size_t f = 0; f < facets.size(); ++f)
+  {
+    if (facets[f].isInside && std::any_of(facets[f].begin(), facets[f].end(), isBeside))
+    {
+      records[f].onCAD = 0;
+    }
+  }
+}
+
 /// 1 for vertices that are, like all vertices that share a boundary edge with them, nearest to one
 /// face.
 std::vector<unsigned char> findThoseAmongTheirOwn(
@@ -213,6 +248,7 @@ FacetClasses classifyFacets(const ProjectionTask& task, const std::vector<Closes
   auto& records = classes.records;
   const ParallelFor parallelFor = forOnThreads(task.exchange);
   agreeOnFailure(task.exchange, [&] { records = makeRecords(task, hits, parallelFor); });
+  leaveEndsOfLayers(task, hits, records);
   if (!task.ofFaces())
   {
     return classes;

@@ -17,12 +17,14 @@ struct FacetClasses
 /// Classes of the facets, given the nearest point of each vertex:
 ///   1. a facet is on the CAD if all of its corners found a point, its normal fits there, and it
 ///      looks alike there; it is free if a corner is outside the user's region;
-///   2. the facets that lie clearly on one face tell which way the CAD's normals point, seen from
+///   2. facets between two cells are not on the CAD where outer facets are on the same face: they
+///      are the end of a layer over it, unless all of their corners are exactly on the CAD;
+///   3. the facets that lie clearly on one face tell which way the CAD's normals point, seen from
 ///      the mesh (see decideSides);
-///   3. each triangle on the CAD finds its face (see FaceFinder);
-///   4. those that are not sure of it take the face that most of their neighbours over smooth mesh
+///   4. each triangle on the CAD finds its face (see FaceFinder);
+///   5. those that are not sure of it take the face that most of their neighbours over smooth mesh
 ///      edges have.
-/// Collective: a sum of two numbers for each CAD face, and an exchange of the interface.
+/// Collective: two sums, of three numbers for each CAD face, and an exchange of the interface.
 FacetClasses classifyFacets(const ProjectionTask& task, const std::vector<ClosestPoint>& hits);
 
 } // namespace cadrefine

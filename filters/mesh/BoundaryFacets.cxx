@@ -162,9 +162,9 @@ void meetListed(const DistributedMesh& distributed, std::vector<Listed>& all)
     });
 }
 
-Facet facetOf(const Listed& listed)
+Facet interiorFacet(const Listed& listed)
 {
-  return { listed.corners, listed.cell };
+  return { listed.corners, listed.cell, true };
 }
 
 /// Removes the facets that another rank meets too, but for listed ones whose cell has the smaller
@@ -191,7 +191,7 @@ void settleShared(RankExchange& exchange, const DistributedMesh& mesh, bool anyL
     const std::size_t listed = findListed(all, keyOf(mesh.mesh(), corners[f]));
     if (listed < all.size() && smallest[f] == idOf(facets[f]))
     {
-      interior.push_back(facetOf(all[listed]));
+      interior.push_back(interiorFacet(all[listed]));
     }
     facets[f].cell = -1;
   }
@@ -227,7 +227,7 @@ std::vector<Facet> findBoundaryFacets(
   {
     if (listed.met > 1)
     {
-      facets.push_back(facetOf(listed));
+      facets.push_back(interiorFacet(listed));
     }
   }
   return facets;

@@ -241,7 +241,7 @@ void ColumnPlanning::findYielding(
   const auto ofNodes =
     columns_.movesOfNodes(exchange, columns_.movesOfWalls(exchange, moves), isLeftOut);
   std::vector<unsigned char> stays(ofNodes.size(), 0);
-  columns_.forAllFacets([&](Index n, const Vector3& normal)
+  columns_.forAllFacets([&](Index n, const Facet&, const Vector3& normal)
     { stays[n] = stays[n] || std::abs(dot(ofNodes[n], normal)) > across * norm(ofNodes[n]); });
   combineFlags(exchange, columns_.nodes.shared, stays);
   for (std::size_t n = 0; n < yields_.size(); ++n)

@@ -74,11 +74,11 @@ std::vector<unsigned char> Columns::findBlocked(
   std::vector<unsigned char> blocked = nodes.held;
   blocked.resize(ofNodes.size(), 0);
   forAllFacets(
-    [&](Index n, const Vector3& normal)
+    [&](Index n, const Facet& facet, const Vector3& normal)
     {
       const Vector3& move = ofNodes[n];
-      blocked[n] =
-        blocked[n] || (!nodes.entities[n] && std::abs(dot(move, normal)) > inPlane * norm(move));
+      blocked[n] = blocked[n] || (!nodes.entities[n] && !facet.isInside &&
+                                   std::abs(dot(move, normal)) > inPlane * norm(move));
     });
   combineFlags(exchange, nodes.shared, blocked);
   return blocked;

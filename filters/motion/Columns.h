@@ -61,8 +61,9 @@ struct Columns
   std::vector<Vector3> movesOfNodes(RankExchange& exchange, const WallMoves& ofWalls,
     const std::vector<unsigned char>& isLeftOut) const;
 
-  /// 1 for nodes that are held, and those of a boundary off the CAD that would leave the plane of a
-  /// facet. Members that are lost do not count: one column at most moves a node. Collective.
+  /// 1 for nodes that are held, and those of a boundary off the CAD that would leave the plane of
+  /// an outer facet. Members that are lost do not count: one column at most moves a node.
+  /// Collective.
   std::vector<unsigned char> findBlocked(RankExchange& exchange, const WallMoves& ofWalls,
     const std::vector<unsigned char>& isLost) const;
 
@@ -71,7 +72,7 @@ struct Columns
   /// Whether that is nearly the whole move.
   bool keepsDirection(Index node, const Vector3& move) const;
 
-  /// use(node, normal) of all facets.
+  /// use(node, facet, normal) of all facets.
   template<class Use>
   void forAllFacets(const Use& use) const
   {
@@ -80,7 +81,7 @@ struct Columns
       const Vector3 normal = normalOf(facet);
       for (int k = 0; k < nodes.count(facet); ++k)
       {
-        use(nodes.at(facet, k), normal);
+        use(nodes.at(facet, k), facet, normal);
       }
     }
   }

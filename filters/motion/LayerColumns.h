@@ -10,7 +10,7 @@ namespace cadrefine
 
 /// Columns of nodes over the moving nodes of walls, through the wedges, hexahedra or quadrilaterals
 /// that stand on a boundary facet at such a node, on whatever ranks, to where the stack ends, or
-/// another column comes closer to its wall (counted in cells; ties by the ids of the walls' nodes),
+/// another column comes closer to its wall (by height; ties by the ids of the walls' nodes),
 /// or the column is a hundred times as high as the move. Columns of vertices go up edges, those of
 /// mid nodes from edge to edge. Of several facets at the node that counts whose normal is nearest
 /// to the direction of the move.

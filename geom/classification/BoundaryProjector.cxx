@@ -86,7 +86,7 @@ bool BoundaryProjector::isOnCAD(const ClassifiedFacet& facet) const
   if (kind_ == BoundaryKind::Edges)
   {
     const ClosestPoint where = nearest(0.5 * (p[0] + p[1]), unlimited);
-    return fitsTangent(model_, where, normalized(p[1] - p[0]));
+    return fitsTangent(model_, where, normalized(p[1] - p[0])) && isOfACorner(facet, where.entity);
   }
   const Vector3 normal = normalized(twofoldAreaVector(p, facet.corners));
   for (int k = 0; k < facet.corners; ++k)
@@ -108,7 +108,17 @@ bool BoundaryProjector::isOnCAD(const ClassifiedFacet& facet) const
     return true;
   }
   const ClosestPoint where = nearest(centroid, unlimited);
-  return fitsNormal(where.entity, where, normal);
+  return fitsNormal(where.entity, where, normal) && isOfACorner(facet, where.entity);
+}
+
+/// Whether a corner of a facet between two cells lies on what is nearest to the middle of it.
+bool BoundaryProjector::isOfACorner(const ClassifiedFacet& facet, EntityId middle) const
+{
+  const int dimension = dimensionOf(kind_);
+  return !facet.isInside ||
+         std::any_of(facet.entities.begin(), facet.entities.begin() + facet.corners,
+           [&](EntityId corner)
+           { return !commonEntities(model_.nurbs(), corner, middle, dimension).empty(); });
 }
 
 std::int32_t BoundaryProjector::faceOf(const ClassifiedFacet& facet) const

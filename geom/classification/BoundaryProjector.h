@@ -33,7 +33,8 @@ struct ClassifiedFacet
 {
   std::array<Point3, 4> points{};
   std::array<EntityId, 4> entities{};
-  int corners = 3; ///< Of triangles; 4 of quadrilaterals, 2 of segments.
+  int corners = 3;       ///< Of triangles; 4 of quadrilaterals, 2 of segments.
+  bool isInside = false; ///< It is between two cells.
 };
 
 /// How the midpoint of a mesh edge is to be placed.
@@ -85,7 +86,8 @@ public:
 
   /// Whether a facet whose corners all lie near the CAD stands for a part of it: whether its normal
   /// (a segment's direction) fits that of the CAD to 60 degrees at one of its corners or at its
-  /// centroid. Tells the facets of a wall that meets the CAD from those on the CAD.
+  /// centroid. Tells the facets of a wall that meets the CAD from those on the CAD. Between two
+  /// cells, which may be layers on the CAD, the centroid must be nearest to an entity of a corner.
   bool isOnCAD(const ClassifiedFacet& facet) const;
 
   /// Of a classified facet, the CAD face that all of its corners lie on; of several the nearest one
@@ -125,6 +127,7 @@ public:
 
 private:
   bool fitsNormal(EntityId entity, const ClosestPoint& where, const Vector3& normal) const;
+  bool isOfACorner(const ClassifiedFacet& facet, EntityId middle) const;
   std::int32_t commonCrease(const std::array<Point3, 2>& points,
     const std::array<EntityId, 2>& entities, const std::vector<FacetRecord>& onCAD) const;
   std::int32_t commonSmoothEdge(const std::array<Point3, 2>& points,

@@ -18,6 +18,7 @@ struct Facet
 {
   std::array<Index, 4> vertices{ -1, -1, -1, -1 }; ///< In the order that gives the outward normal.
   Index cell = -1;                                 ///< Its cell of the mesh's own dimension.
+  bool isInside = false;                           ///< It is between two cells.
 
   int corners() const { return vertices[3] >= 0 ? 4 : vertices[2] >= 0 ? 3 : 2; }
   /// Edge k joins corners k and k + 1; a segment is its own edge 0.

@@ -20,6 +20,7 @@
 #include <functional>
 #include <map>
 #include <ostream>
+#include <set>
 
 namespace cadrefine
 {
@@ -71,6 +72,40 @@ Mesh meshOf(const LayerCase& tried)
   const std::size_t inLayers = heights.size() * 6 * tried.parts * tried.parts;
   return cadtest::withListedBoundary(cadtest::mixedMesh(
     boxes, [&](std::size_t c) { return c < inLayers ? tried.kind : BoxKind::Fan; }, 1));
+}
+
+std::size_t verticesOnWall(const LayerCase& tried)
+{
+  return tried.dimension == 2 ? tried.parts : 6 * tried.parts * tried.parts + 2;
+}
+
+/// With the sides between the layers and what follows on them listed, as gmsh lists the surfaces
+/// of all of its volumes.
+Mesh withListedEnd(const LayerCase& tried)
+{
+  Mesh mesh = meshOf(tried);
+  const std::size_t first = tried.layers * verticesOnWall(tried);
+  const auto isOfEnd = [&](Index vertex)
+  {
+    return static_cast<std::size_t>(vertex) >= first &&
+           static_cast<std::size_t>(vertex) < first + verticesOnWall(tried);
+  };
+  std::set<std::set<Index>> listed;
+  std::vector<Facet> sides;
+  forEachSide(mesh,
+    [&](const Facet& side)
+    {
+      if (std::all_of(side.begin(), side.end(), isOfEnd) &&
+          listed.emplace(side.begin(), side.end()).second)
+      {
+        sides.push_back(side);
+      }
+    });
+  for (const Facet& side : sides)
+  {
+    cadtest::list(side, mesh);
+  }
+  return mesh;
 }
 
 // The wall moves by 4 to 40 first heights; refined, by the bulge of the CAD over its facets.
@@ -176,7 +211,15 @@ protected:
   void expectKept(vtkPointSet* piece, std::size_t wallVertices, const Expected& expected,
     const Wall& wall = onSphere)
   {
-    const Mesh mesh = expectSound(piece);
+    expectHeights(expectSound(piece), piece, wallVertices, expected, wall);
+  }
+
+  /// The same, given the whole mesh on rank 0.
+  template<class Expected>
+  void expectHeights(const Mesh& mesh, vtkPointSet* piece, std::size_t wallVertices,
+    const Expected& expected, const Wall& wall = onSphere)
+  {
+    EXPECT_EQ(cadtest::fieldValue(piece, "InvalidCells"), 0);
     EXPECT_EQ(cadtest::fieldValue(piece, "UnprojectedVertices"), 0);
     if (exchange.rank() > 0)
     {
@@ -288,7 +331,7 @@ TEST_P(Layers, keepTheirFirstHeights)
   { return static_cast<std::size_t>(cadtest::fieldValue(refined, "CADVertices")); };
   {
     SCOPED_TRACE("projected");
-    expectHeight(mesh, GetParam().dimension == 2 ? n : 6 * n * n + 2, 1);
+    expectHeight(mesh, verticesOnWall(GetParam()), 1);
   }
   {
     SCOPED_TRACE("refined along the wall");
@@ -305,6 +348,21 @@ TEST_P(Layers, keepTheirFirstHeights)
     const auto refined = filters.refineUniformly(uniform);
     expectHeight(refined, verticesOf(refined), 0.25);
   }
+}
+
+TEST_P(Layers, keepTheirFirstHeightsWhereTheirEndIsListed)
+{
+  const int n = GetParam().parts;
+  const auto mesh = filters.project(pieceOf(withListedEnd(GetParam())));
+  const auto expectHeight = [&](vtkPointSet* data, std::size_t wallVertices, double height)
+  {
+    EXPECT_EQ(cadtest::fieldValue(data, "CADVertices"), wallVertices);
+    expectHeights(cadtest::toMesh(cadtest::gather(exchange, data)), data, wallVertices,
+      [&](const Edge&) { return height * GetParam().first; });
+  };
+  expectHeight(mesh, verticesOnWall(GetParam()), 1);
+  const auto refined = filters.refineUniformly(mesh);
+  expectHeight(refined, GetParam().dimension == 2 ? 2 * n : 24 * n * n + 2, 0.5);
 }
 
 /// Of edges that are unequal it is the height over the facets that stays, as generators make them

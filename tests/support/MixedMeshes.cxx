@@ -266,22 +266,27 @@ Mesh quadrilateralRingMesh(
   return mesh;
 }
 
+void list(const Facet& side, Mesh& mesh)
+{
+  const auto& v = side.vertices;
+  switch (side.corners())
+  {
+    case 2:
+      mesh.segments.push_back({ v[0], v[1] });
+      break;
+    case 3:
+      mesh.triangles.push_back({ v[0], v[1], v[2] });
+      break;
+    default:
+      mesh.quadrilaterals.push_back(v);
+  }
+}
+
 Mesh withListedBoundary(Mesh mesh)
 {
   for (const Facet& facet : findOuterFacets(mesh))
   {
-    const auto& v = facet.vertices;
-    switch (facet.corners())
-    {
-      case 2:
-        mesh.segments.push_back({ v[0], v[1] });
-        break;
-      case 3:
-        mesh.triangles.push_back({ v[0], v[1], v[2] });
-        break;
-      default:
-        mesh.quadrilaterals.push_back(v);
-    }
+    list(facet, mesh);
   }
   return mesh;
 }

@@ -3,6 +3,7 @@
 
 #include "HexahedralMeshes.h"
 
+#include <cadrefine/mesh/Facets.h>
 #include <cadrefine/mesh/Mesh.h>
 
 #include <cstddef>
@@ -34,6 +35,9 @@ cadrefine::Mesh randomlyMixedMesh(const cadrefine::Mesh& hexahedra, std::uint64_
 /// the radius, a ring of quadrilaterals and triangles.
 cadrefine::Mesh quadrilateralRingMesh(
   double radius, double offset, int corners, const std::vector<double>& heights);
+
+/// Lists a side as a cell.
+void list(const cadrefine::Facet& side, cadrefine::Mesh& mesh);
 
 /// The same with its outer sides listed as cells.
 cadrefine::Mesh withListedBoundary(cadrefine::Mesh mesh);
