@@ -11,7 +11,7 @@ from cadrefine import messages
 from cadrefine.exchange import carry_out, exchange
 from cadrefine.formats import BadFile, library
 from cadrefine.formats.grid import check, from_grid, to_grid
-from cadrefine.formats.sides import once
+from cadrefine.formats.sides import once, turned_alike
 from cadrefine.merge import merged_grid
 
 EXODUS = (".e", ".ex2", ".exo", ".exii", ".g")
@@ -102,7 +102,7 @@ def reader_of(path):
         def read_mesh():
             mesh = formats("." + module).read(path, *arguments)
             check(mesh)
-            return to_grid(once(mesh))
+            return to_grid(turned_alike(once(mesh)))
         return read_mesh
 
     if ending == ".msh" and (start.startswith(b"$") or b"$MeshFormat" in start):  # Else it is one of Fluent.
@@ -123,7 +123,7 @@ def reader_of(path):
 
 
 def with_cells_once(grid):
-    return to_grid(once(from_grid(grid))) if grid.GetNumberOfCells() else grid
+    return to_grid(turned_alike(once(from_grid(grid)))) if grid.GetNumberOfCells() else grid
 
 
 def start_of(path):

@@ -29,6 +29,7 @@ sys.path.insert(0, os.path.join(driver.ROOT, "plugin"))
 from cadrefine import files
 from cadrefine.formats import BadFile, abaqus, cgns, grid, med, openfoam, openfoam_cells, openfoam_writing
 from cadrefine.formats.groups import grouped
+from cadrefine.formats.sides import turned_alike
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkUnstructuredGrid
 from vtkmodules.vtkFiltersVerdict import vtkCellSizeFilter
@@ -261,6 +262,46 @@ class Mixed(unittest.TestCase):
                     found = meshes.counts(grouped(grid.from_grid(data)))
                     self.assertLessEqual(({("rim", 1): 2} if ending == ".su2" else expected).items(), found.items())
                     self.assertAlmostEqual(sizes_of(data, "Area").sum(), 2)
+
+    def test_surfaces_of_gmsh_either_way_round(self):
+        """gmsh has the cells of each surface its own way round: two that do not agree, of quadrilaterals and of
+        triangles; as they are where a cell is inverted."""
+        gmsh.initialize()
+        try:
+            gmsh.option.setNumber("General.Terminal", 0)
+            geo = gmsh.model.geo
+            corners = [geo.addPoint(x, y, 0) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1), (2, 0), (2, 1))]
+            lines = [geo.addLine(corners[a], corners[b]) for a, b in ((0, 1), (1, 2), (2, 3), (3, 0), (1, 4), (4, 5),
+                                                                      (5, 2))]
+            left = geo.addPlaneSurface([geo.addCurveLoop([-line for line in reversed(lines[:4])])])
+            geo.addPlaneSurface([geo.addCurveLoop([*lines[4:], -lines[1]])])
+            geo.mesh.setTransfiniteSurface(left)
+            geo.mesh.setRecombine(2, left)
+            geo.synchronize()
+            gmsh.option.setNumber("Mesh.MeshSizeMax", 0.3)
+            gmsh.model.mesh.generate(2)
+            for order, name in ((1, "ways1.msh"), (2, "ways2.msh")):
+                gmsh.option.setNumber("Mesh.SecondOrderIncomplete", 1)
+                gmsh.model.mesh.setOrder(order)
+                gmsh.write(self.path(name))
+        finally:
+            gmsh.finalize()
+        for name in ("ways1", "ways2"):
+            mesh = grid.from_grid(read(self.path(name + ".msh")))
+            for kind, nodes in mesh.blocks:
+                if kind in (5, 9, 22, 23):
+                    at = mesh.points[nodes]
+                    count = 3 if kind in (5, 22) else 4
+                    self.assertGreater(np.cross(at[:, 1] - at[:, 0], at[:, 2] - at[:, 0])[:, 2].min(), 0, (name, kind))
+                    for node in range(count, at.shape[1]):
+                        ends = at[:, [node - count, (node - count + 1) % count]]
+                        self.assertTrue(np.allclose(at[:, node], ends.mean(axis=1)), (name, kind))
+        others = np.array([[1, 0], [0, 1], [1, 1], [2, 0], [2, 1]], float)
+        blocks = [(5, np.array([[0, 1, 2], [2, 1, 3]])), (9, np.array([[3, 5, 4, 1]]))]
+        for corner, is_inverted in (((0, 0), False), ((1.5, 1.5), True)):
+            mesh = turned_alike(grid.Mesh(np.vstack([corner, others]), blocks))
+            self.assertEqual(mesh.blocks[0][1].tolist(), blocks[0][1].tolist())
+            self.assertEqual(mesh.blocks[1][1].tolist(), [[3, 5, 4, 1] if is_inverted else [3, 1, 4, 5]])
 
     def test_what_formats_lack(self):
         for name, ending, reason in (("mixed2", ".su2", "SU2 has no quadratic cells"),

@@ -4,7 +4,7 @@ import dataclasses
 
 import numpy as np
 
-from cadrefine.formats.cells import CORNERS, SIDES, TYPES, facet_of
+from cadrefine.formats.cells import CORNERS, SIDES, TYPES, facet_of, mirrored
 from cadrefine.formats.grid import PHYSICAL, tag_array
 from cadrefine.formats.groups import BOUNDARY, is_list, set_groups, unused
 
@@ -140,6 +140,29 @@ def once(mesh):
         _, first = np.unique(rows, axis=0, return_index=True)
         set_groups(result, rows[np.sort(first)])
     return result
+
+
+def turned_alike(mesh):
+    """The cells of a mesh of the plane z = 0 all counter-clockwise: gmsh has those of each surface its own way round.
+    As it is where all are one way round, or two are on the same side of an edge between them, as inverted ones are."""
+    corners, cells = cells_of(mesh, 2)
+    if mesh.cell_dimensions().max(initial=0) != 2 or np.any(mesh.points[:, 2:]):
+        return mesh
+    x, y = np.moveaxis(mesh.points[np.where(corners < 0, corners[:, :1], corners), :2] -
+                       mesh.points[corners[:, :1], :2], 2, 0)
+    turns = np.sign((x * np.roll(y, -1, axis=1) - y * np.roll(x, -1, axis=1)).sum(axis=1))
+    ends, of_side, _ = all_sides(mesh, 2)
+    on_left = turns[np.searchsorted(cells, of_side)] * np.where(ends[:, 0] < ends[:, 1], 1, -1)
+    classes, _ = same_corners(ends)
+    if not (turns < 0).any() or not (turns > 0).any() or (np.abs(np.bincount(classes, on_left)) > 1).any():
+        return mesh
+    blocks, turns = [], np.split(turns, np.cumsum([len(nodes) for kind, nodes in mesh.blocks if TYPES[kind][1] == 2]))
+    for kind, nodes in mesh.blocks:
+        if TYPES[kind][1] == 2:
+            turned = nodes[:, mirrored(kind, [0, *range(CORNERS[kind] - 1, 0, -1)])]
+            nodes = np.where(turns.pop(0)[:, np.newaxis] < 0, turned, nodes)
+        blocks.append((kind, nodes))
+    return dataclasses.replace(mesh, blocks=blocks)
 
 
 def padded(side):
