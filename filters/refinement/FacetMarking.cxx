@@ -89,9 +89,9 @@ private:
     }
     const auto& mine = boundary_.facets[f].vertices;
     const auto& its = boundary_.facets[other].vertices;
-    const auto shared =
-      std::find_first_of(mine.begin(), mine.begin() + 2, its.begin(), its.begin() + 2);
-    return classification_.entities[*shared].dimension != 0;
+    const auto end = mine.begin() + 2;
+    const auto shared = std::find_first_of(mine.begin(), end, its.begin(), its.begin() + 2);
+    return shared != end && classification_.entities[*shared].dimension != 0;
   }
 
   void markBetween(std::size_t f, std::size_t other)
