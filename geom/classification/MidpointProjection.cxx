@@ -267,11 +267,13 @@ ClosestPoint offCrease(
     const ClosestPoint onFace = projector.nearestOn({ 2, faces[f] }, middle);
     border = f == 0 || isNearer(onFace, border) ? onFace : border;
   }
-  if (border.entity.dimension != 1)
+  const auto edges = entitiesAround(projector.model().nurbs(), border.entity, 1);
+  if (edges.empty())
   {
     return border;
   }
-  if (!projector.model().nurbs().edges[border.entity.index].sharp)
+  if (std::none_of(edges.begin(), edges.end(),
+        [&](std::int32_t of) { return projector.model().nurbs().edges[of].sharp; }))
   {
     // Beyond a smooth edge the surface goes on.
     const auto beside = entitiesAround(projector.model().nurbs(), border.entity, 2);

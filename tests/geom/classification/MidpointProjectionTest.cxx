@@ -198,6 +198,20 @@ TEST(Ring, keepsTheMiddleOfAChordThatCrossesTheHole)
   EXPECT_NEAR(where.distance, distance(where.point, middle), 1e-15);
 }
 
+/// Where a chord crosses the hole at the seam of its wall, a CAD vertex is nearest to its middle.
+TEST(Ring, keepsTheMiddleOfAChordThatCrossesTheHoleAtItsSeam)
+{
+  const auto model = cadtest::modelOf(cadtest::pipe(1, 1.5, 1));
+  const BoundaryProjector projector(*model, BoundaryKind::Faces);
+  const std::array<Point3, 2> points{ { { 0.95, 0.4, 1 }, { 0.95, -0.4, 1 } } };
+  const BoundaryEdge edge{ { EdgeClass::Smooth, -1 }, points, entitiesAt(projector, points) };
+  const ClosestPoint nearest = projectMidpoint(projector, edge);
+  ASSERT_EQ(nearest.entity.dimension, 0);
+  const ClosestPoint where = offCrease(projector, edge, nearest);
+  EXPECT_EQ(where.entity, projector.nearest({ 0, 1.25, 1 }, unlimited).entity);
+  EXPECT_NEAR(distance(where.point, { 1.05, 0, 1 }), 0, 1e-9);
+}
+
 /// The middle of a chord that leaves its face may be nearest to another face, which it is not on.
 TEST(Ring, takesTheMiddleOfAChordFromAnotherFaceToItsOwn)
 {
