@@ -7,9 +7,9 @@
 namespace cadrefine
 {
 
-ColumnClimb::ColumnClimb(
-  const DistributedMesh& mesh, const CellStacks& stacks, const ColumnNodes& nodes)
-  : mesh_(mesh), nodes_(nodes), stacks_(stacks)
+ColumnClimb::ColumnClimb(const DistributedMesh& mesh, const CellStacks& stacks,
+  const ColumnNodes& nodes, const Moves& moves, const std::vector<unsigned char>& onInnerWalls)
+  : mesh_(mesh), nodes_(nodes), stacks_(stacks), moves_(moves), onInnerWalls_(onInnerWalls)
 {
   for (const Index vertex : mesh.shared.all)
   {
@@ -67,7 +67,7 @@ void ColumnClimb::climb(Facet side, Front front)
       return;
     }
     visited_.push_back({ node, front.column, front.height });
-    if (front.height >= front.reach)
+    if (front.height >= front.reach || isMovingWall(above, node))
     {
       return;
     }
@@ -77,6 +77,12 @@ void ColumnClimb::climb(Facet side, Front front)
       send(above, front);
     }
   }
+}
+
+bool ColumnClimb::isMovingWall(const Facet& side, Index node) const
+{
+  return moves_.fractions[node] > 0 && std::all_of(side.begin(), side.end(),
+                                         [&](Index vertex) { return onInnerWalls_[vertex] != 0; });
 }
 
 void ColumnClimb::goBeyond(const Facet& side, const Front& front)

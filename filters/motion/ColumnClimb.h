@@ -4,6 +4,7 @@
 #include "mesh/DistributedMesh.h"
 
 #include <cadrefine/base/EntityId.h>
+#include <cadrefine/base/Moves.h>
 #include <cadrefine/mesh/EdgeTable.h>
 #include <cadrefine/mesh/Facets.h>
 #include <cadrefine/motion/CellStacks.h>
@@ -52,7 +53,10 @@ struct ColumnVisit
 class ColumnClimb
 {
 public:
-  ColumnClimb(const DistributedMesh& mesh, const CellStacks& stacks, const ColumnNodes& nodes);
+  /// `onInnerWalls`: 1 for vertices of walls inside the mesh, over all ranks. Columns end at such
+  /// walls, where a node of theirs moves itself.
+  ColumnClimb(const DistributedMesh& mesh, const CellStacks& stacks, const ColumnNodes& nodes,
+    const Moves& moves, const std::vector<unsigned char>& onInnerWalls);
 
   /// A column that stands on this node of a facet (see ColumnNodes::at), on both sides of it, and
   /// ends at the height `reach`; none where its first cell is higher than `highest`.
@@ -78,11 +82,14 @@ private:
   void climb(Facet side, Front front);
   void goBeyond(const Facet& side, const Front& front);
   void send(const Facet& side, Front front);
+  bool isMovingWall(const Facet& side, Index node) const;
   Facet facetOf(const std::array<GlobalId, 4>& ids) const;
 
   const DistributedMesh& mesh_;
   const ColumnNodes& nodes_;
   const CellStacks& stacks_;
+  const Moves& moves_;
+  const std::vector<unsigned char>& onInnerWalls_;
   std::vector<std::pair<GlobalId, Index>> vertexOf_; ///< Of the ids of shared vertices.
   std::vector<std::vector<Front>> outgoing_;
   std::vector<ColumnVisit> visited_;

@@ -49,6 +49,27 @@ struct Arrival
   double height = 0;
 };
 
+/// 1 for vertices of facets between two cells all of whose nodes are on the CAD. Collective.
+std::vector<unsigned char> findInnerWalls(RankExchange& exchange, const Columns& columns)
+{
+  const ColumnNodes& nodes = columns.nodes;
+  std::vector<unsigned char> flags(columns.mesh.mesh().points.size(), 0);
+  for (const Facet& facet : columns.facets)
+  {
+    bool isWall = facet.isInside;
+    for (int k = 0; k < nodes.count(facet) && isWall; ++k)
+    {
+      isWall = static_cast<bool>(nodes.entities[nodes.at(facet, k)]);
+    }
+    for (const Index vertex : facet)
+    {
+      flags[vertex] = flags[vertex] || isWall;
+    }
+  }
+  combineFlags(exchange, columns.mesh.shared, flags);
+  return flags;
+}
+
 /// For each moving node the facet that its column stands on. Collective.
 std::vector<BestFacet> findBestFacets(
   RankExchange& exchange, const Columns& columns, const Moves& moves)
@@ -132,7 +153,8 @@ void ColumnPlanning::run(
   columns_.facets = findBoundaryFacets(exchange, columns_.mesh, fixed);
   const auto best = findBestFacets(exchange, columns_, moves);
   const CellStacks stacks(piece);
-  ColumnClimb climb(columns_.mesh, stacks, columns_.nodes);
+  const auto onInnerWalls = findInnerWalls(exchange, columns_);
+  ColumnClimb climb(columns_.mesh, stacks, columns_.nodes, moves, onInnerWalls);
   for (const Facet& facet : columns_.facets)
   {
     for (int k = 0; k < columns_.nodes.count(facet); ++k)
