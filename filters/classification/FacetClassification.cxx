@@ -8,6 +8,7 @@
 #include <cadrefine/classification/ClassificationTolerances.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 
 namespace cadrefine
@@ -65,35 +66,68 @@ std::vector<FacetRecord> makeRecords(
   return records;
 }
 
-/// Takes facets between two cells off the CAD where outer ones are on the same face (of a planar
-/// mesh, edge) of it.
+/// The faces (of a planar mesh, edges) of the CAD that a facet covers: those that its corners are
+/// within, or where none is, those that bound all of them.
+std::vector<std::int32_t> findCovered(
+  const ProjectionTask& task, const std::vector<ClosestPoint>& hits, const Facet& facet)
+{
+  const int dimension = task.boundary.facetDimension();
+  std::vector<std::int32_t> covered;
+  std::array<EntityId, 4> entities{};
+  for (int k = 0; k < facet.corners(); ++k)
+  {
+    entities[k] = hits[facet.vertices[k]].entity;
+    if (entities[k].dimension == dimension)
+    {
+      covered.push_back(entities[k].index);
+    }
+  }
+  return !covered.empty() ? covered
+         : task.ofFaces() ? commonFaces(task.model().nurbs(), entities, facet.corners())
+                          : commonEntities(task.model().nurbs(), entities[0], entities[1], 1);
+}
+
+/// Takes facets between two cells off the CAD where outer ones are on the same face of it (of a
+/// planar mesh, edge), or others whose corners are exactly there while none of theirs is.
 void leaveEndsOfLayers(const ProjectionTask& task, const std::vector<ClosestPoint>& hits,
   std::vector<FacetRecord>& records)
 {
+  constexpr std::int64_t byExact = 1;
+  constexpr std::int64_t byOuter = 2;
   const auto& facets = task.boundary.facets;
   const int dimension = task.boundary.facetDimension();
-  std::vector<std::int64_t> outer(task.model().count(dimension), 0);
+  const auto isExact = [&](Index vertex) { return hits[vertex].distance <= task.exact(vertex); };
+  std::vector<std::int64_t> covers(task.model().count(dimension), 0);
   for (std::size_t f = 0; f < facets.size(); ++f)
   {
-    for (const Index vertex : facets[f])
+    if (records[f].onCAD &&
+        (!facets[f].isInside || std::all_of(facets[f].begin(), facets[f].end(), isExact)))
     {
-      const EntityId entity = hits[vertex].entity;
-      if (records[f].onCAD && !facets[f].isInside && entity.dimension == dimension)
+      for (const std::int32_t entity : findCovered(task, hits, facets[f]))
       {
-        outer[entity.index] = 1;
+        covers[entity] = std::max(covers[entity], facets[f].isInside ? byExact : byOuter);
       }
     }
   }
-  outer = task.exchange.max(outer);
-  const auto isBeside = [&](Index vertex)
+  covers = task.exchange.max(covers);
+  const auto isOf = [&](Index vertex, std::int32_t entity)
   {
-    const ClosestPoint& hit = hits[vertex];
-    return hit.entity.dimension == dimension && hit.distance > task.exact(vertex) &&
-           outer[hit.entity.index] > 0;
+    const auto around = entitiesAround(task.model().nurbs(), hits[vertex].entity, dimension);
+    return isExact(vertex) && std::binary_search(around.begin(), around.end(), entity);
+  };
+  const auto isBeside = [&](const Facet& facet, Index corner)
+  {
+    const EntityId entity = hits[corner].entity;
+    return entity.dimension == dimension && !isExact(corner) &&
+           (covers[entity.index] == byOuter ||
+             (covers[entity.index] == byExact &&
+               std::none_of(facet.begin(), facet.end(),
+                 [&](Index vertex) { return isOf(vertex, entity.index); })));
   };
   for (std::size_t f = 0; f < facets.size(); ++f)
   {
-    if (facets[f].isInside && std::any_of(facets[f].begin(), facets[f].end(), isBeside))
+    if (facets[f].isInside && std::any_of(facets[f].begin(), facets[f].end(),
+                                [&](Index corner) { return isBeside(facets[f], corner); }))
     {
       records[f].onCAD = 0;
     }
@@ -125,10 +159,19 @@ FaceSides findSides(const ProjectionTask& task, const std::vector<ClosestPoint>&
 {
   const std::size_t faces = task.model().nurbs().faces.size();
   std::vector<std::int64_t> votes(2 * faces, 0);
+  std::vector<std::int64_t> inside(faces, 0);
   for (std::size_t f = 0; f < records.size(); ++f)
   {
     if (!records[f].onCAD)
     {
+      continue;
+    }
+    if (task.boundary.facets[f].isInside)
+    {
+      for (const std::int32_t face : findCovered(task, hits, task.boundary.facets[f]))
+      {
+        inside[face] = 1; // it has a cell on either side
+      }
       continue;
     }
     for (const Index vertex : task.boundary.facets[f])
@@ -146,6 +189,7 @@ FaceSides findSides(const ProjectionTask& task, const std::vector<ClosestPoint>&
     }
   }
   votes = task.exchange.sum(votes);
+  inside = task.exchange.max(inside);
   std::vector<std::int64_t> alike(faces);
   std::vector<std::int64_t> opposite(faces);
   for (std::size_t face = 0; face < faces; ++face)
@@ -153,7 +197,12 @@ FaceSides findSides(const ProjectionTask& task, const std::vector<ClosestPoint>&
     alike[face] = votes[2 * face];
     opposite[face] = votes[2 * face + 1];
   }
-  return decideSides(alike, opposite);
+  FaceSides sides = decideSides(alike, opposite);
+  for (std::size_t face = 0; face < faces; ++face)
+  {
+    sides[face] = inside[face] ? std::int8_t{ 0 } : sides[face];
+  }
+  return sides;
 }
 
 std::vector<FaceMatch> findFaces(

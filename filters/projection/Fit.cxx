@@ -61,9 +61,7 @@ std::vector<Entry> firstOf(RankExchange& exchange, std::vector<Entry> mine, std:
 
 double measureOf(const Mesh& mesh, const Facet& facet)
 {
-  std::array<Point3, 4> p{};
-  std::transform(
-    facet.begin(), facet.end(), p.begin(), [&](Index vertex) { return mesh.points[vertex]; });
+  const auto p = pointsOf(mesh, facet);
   return facet.corners() == 2 ? distance(p[0], p[1])
                               : 0.5 * norm(twofoldAreaVector(p, facet.corners()));
 }
@@ -94,11 +92,13 @@ public:
         onCADToo.push_back(measure);
         addPart(parts, facets[f], record, measure);
       }
-      if (record.onCAD || (!record.free && isInBox(centroidOf(task_.mesh.mesh(), facets[f]))))
+      // Listed ones inside the mesh need not be of the CAD.
+      const bool isAsked = !record.free && !facets[f].isInside;
+      if (record.onCAD || (isAsked && isInBox(centroidOf(task_.mesh.mesh(), facets[f]))))
       {
         inBox.push_back(measure);
       }
-      if (record.onCAD || !record.free)
+      if (record.onCAD || isAsked)
       {
         all.push_back(measure);
       }

@@ -27,6 +27,15 @@ struct Facet
   const Index* end() const { return vertices.data() + corners(); }
 };
 
+/// Of its corners, in the first places.
+inline std::array<Point3, 4> pointsOf(const Mesh& mesh, const Facet& facet)
+{
+  std::array<Point3, 4> points{};
+  std::transform(
+    facet.begin(), facet.end(), points.begin(), [&](Index vertex) { return mesh.points[vertex]; });
+  return points;
+}
+
 /// The sides of a shape: of one of volume its faces, of others their edges.
 template<class Shape>
 constexpr auto& sidesOf(Shape)
