@@ -2,6 +2,7 @@
 
 #include "comm/CollectiveErrors.h"
 #include "comm/Threads.h"
+#include "mesh/BoundaryFacets.h"
 #include "mesh/MeshPlane.h"
 #include "motion/LayerColumns.h"
 #include "motion/Untangling.h"
@@ -10,6 +11,7 @@
 #include <cadrefine/mesh/VertexFlags.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <utility>
 
@@ -51,13 +53,15 @@ struct Motion
   std::vector<unsigned char> held;
   LayerColumns columns;
   std::vector<Index> aimed; ///< Vertices that are to reach the CAD; some more than once.
+  std::vector<unsigned char> ends = {}; ///< 1 for fixed vertices that make way; none: none do.
 
   Mesh& mesh() const { return distributed.mesh(); }
   bool isStuck(Index vertex) const { return mesh().points[vertex] != moves.targets[vertex]; }
   bool isHeld(std::size_t vertex) const { return !held.empty() && held[vertex]; }
   bool isInterior(std::size_t vertex) const
   {
-    return !settings.fixed[vertex] && !classification.entities[vertex];
+    const bool makesWay = !settings.fixed[vertex] || (!ends.empty() && ends[vertex]);
+    return makesWay && !classification.entities[vertex];
   }
   bool canSlide(std::size_t vertex) const { return classification.entities[vertex].dimension > 0; }
 };
@@ -111,6 +115,37 @@ std::vector<unsigned char> findHeld(RankExchange& exchange, const DistributedMes
     });
   combineFlags(exchange, mesh.shared, held);
   return held;
+}
+
+/// 1 for vertices of the ends of layers (see MoveSettings). Collective.
+std::vector<unsigned char> findEndsOfLayers(const Motion& motion)
+{
+  const Mesh& mesh = motion.mesh();
+  const auto& entities = motion.classification.entities;
+  const auto& fixed = motion.settings.fixed;
+  const auto facets = findBoundaryFacets(motion.exchange, motion.distributed, fixed);
+  std::vector<unsigned char> ends(mesh.points.size(), 0);
+  std::vector<unsigned char> others(mesh.points.size(), 0);
+  const auto flag = [&](const Facet& facet)
+  {
+    const bool isOff =
+      std::any_of(facet.begin(), facet.end(), [&](Index vertex) { return !entities[vertex]; });
+    const bool isEnd =
+      facet.isInside && isOff &&
+      motion.settings.projector.isBesideCAD(pointsOf(mesh, facet), facet.corners());
+    for (const Index vertex : facet)
+    {
+      (isEnd ? ends : others)[vertex] = 1;
+    }
+  };
+  agreeOnFailure(motion.exchange, [&] { std::for_each(facets.begin(), facets.end(), flag); });
+  combineFlags(motion.exchange, motion.distributed.shared, ends);
+  combineFlags(motion.exchange, motion.distributed.shared, others);
+  for (std::size_t v = 0; v < ends.size(); ++v)
+  {
+    ends[v] = ends[v] && !others[v] && fixed[v] == 1;
+  }
+  return ends;
 }
 
 ColumnNodes verticesOf(const DistributedMesh& mesh, const Classification& classification,
@@ -358,6 +393,10 @@ void moveOntoCAD(RankExchange& exchange, DistributedMesh& mesh, Moves moves,
   settle(motion, guard, moving);
   stayThere(motion, settled);
   std::int64_t count = dropDone(motion, left);
+  if (count > 0 && exchange.any(mesh.mesh().cellCount(mesh.mesh().dimension - 1) > 0))
+  {
+    motion.ends = findEndsOfLayers(motion);
+  }
   int idle = 0;
   for (int round = 0; count > 0 && idle < patience && round < maximumRounds; ++round)
   {

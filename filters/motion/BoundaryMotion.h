@@ -17,7 +17,9 @@ namespace cadrefine
 struct MoveSettings
 {
   const BoundaryProjector& projector;
-  /// 1 for vertices that do not make way: those of the boundary, over all ranks, unless they slide.
+  /// Over all ranks, 1 for vertices of the boundary, which do not make way unless they slide or are
+  /// of the end of a layer: of facets between two cells, off the CAD and beside it, alone. 2 for
+  /// others that do not.
   const std::vector<unsigned char>& fixed;
   /// Cells that are inverted or flat at the start are to be mended too.
   bool mendCells = false;

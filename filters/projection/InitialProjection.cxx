@@ -110,13 +110,13 @@ void leaveOut(const ProjectionTask& task, const EntitySelection& chosen,
     task.exchange, [&] { forEachIndex(parallelFor, records.size(), coarseGrain, decide); });
 }
 
-/// 1 for vertices that do not make way for others: those of the boundary, and outside the region.
+/// 1 for vertices of the boundary, 2 for those outside the region.
 std::vector<unsigned char> findFixed(const ProjectionTask& task)
 {
   std::vector<unsigned char> fixed = task.boundary.onBoundary;
   for (std::size_t v = 0; v < fixed.size(); ++v)
   {
-    fixed[v] = fixed[v] || !task.options.inRegion(task.points()[v]);
+    fixed[v] = task.options.inRegion(task.points()[v]) ? fixed[v] : 2;
   }
   return fixed;
 }

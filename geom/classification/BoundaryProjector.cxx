@@ -111,6 +111,24 @@ bool BoundaryProjector::isOnCAD(const ClassifiedFacet& facet) const
   return fitsNormal(where.entity, where, normal) && isOfACorner(facet, where.entity);
 }
 
+bool BoundaryProjector::isBesideCAD(const std::array<Point3, 4>& p, int corners) const
+{
+  double longest = 0;
+  for (int k = 0; k < corners; ++k)
+  {
+    longest = std::max(longest, distance(p[k], p[(k + 1) % corners]));
+  }
+  const ClosestPoint where =
+    nearest(centroidOf(p, corners), ClassificationTolerances::farthestCorner * longest);
+  if (!where.entity)
+  {
+    return false;
+  }
+  return kind_ == BoundaryKind::Edges
+           ? fitsTangent(model_, where, normalized(p[1] - p[0]))
+           : fitsNormal(where.entity, where, normalized(twofoldAreaVector(p, corners)));
+}
+
 /// Whether a corner of a facet between two cells lies on what is nearest to the middle of it.
 bool BoundaryProjector::isOfACorner(const ClassifiedFacet& facet, EntityId middle) const
 {

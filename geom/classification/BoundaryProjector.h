@@ -89,6 +89,9 @@ public:
   /// centroid. Tells the facets of a wall that meets the CAD from those on the CAD. Between two
   /// cells, which may be layers on the CAD, the centroid must be nearest to an entity of a corner.
   bool isOnCAD(const ClassifiedFacet& facet) const;
+  /// Whether a facet of so many corners lies beside the CAD: its middle is no farther away than
+  /// half of its longest edge, and its normal (a segment's direction) fits there to 60 degrees.
+  bool isBesideCAD(const std::array<Point3, 4>& points, int corners) const;
 
   /// Of a classified facet, the CAD face that all of its corners lie on; of several the nearest one
   /// whose normal fits; -1 where there is none.
