@@ -132,7 +132,7 @@ bool BoundaryProjector::isBesideCAD(const std::array<Point3, 4>& p, int corners)
 /// Whether a corner of a facet between two cells lies on what is nearest to the middle of it.
 bool BoundaryProjector::isOfACorner(const ClassifiedFacet& facet, EntityId middle) const
 {
-  const int dimension = dimensionOf(kind_);
+  const std::int8_t dimension = dimensionOf(kind_);
   return !facet.isInside ||
          std::any_of(facet.entities.begin(), facet.entities.begin() + facet.corners,
            [&](EntityId corner)
