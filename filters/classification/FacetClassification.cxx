@@ -158,8 +158,7 @@ FaceSides findSides(const ProjectionTask& task, const std::vector<ClosestPoint>&
   const std::vector<FacetRecord>& records)
 {
   const std::size_t faces = task.model().nurbs().faces.size();
-  std::vector<std::int64_t> votes(2 * faces, 0);
-  std::vector<std::int64_t> inside(faces, 0);
+  std::vector<std::int64_t> votes(3 * faces, 0); // alike, opposite, with a cell on either side
   for (std::size_t f = 0; f < records.size(); ++f)
   {
     if (!records[f].onCAD)
@@ -170,7 +169,7 @@ FaceSides findSides(const ProjectionTask& task, const std::vector<ClosestPoint>&
     {
       for (const std::int32_t face : findCovered(task, hits, task.boundary.facets[f]))
       {
-        inside[face] = 1; // it has a cell on either side
+        ++votes[3 * face + 2];
       }
       continue;
     }
@@ -184,23 +183,22 @@ FaceSides findSides(const ProjectionTask& task, const std::vector<ClosestPoint>&
       const Vector3 normal = task.model().normal(hit.entity.index, hit.parameters);
       if (fitsEitherWay(normal, records[f].normal))
       {
-        ++votes[2 * hit.entity.index + (dot(normal, records[f].normal) < 0)];
+        ++votes[3 * hit.entity.index + (dot(normal, records[f].normal) < 0)];
       }
     }
   }
   votes = task.exchange.sum(votes);
-  inside = task.exchange.max(inside);
   std::vector<std::int64_t> alike(faces);
   std::vector<std::int64_t> opposite(faces);
   for (std::size_t face = 0; face < faces; ++face)
   {
-    alike[face] = votes[2 * face];
-    opposite[face] = votes[2 * face + 1];
+    alike[face] = votes[3 * face];
+    opposite[face] = votes[3 * face + 1];
   }
   FaceSides sides = decideSides(alike, opposite);
   for (std::size_t face = 0; face < faces; ++face)
   {
-    sides[face] = inside[face] ? std::int8_t{ 0 } : sides[face];
+    sides[face] = votes[3 * face + 2] > 0 ? std::int8_t{ 0 } : sides[face];
   }
   return sides;
 }

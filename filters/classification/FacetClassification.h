@@ -25,8 +25,7 @@ struct FacetClasses
 ///   4. each triangle on the CAD finds its face (see FaceFinder);
 ///   5. those that are not sure of it take the face that most of their neighbours over smooth mesh
 ///      edges have.
-/// Collective: three reductions, of four numbers for each CAD face, and an exchange of the
-/// interface.
+/// Collective: two reductions, of four numbers for each CAD face, and an exchange of the interface.
 FacetClasses classifyFacets(const ProjectionTask& task, const std::vector<ClosestPoint>& hits);
 
 } // namespace cadrefine

@@ -20,7 +20,6 @@
 #include <functional>
 #include <map>
 #include <ostream>
-#include <set>
 
 namespace cadrefine
 {
@@ -83,29 +82,8 @@ std::size_t verticesOnWall(const LayerCase& tried)
 /// of all of its volumes.
 Mesh withListedEnd(const LayerCase& tried)
 {
-  Mesh mesh = meshOf(tried);
-  const std::size_t first = tried.layers * verticesOnWall(tried);
-  const auto isOfEnd = [&](Index vertex)
-  {
-    return static_cast<std::size_t>(vertex) >= first &&
-           static_cast<std::size_t>(vertex) < first + verticesOnWall(tried);
-  };
-  std::set<std::set<Index>> listed;
-  std::vector<Facet> sides;
-  forEachSide(mesh,
-    [&](const Facet& side)
-    {
-      if (std::all_of(side.begin(), side.end(), isOfEnd) &&
-          listed.emplace(side.begin(), side.end()).second)
-      {
-        sides.push_back(side);
-      }
-    });
-  for (const Facet& side : sides)
-  {
-    cadtest::list(side, mesh);
-  }
-  return mesh;
+  const std::size_t count = verticesOnWall(tried);
+  return cadtest::withListedSides(meshOf(tried), tried.layers * count, count);
 }
 
 // The wall moves by 4 to 40 first heights; refined, by the bulge of the CAD over its facets.

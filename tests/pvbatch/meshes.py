@@ -299,6 +299,30 @@ def write_mixed(path, path_2, lid=True, complete=False):
         gmsh.finalize()
 
 
+def write_two_ways(path, path_2):
+    """Two squares side by side: quadrilaterals that turn clockwise, triangles that do not; of second order as well."""
+    gmsh.initialize()
+    try:
+        gmsh.option.setNumber("General.Terminal", 0)
+        geo = gmsh.model.geo
+        corners = [geo.addPoint(x, y, 0) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1), (2, 0), (2, 1))]
+        lines = [geo.addLine(corners[a], corners[b])
+                 for a, b in ((0, 1), (1, 2), (2, 3), (3, 0), (1, 4), (4, 5), (5, 2))]
+        left = geo.addPlaneSurface([geo.addCurveLoop([-line for line in reversed(lines[:4])])])
+        geo.addPlaneSurface([geo.addCurveLoop([*lines[4:], -lines[1]])])
+        geo.mesh.setTransfiniteSurface(left)
+        geo.mesh.setRecombine(2, left)
+        geo.synchronize()
+        gmsh.option.setNumber("Mesh.MeshSizeMax", 0.3)
+        gmsh.option.setNumber("Mesh.SecondOrderIncomplete", 1)
+        gmsh.model.mesh.generate(2)
+        gmsh.write(path)
+        gmsh.model.mesh.setOrder(2)
+        gmsh.write(path_2)
+    finally:
+        gmsh.finalize()
+
+
 def write_plane(folder):
     """A square in the plane z = 0, with tagged sides, by gmsh."""
     gmsh.initialize()

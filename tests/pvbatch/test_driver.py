@@ -128,7 +128,6 @@ class ListedSurfaces(Case):
         self.generate(2, two_parts, with_layer, 1.0)
         self.expect_on_cad(3.9)
 
-
     def test_one_cell_high(self):
         """Wedges on either side of an interface that is in the CAD, which is listed either way round: all of its
         vertices are on the CAD's edges."""

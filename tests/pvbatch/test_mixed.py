@@ -266,26 +266,7 @@ class Mixed(unittest.TestCase):
     def test_surfaces_of_gmsh_either_way_round(self):
         """gmsh has the cells of each surface its own way round: two that do not agree, of quadrilaterals and of
         triangles; as they are where a cell is inverted."""
-        gmsh.initialize()
-        try:
-            gmsh.option.setNumber("General.Terminal", 0)
-            geo = gmsh.model.geo
-            corners = [geo.addPoint(x, y, 0) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1), (2, 0), (2, 1))]
-            lines = [geo.addLine(corners[a], corners[b]) for a, b in ((0, 1), (1, 2), (2, 3), (3, 0), (1, 4), (4, 5),
-                                                                      (5, 2))]
-            left = geo.addPlaneSurface([geo.addCurveLoop([-line for line in reversed(lines[:4])])])
-            geo.addPlaneSurface([geo.addCurveLoop([*lines[4:], -lines[1]])])
-            geo.mesh.setTransfiniteSurface(left)
-            geo.mesh.setRecombine(2, left)
-            geo.synchronize()
-            gmsh.option.setNumber("Mesh.MeshSizeMax", 0.3)
-            gmsh.model.mesh.generate(2)
-            for order, name in ((1, "ways1.msh"), (2, "ways2.msh")):
-                gmsh.option.setNumber("Mesh.SecondOrderIncomplete", 1)
-                gmsh.model.mesh.setOrder(order)
-                gmsh.write(self.path(name))
-        finally:
-            gmsh.finalize()
+        meshes.write_two_ways(self.path("ways1.msh"), self.path("ways2.msh"))
         for name in ("ways1", "ways2"):
             mesh = grid.from_grid(read(self.path(name + ".msh")))
             for kind, nodes in mesh.blocks:

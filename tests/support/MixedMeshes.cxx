@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <set>
 #include <utility>
 
 namespace cadtest
@@ -212,6 +213,23 @@ void halveSome(Mesh& mesh, std::size_t first, std::mt19937_64& random)
   mesh.quadrilaterals = left;
 }
 
+/// Lists a side as a cell.
+void list(const Facet& side, Mesh& mesh)
+{
+  const auto& v = side.vertices;
+  switch (side.corners())
+  {
+    case 2:
+      mesh.segments.push_back({ v[0], v[1] });
+      break;
+    case 3:
+      mesh.triangles.push_back({ v[0], v[1], v[2] });
+      break;
+    default:
+      mesh.quadrilaterals.push_back(v);
+  }
+}
+
 } // namespace
 
 Mesh mixedMesh(
@@ -266,27 +284,36 @@ Mesh quadrilateralRingMesh(
   return mesh;
 }
 
-void list(const Facet& side, Mesh& mesh)
-{
-  const auto& v = side.vertices;
-  switch (side.corners())
-  {
-    case 2:
-      mesh.segments.push_back({ v[0], v[1] });
-      break;
-    case 3:
-      mesh.triangles.push_back({ v[0], v[1], v[2] });
-      break;
-    default:
-      mesh.quadrilaterals.push_back(v);
-  }
-}
-
 Mesh withListedBoundary(Mesh mesh)
 {
   for (const Facet& facet : findOuterFacets(mesh))
   {
     list(facet, mesh);
+  }
+  return mesh;
+}
+
+Mesh withListedSides(Mesh mesh, std::size_t first, std::size_t count)
+{
+  const auto isAmong = [&](Index vertex)
+  {
+    const auto v = static_cast<std::size_t>(vertex);
+    return v >= first && v < first + count;
+  };
+  std::set<std::set<Index>> known;
+  std::vector<Facet> sides;
+  forEachSide(mesh,
+    [&](const Facet& side)
+    {
+      if (std::all_of(side.begin(), side.end(), isAmong) &&
+          known.emplace(side.begin(), side.end()).second)
+      {
+        sides.push_back(side);
+      }
+    });
+  for (const Facet& side : sides)
+  {
+    list(side, mesh);
   }
   return mesh;
 }

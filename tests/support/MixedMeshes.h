@@ -3,7 +3,6 @@
 
 #include "HexahedralMeshes.h"
 
-#include <cadrefine/mesh/Facets.h>
 #include <cadrefine/mesh/Mesh.h>
 
 #include <cstddef>
@@ -36,11 +35,12 @@ cadrefine::Mesh randomlyMixedMesh(const cadrefine::Mesh& hexahedra, std::uint64_
 cadrefine::Mesh quadrilateralRingMesh(
   double radius, double offset, int corners, const std::vector<double>& heights);
 
-/// Lists a side as a cell.
-void list(const cadrefine::Facet& side, cadrefine::Mesh& mesh);
-
 /// The same with its outer sides listed as cells.
 cadrefine::Mesh withListedBoundary(cadrefine::Mesh mesh);
+
+/// The same with the sides whose vertices are all among `count` ones from `first` on listed as
+/// cells, each once.
+cadrefine::Mesh withListedSides(cadrefine::Mesh mesh, std::size_t first, std::size_t count);
 
 /// The same with all cells of each shape in another order.
 cadrefine::Mesh withMixedOrder(cadrefine::Mesh mesh, std::uint64_t seed);
