@@ -253,17 +253,26 @@ EdgeClass BoundaryProjector::classify(const std::array<Point3, 2>& points,
   return smooth >= 0 ? EdgeClass{ EdgeClass::OnEdge, smooth } : onFace;
 }
 
+/// Beyond the end of a crease on those that continue it.
 ClosestPoint BoundaryProjector::projectOnEdge(std::int32_t edge, const Point3& point) const
 {
-  if (edge >= 0)
+  if (edge < 0)
   {
-    const ClosestPoint where = nearestOn({ 1, edge }, point);
-    if (where.entity.dimension == 1 || !model_.nurbs().edges[edge].sharp)
+    return edges_.nearestCrease(point, std::numeric_limits<double>::infinity());
+  }
+  ClosestPoint where = nearestOn({ 1, edge }, point);
+  EntityId end;
+  while (where.entity.dimension == 0 && where.entity != end)
+  {
+    end = where.entity;
+    for (const std::int32_t next : entitiesAround(model_.nurbs(), end, 1))
     {
-      return where;
+      const ClosestPoint onNext =
+        lines_[next] == lines_[edge] ? nearestOn({ 1, next }, point) : ClosestPoint{};
+      where = isNearer(onNext, where) ? onNext : where;
     }
   }
-  return edges_.nearestCrease(point, std::numeric_limits<double>::infinity());
+  return where;
 }
 
 std::vector<std::int32_t> BoundaryProjector::entitiesOf(

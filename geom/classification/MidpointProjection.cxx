@@ -14,8 +14,9 @@ namespace cadrefine
 namespace
 {
 
-/// How far inside its face a place is looked for, to the middle's distance from the border.
-constexpr std::array partsInside{ 1.0, 1.0 / 2, 1.0 / 4, 1.0 / 8 };
+/// A place inside its face is looked for as far from the border as the middle is, and less far, by
+/// halves, down to this part of it.
+constexpr double leastPartInside = 1.0 / 1024;
 /// A place on a face is taken instead of one on its border that is so many times nearer.
 constexpr double asNear = 1.25;
 /// Of a mesh edge's length: a place so near to one of its ends is not that of its middle.
@@ -282,7 +283,7 @@ ClosestPoint offCrease(
     return isBeside ? where : border;
   }
   // As far inside as the middle is outside; where the face is narrower than that, less.
-  for (const double part : partsInside)
+  for (double part = 1; part >= leastPartInside; part *= 0.5)
   {
     ClosestPoint inside = projector.nearestOnShared(
       edge.edgeClass, edge.entities, border.point + part * (border.point - middle));

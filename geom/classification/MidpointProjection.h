@@ -26,7 +26,7 @@ ClosestPoint onNose(
 /// both ends share: not on another one that is nearer to a chord which leaves its face, and not on
 /// a crease that the edge is not on, where it would meet the vertices of the crease's own mesh
 /// edges. As far inside the crease as the midpoint is outside, or less where the face is narrower.
-/// Work: none where `where` is on such a face; else a projection a face, and up to four more.
+/// Work: none where `where` is on such a face; else a projection a face, and up to eleven more.
 ClosestPoint offCrease(
   const BoundaryProjector& projector, const BoundaryEdge& edge, const ClosestPoint& where);
 

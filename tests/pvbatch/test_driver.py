@@ -128,6 +128,31 @@ class ListedSurfaces(Case):
         self.generate(2, two_parts, with_layer, 1.0)
         self.expect_on_cad(3.9)
 
+    def test_wall_of_one_cell(self):
+        """Hexahedra between two cylinders, over which these bulge by seven times as much as they are apart."""
+        occ = gmsh.model.occ
+
+        def pipe():
+            occ.cut([(3, occ.addCylinder(0, 0, 0, 0, 0, 1.5, 1))], [(3, occ.addCylinder(0, 0, 0, 0, 0, 1.5, 0.995))])
+
+        def with_hexahedra():
+            side = [(2, occ.addRectangle(0.995, 0, 0, 0.005, 1.5))]
+            occ.rotate(side, 0, 0, 0, 1, 0, 0, np.pi / 2)
+            occ.rotate(side, 0, 0, 0, 0, 0, 1, np.pi / 12)  # the seams of the cylinders are over middles of facets
+            for _ in range(2):
+                side = occ.revolve(side, 0, 0, 0, 0, 0, 1, np.pi, numElements=[6], recombine=True)[:1]
+            occ.removeAllDuplicates()
+            occ.synchronize()
+            for _, curve in gmsh.model.getEntities(1):
+                gmsh.model.mesh.setTransfiniteCurve(curve, 2)
+            for _, surface in gmsh.model.getEntities(2):
+                gmsh.model.mesh.setTransfiniteSurface(surface)
+                gmsh.model.mesh.setRecombine(2, surface)
+
+        self.generate(3, pipe, with_hexahedra, 5.0)
+        self.assertEqual(len(meshio.read(self.path("mesh.msh")).cells_dict["hexahedron"]), 12)
+        self.expect_on_cad(3.9)
+
     def test_one_cell_high(self):
         """Wedges on either side of an interface that is in the CAD, which is listed either way round: all of its
         vertices are on the CAD's edges."""

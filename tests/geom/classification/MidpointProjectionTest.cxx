@@ -52,19 +52,32 @@ TEST_F(ThinSheet, keepsMidpointsOnTheirSide)
   EXPECT_NEAR(distance(where.point, at(1.01, 70, 0.5)), 0, 1e-9);
 }
 
-/// The same along the rim, where outer side and end meet.
+/// The same along the rim, where outer side and end meet, also where the closed edge begins.
 TEST_F(ThinSheet, keepsMidpointsOnTheirCrease)
 {
-  const std::array<Point3, 2> points{ at(1.01, 40, 1), at(1.01, 100, 1) };
   const EntityId rim = projector.nearest(at(1.02, 70, 1.01), unlimited).entity;
   ASSERT_EQ(rim.dimension, 1);
-  const std::vector<FacetRecord> facets{ { at(1, 70, 0), 1, 1, 0, -1 },
-    { { 0, 0, 1 }, 1, 1, 0, -1 } };
-  const EdgeClass edgeClass = projector.classify(points, { rim, rim }, facets);
-  ASSERT_EQ(edgeClass.kind, EdgeClass::OnEdge);
-  EXPECT_EQ(edgeClass.entity, rim.index);
-  const ClosestPoint where = projectMidpoint(projector, { edgeClass, points, { rim, rim } });
-  EXPECT_NEAR(distance(where.point, at(1.01, 70, 1)), 0, 1e-9);
+  for (const double degrees : { 70, 0 })
+  {
+    const std::array<Point3, 2> points{ at(1.01, degrees - 30, 1), at(1.01, degrees + 30, 1) };
+    const std::vector<FacetRecord> facets{ { at(1, degrees, 0), 1, 1, 0, -1 },
+      { { 0, 0, 1 }, 1, 1, 0, -1 } };
+    const EdgeClass edgeClass = projector.classify(points, { rim, rim }, facets);
+    ASSERT_EQ(edgeClass.kind, EdgeClass::OnEdge);
+    EXPECT_EQ(edgeClass.entity, rim.index);
+    const ClosestPoint where = projectMidpoint(projector, { edgeClass, points, { rim, rim } });
+    EXPECT_NEAR(distance(where.point, at(1.01, degrees, 1)), 0, 1e-9);
+  }
+}
+
+/// Of a chord on the end, which is much narrower than the bow over that.
+TEST_F(ThinSheet, keepsMidpointsInItsEnd)
+{
+  const std::array<Point3, 2> points{ at(1.005, 40, 1), at(1.005, 100, 1) };
+  const EntityId end = projector.nearest(points[0], unlimited).entity;
+  ASSERT_EQ(end.dimension, 2);
+  const BoundaryEdge edge{ { EdgeClass::Smooth, end.index }, points, { end, end } };
+  EXPECT_EQ(offCrease(projector, edge, projectMidpoint(projector, edge)).entity, end);
 }
 
 /// Of a diameter all of the bow over it is as near to its middle as its ends are.
