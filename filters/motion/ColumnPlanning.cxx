@@ -4,6 +4,7 @@
 #include "motion/FirstEdges.h"
 
 #include <cadrefine/base/SortUniquely.h>
+#include <cadrefine/classification/ClassificationTolerances.h>
 
 #include <algorithm>
 #include <array>
@@ -70,11 +71,13 @@ std::vector<unsigned char> findInnerWalls(RankExchange& exchange, const Columns&
   return flags;
 }
 
-/// For each moving node the facet that its column stands on. Collective.
+/// For each moving node the facet that its column stands on, none of one that only a rounding
+/// moves. Collective.
 std::vector<BestFacet> findBestFacets(
   RankExchange& exchange, const Columns& columns, const Moves& moves)
 {
   const ColumnNodes& nodes = columns.nodes;
+  const double rounding = ClassificationTolerances::tie * columns.projector.model().size();
   std::vector<BestFacet> best(nodes.points.size());
   for (const Facet& facet : columns.facets)
   {
@@ -82,11 +85,11 @@ std::vector<BestFacet> findBestFacets(
     for (int k = 0; k < nodes.count(facet); ++k)
     {
       const Index n = nodes.at(facet, k);
-      if (moves.fractions[n] > 0)
+      const Vector3 move = moves.targets[n] - nodes.points[n];
+      if (moves.fractions[n] > 0 && norm(move) > rounding)
       {
-        const Vector3 direction = normalized(moves.targets[n] - nodes.points[n]);
         best[n] = better(best[n],
-          { std::abs(dot(direction, normal)), idsOf(columns.mesh.mesh(), facet.vertices) });
+          { std::abs(dot(normalized(move), normal)), idsOf(columns.mesh.mesh(), facet.vertices) });
       }
     }
   }
@@ -234,8 +237,9 @@ void ColumnPlanning::listMembers(
   }
 }
 
-/// Nodes that are to move along their facets only, and to which a column comes that does so too:
-/// they start none themselves. Given the cosines between the moves and the facets' normals.
+/// Nodes that are to move along their facets only, or by a rounding, and to which a column comes
+/// that moves along them too: they start none themselves. Given the cosines between the moves and
+/// the facets' normals.
 /// Collective.
 void ColumnPlanning::findYielding(
   RankExchange& exchange, const Moves& moves, const std::vector<double>& cosines)

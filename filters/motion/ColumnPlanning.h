@@ -13,8 +13,8 @@ namespace cadrefine
 /// 1. From each moving node of a wall a column climbs from the facet whose normal is nearest to its
 ///    move, until the stack ends or is a hundred moves high (ColumnClimb).
 /// 2. Of mid nodes, lifts where the first height halfway between two columns is to be kept.
-/// 3. Nodes that move along their facets only, and to which a column comes that does so too, start
-///    none, but go along.
+/// 3. Nodes that move along their facets only, or by a rounding, and to which a column comes that
+///    moves along them too, start none, but go along.
 /// 4. A node that several columns come to is of the one that is lowest there.
 /// 5. Columns that end at each other's walls, near enough, become pairs.
 /// 6. How far up a column's move fades out, and so the part of it that each node takes.
