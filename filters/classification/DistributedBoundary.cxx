@@ -166,6 +166,7 @@ FacetRecord makeRecord(const BoundaryProjector& projector, const ClassifiedFacet
     record.area = 0.5 * norm(twofoldArea);
   }
   record.onCAD = isClassified(facet) && projector.isOnCAD(facet) ? 1 : 0;
+  record.isInside = facet.isInside ? 1 : 0;
   return record;
 }
 

@@ -96,7 +96,11 @@ void leaveEndsOfLayers(const ProjectionTask& task, const std::vector<ClosestPoin
   constexpr std::int64_t byOuter = 2;
   const auto& facets = task.boundary.facets;
   const int dimension = task.boundary.facetDimension();
-  const auto isExact = [&](Index vertex) { return hits[vertex].distance <= task.exact(vertex); };
+  const auto isExact = [&](Index vertex)
+  {
+    return hits[vertex].distance <=
+           roundedDistance(task.model(), task.boundary.shortestEdge[vertex]);
+  };
   std::vector<std::int64_t> covers(task.model().count(dimension), 0);
   for (std::size_t f = 0; f < facets.size(); ++f)
   {
@@ -158,19 +162,11 @@ FaceSides findSides(const ProjectionTask& task, const std::vector<ClosestPoint>&
   const std::vector<FacetRecord>& records)
 {
   const std::size_t faces = task.model().nurbs().faces.size();
-  std::vector<std::int64_t> votes(3 * faces, 0); // alike, opposite, with a cell on either side
+  std::vector<std::int64_t> votes(2 * faces, 0); // alike, opposite
   for (std::size_t f = 0; f < records.size(); ++f)
   {
-    if (!records[f].onCAD)
+    if (!records[f].onCAD || records[f].isInside)
     {
-      continue;
-    }
-    if (task.boundary.facets[f].isInside)
-    {
-      for (const std::int32_t face : findCovered(task, hits, task.boundary.facets[f]))
-      {
-        ++votes[3 * face + 2];
-      }
       continue;
     }
     for (const Index vertex : task.boundary.facets[f])
@@ -183,24 +179,14 @@ FaceSides findSides(const ProjectionTask& task, const std::vector<ClosestPoint>&
       const Vector3 normal = task.model().normal(hit.entity.index, hit.parameters);
       if (fitsEitherWay(normal, records[f].normal))
       {
-        ++votes[3 * hit.entity.index + (dot(normal, records[f].normal) < 0)];
+        const bool isOpposite = dot(normal, records[f].normal) < 0;
+        ++votes[hit.entity.index + (isOpposite ? faces : 0)];
       }
     }
   }
   votes = task.exchange.sum(votes);
-  std::vector<std::int64_t> alike(faces);
-  std::vector<std::int64_t> opposite(faces);
-  for (std::size_t face = 0; face < faces; ++face)
-  {
-    alike[face] = votes[3 * face];
-    opposite[face] = votes[3 * face + 1];
-  }
-  FaceSides sides = decideSides(alike, opposite);
-  for (std::size_t face = 0; face < faces; ++face)
-  {
-    sides[face] = votes[3 * face + 2] > 0 ? std::int8_t{ 0 } : sides[face];
-  }
-  return sides;
+  const auto opposite = votes.begin() + static_cast<std::ptrdiff_t>(faces);
+  return decideSides({ votes.begin(), opposite }, { opposite, votes.end() });
 }
 
 std::vector<FaceMatch> findFaces(
@@ -209,6 +195,7 @@ std::vector<FaceMatch> findFaces(
   const auto& records = classes.records;
   const auto amongTheirOwn = findThoseAmongTheirOwn(task, hits);
   const FaceFinder finder(task.model(), classes.sides);
+  const FaceFinder ofInside(task.model(), FaceSides(classes.sides.size(), 0));
   std::vector<CornerHits> queries;
   std::vector<std::size_t> facets;
   for (std::size_t f = 0; f < records.size(); ++f)
@@ -219,6 +206,7 @@ std::vector<FaceMatch> findFaces(
     }
     CornerHits query;
     query.exact = 1;
+    query.isInside = records[f].isInside;
     query.corners = task.boundary.facets[f].corners();
     for (int k = 0; k < query.corners; ++k)
     {
@@ -232,7 +220,7 @@ std::vector<FaceMatch> findFaces(
     facets.push_back(f);
   }
   const auto answers = mapBalanced<FaceMatch>(task.exchange, std::move(queries),
-    [&](const CornerHits& query) { return finder.find(query); },
+    [&](const CornerHits& query) { return (query.isInside ? ofInside : finder).find(query); },
     { "finding the CAD faces of", "facets" });
   std::vector<FaceMatch> matches(records.size());
   for (std::size_t i = 0; i < facets.size(); ++i)

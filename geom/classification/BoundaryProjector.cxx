@@ -132,11 +132,15 @@ bool BoundaryProjector::isBesideCAD(const std::array<Point3, 4>& p, int corners)
 /// Whether a corner of a facet between two cells lies on what is nearest to the middle of it.
 bool BoundaryProjector::isOfACorner(const ClassifiedFacet& facet, EntityId middle) const
 {
-  const std::int8_t dimension = dimensionOf(kind_);
-  return !facet.isInside ||
-         std::any_of(facet.entities.begin(), facet.entities.begin() + facet.corners,
-           [&](EntityId corner)
-           { return !commonEntities(model_.nurbs(), corner, middle, dimension).empty(); });
+  bool isOf = !facet.isInside;
+  for (int k = 0; k < facet.corners && !isOf; ++k)
+  {
+    const Point3& corner = facet.points[k];
+    const double length = distance(corner, facet.points[(k + 1) % facet.corners]);
+    isOf = !commonEntities(model_.nurbs(), facet.entities[k], middle, dimensionOf(kind_)).empty() ||
+           nearestOn(middle, corner).distance <= roundedDistance(model_, length);
+  }
+  return isOf;
 }
 
 std::int32_t BoundaryProjector::faceOf(const ClassifiedFacet& facet) const

@@ -169,6 +169,12 @@ double exactDistance(const CADModel& model, double shortestEdge)
     std::min(T::exact * model.size(), T::exactPartOfEdge * shortestEdge));
 }
 
+double roundedDistance(const CADModel& model, double shortestEdge)
+{
+  using T = ClassificationTolerances;
+  return std::min(T::rounded * model.size(), T::exactPartOfEdge * shortestEdge);
+}
+
 bool fitsTangent(const CADModel& model, const ClosestPoint& where, const Vector3& direction)
 {
   if (where.entity.dimension == 1)

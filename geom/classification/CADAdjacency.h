@@ -39,6 +39,10 @@ ClosestPoint onSharedEdge(const CADModel& model, const Point3& point, const Clos
 /// of it, or a tenth of the vertex's shortest edge where that is less (but 1e-9 of the size).
 double exactDistance(const CADModel& model, double shortestEdge);
 
+/// The same for a mesh whose file has five digits, as the short fields of Nastran: 5e-5 of the
+/// size, or a tenth of the shortest edge.
+double roundedDistance(const CADModel& model, double shortestEdge);
+
 /// Whether the CAD edge at this point, or one that ends there, fits the direction.
 bool fitsTangent(const CADModel& model, const ClosestPoint& where, const Vector3& direction);
 

@@ -78,6 +78,8 @@ struct ClassificationTolerances
 
   /// More than an IGES file's rounding of 1e-7 of a coordinate makes of a point on the CAD.
   static constexpr double exact = 2e-7;
+  /// What five digits leave of a coordinate.
+  static constexpr double rounded = 5e-5;
   /// But not more than this part of the vertex's shortest edge,
   static constexpr double exactPartOfEdge = 0.1;
   /// and not less than the precision of a nearest point.

@@ -90,9 +90,10 @@ ClosestPoint EdgeFinder::nearestCrease(const Point3& point, double limit) const
 }
 
 /// Whether two faces that make an angle at the point have the normals of the two facets, up to one
-/// sign; of one facet, whether a face has its normal.
+/// sign, or two if a facet is between cells; of one facet, whether a face has its normal.
 bool EdgeFinder::fitsNormals(const ClosestPoint& where, const MeshEdge& edge) const
 {
+  const bool anySigns = edge.facets[0].isInside || edge.facets[1].isInside;
   const auto faces = entitiesAround(model_.nurbs(), where.entity, 2);
   std::vector<Vector3> normals(faces.size());
   std::transform(faces.begin(), faces.end(), normals.begin(),
@@ -112,7 +113,7 @@ bool EdgeFinder::fitsNormals(const ClosestPoint& where, const MeshEdge& edge) co
           [&](const Vector3& second)
           {
             return fitsEitherWay(second, edge.facets[1].normal) &&
-                   sign * dot(second, edge.facets[1].normal) > 0 &&
+                   (anySigns || sign * dot(second, edge.facets[1].normal) > 0) &&
                    dot(first, second) < Tolerances::flatCosine;
           }))
     {

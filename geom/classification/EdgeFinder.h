@@ -23,6 +23,7 @@ struct FacetRecord
   std::int32_t face = -1;  ///< CAD face that a triangle on the CAD stands for; -1: not known.
   std::int32_t ear = -1;   ///< CAD edge that all corners of a triangle lie on; -1: none.
   unsigned char odd = 0;   ///< All corners of a facet lie on the CAD, but its normal fits no face.
+  unsigned char isInside = 0; ///< The facet is between two cells: its normal may be either one.
 };
 
 /// The facets on the CAD beside an edge, or none where a facet beside it was left out by the user.

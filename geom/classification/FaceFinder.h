@@ -32,6 +32,7 @@ struct CornerHits
   std::array<unsigned char, 4> amongItsOwn{};
   /// All corners lie on the CAD already (see exactDistance).
   unsigned char exact = 0;
+  unsigned char isInside = 0; ///< The facet is between two cells: its normal may be either one.
 };
 
 struct FaceMatch
