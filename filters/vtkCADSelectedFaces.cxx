@@ -90,15 +90,12 @@ int FindDimension(
   {
     dimension = std::max(dimension, mesh->GetCell(cell)->GetCellDimension());
   }
-  cadrefine::BoundingBox box;
-  if (mesh->GetNumberOfPoints() > 0)
+  std::vector<cadrefine::Point3> points(mesh->GetNumberOfPoints());
+  for (std::size_t p = 0; p < points.size(); ++p)
   {
-    double bounds[6];
-    mesh->GetBounds(bounds);
-    box = { { bounds[0], bounds[2], bounds[4] }, { bounds[1], bounds[3], bounds[5] } };
+    mesh->GetPoint(static_cast<vtkIdType>(p), points[p].data());
   }
-  box = cadrefine::combineBoxes(exchange, box);
-  return exchange.max(dimension) == 2 && cadrefine::isPlanar(box, model) ? 1 : 2;
+  return exchange.max(dimension) == 2 && cadrefine::isPlanar(exchange, points, model) ? 1 : 2;
 }
 
 /// Of all ranks, on rank 0. Collective.

@@ -6,6 +6,7 @@
 #include "comm/SharedEdges.h"
 #include "comm/Threads.h"
 #include "mesh/BoundaryFacets.h"
+#include "mesh/MeshPlane.h"
 
 #include <cadrefine/mesh/Quality.h>
 
@@ -70,18 +71,17 @@ struct SentRecord
 
 } // namespace
 
-bool isPlanar(const BoundingBox& box, const CADModel& model)
+bool isPlanar(RankExchange& exchange, const std::vector<Point3>& points, const CADModel& model)
 {
-  const auto& [low, high] = box;
-  return model.count(2) == 0 || low[0] == high[0] || low[1] == high[1] || low[2] == high[2];
+  return model.count(2) == 0 || normalOfPoints(exchange, points) != Vector3{};
 }
 
 BoundaryKind kindOfBoundary(
   RankExchange& exchange, const DistributedMesh& mesh, const CADModel& model)
 {
   const Mesh& piece = mesh.mesh();
-  return piece.dimension == 2 && isPlanar(findBox(exchange, piece), model) ? BoundaryKind::Edges
-                                                                           : BoundaryKind::Faces;
+  return piece.dimension == 2 && isPlanar(exchange, piece.points, model) ? BoundaryKind::Edges
+                                                                         : BoundaryKind::Faces;
 }
 
 DistributedBoundary findBoundary(RankExchange& exchange, const DistributedMesh& mesh,

@@ -40,9 +40,9 @@ struct DistributedBoundary
   int facetDimension() const { return dimensionOf(kind); }
 };
 
-/// Whether a mesh of triangles within these bounds is planar, and compared with the edges of the
-/// model: if this has no faces, or if all vertices have one coordinate in common.
-bool isPlanar(const BoundingBox& box, const CADModel& model);
+/// Whether a mesh of area with these vertices is compared with the edges of the model: if this has
+/// no faces, or if the mesh is planar (see normalOfPoints). Collective.
+bool isPlanar(RankExchange& exchange, const std::vector<Point3>& points, const CADModel& model);
 
 /// As what the boundary of a mesh is compared with the model. Collective.
 BoundaryKind kindOfBoundary(

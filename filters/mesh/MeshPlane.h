@@ -5,12 +5,17 @@
 
 #include <cadrefine/mesh/Mesh.h>
 
+#include <vector>
+
 namespace cadrefine
 {
 
-/// Unit normal of the coordinate plane in which all cells of a mesh of area lie, turned the way
-/// most of them turn; zero where there is no such plane, and of other meshes. Collective; two
-/// reductions of three numbers, work linear in the cells.
+/// A unit normal of the plane in which the points of all ranks lie, to 2e-7 of their extent, which
+/// is what single precision leaves; zero where they lie in none. One axis, up to its sign, where
+/// they have a coordinate in common. Collective; four reductions, work linear in the points.
+Vector3 normalOfPoints(RankExchange& exchange, const std::vector<Point3>& points);
+
+/// The same of a mesh of area, turned the way most of its cells turn; zero of other meshes.
 Vector3 planeNormal(RankExchange& exchange, const Mesh& mesh);
 
 } // namespace cadrefine

@@ -39,9 +39,9 @@ def of_dimension(dimension, mesh):
 
 
 def is_flat(mesh):
-    """Whether the mesh is one in the plane."""
-    bounds = mesh.GetDataInformation().GetBounds()
-    return bounds[4] == bounds[5]
+    """Whether the mesh is one in the plane, whose error is an area."""
+    dimension = mesh.FieldData["GeometricErrorDimension"]
+    return dimension is not None and dimension.GetRange(0)[0] == 2
 
 
 def gather(mesh, cad, quadratic):

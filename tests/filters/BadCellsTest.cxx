@@ -386,7 +386,7 @@ TEST_F(BadCells, ranksWithoutAnything)
   expectSame(filtersOfRawMeshes(), isLast() ? piece.Get() : nothing.Get(), whole);
 }
 
-/// The same mesh as in a coordinate plane, but no side of it is known.
+/// As in a coordinate plane, also in single precision; out of every plane no side of it is known.
 TEST_F(BadCells, planeMeshesOutsideTheCoordinatePlanes)
 {
   const auto tilt = [](const Point3& p) {
@@ -402,6 +402,14 @@ TEST_F(BadCells, planeMeshesOutsideTheCoordinatePlanes)
   };
   EXPECT_EQ(invalidOf(mesh), 1);
   std::transform(mesh.points.begin(), mesh.points.end(), mesh.points.begin(), tilt);
+  EXPECT_EQ(invalidOf(mesh), 1);
+  for (Point3& point : mesh.points)
+  {
+    std::transform(point.begin(), point.end(), point.begin(),
+      [](double x) { return static_cast<double>(static_cast<float>(x)); });
+  }
+  EXPECT_EQ(invalidOf(mesh), 1);
+  mesh.points[0][2] += 1e-3;
   EXPECT_EQ(invalidOf(mesh), 0);
 }
 

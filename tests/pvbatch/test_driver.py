@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """The driver on the bundled cases: what the report says, what the files hold."""
 
+import itertools
 import json
 import os
 import subprocess
@@ -81,6 +82,7 @@ class ListedSurfaces(Case):
         self.assertEqual([step["unprojected_vertices"] for step in report["steps"]], [0, 0, 0])
         self.assertEqual([step["invalid_cells"] for step in report["steps"]], [0, 0, 0])
         self.assertGreater(min(errors[0] / errors[1], errors[1] / errors[2]), ratio)
+        return report
 
     def test_thin_ring_of_tetrahedra(self):
         """Round a hole, thinner than the CAD bulges over a facet."""
@@ -127,6 +129,21 @@ class ListedSurfaces(Case):
 
         self.generate(2, two_parts, with_layer, 1.0)
         self.expect_on_cad(3.9)
+
+    def test_plane_in_space(self):
+        """The same where the plane is turned: as in the plane z = 0, the error is an area."""
+        occ = gmsh.model.occ
+
+        def discs():
+            parts = occ.fragment([(2, occ.addDisk(0, 0, 0, 1, 1))], [(2, occ.addDisk(0, 0, 0, 0.5, 0.5))])[0]
+            occ.rotate(parts, 0, 0, 0, 1, 2, 3, 1.0)
+            occ.synchronize()
+            gmsh.model.mesh.setRecombine(*parts[0])
+            gmsh.model.mesh.setReverse(*parts[0])
+
+        self.generate(2, discs, discs, 0.3)
+        report = self.expect_on_cad(3.9)
+        self.assertEqual((report["dimension"], report["error_measure"]), (2, "area"))
 
     def test_wall_of_one_cell(self):
         """Hexahedra between two cylinders, over which these bulge by seven times as much as they are apart."""

@@ -7,6 +7,7 @@ import contextlib
 import ctypes
 import ctypes.util
 import io
+import itertools
 import os
 import re
 import shutil
@@ -277,10 +278,12 @@ class Mixed(unittest.TestCase):
                     for node in range(count, at.shape[1]):
                         ends = at[:, [node - count, (node - count + 1) % count]]
                         self.assertTrue(np.allclose(at[:, node], ends.mean(axis=1)), (name, kind))
-        others = np.array([[1, 0], [0, 1], [1, 1], [2, 0], [2, 1]], float)
+        others = np.array([[1, 0, 0], [0, 1, 0], [1, 1, 0], [2, 0, 0], [2, 1, 0]], float)
         blocks = [(5, np.array([[0, 1, 2], [2, 1, 3]])), (9, np.array([[3, 5, 4, 1]]))]
-        for corner, is_inverted in (((0, 0), False), ((1.5, 1.5), True)):
-            mesh = turned_alike(grid.Mesh(np.vstack([corner, others]), blocks))
+        turned = np.array([[-0.36, 0.8, -0.48], [0.48, 0.6, 0.64], [0.8, 0, -0.6]])
+        cases = itertools.product((((0, 0, 0), False), ((1.5, 1.5, 0), True)), (np.eye(3), turned))
+        for (corner, is_inverted), turn in cases:
+            mesh = turned_alike(grid.Mesh(np.vstack([corner, others]) @ turn, blocks))
             self.assertEqual(mesh.blocks[0][1].tolist(), blocks[0][1].tolist())
             self.assertEqual(mesh.blocks[1][1].tolist(), [[3, 5, 4, 1] if is_inverted else [3, 1, 4, 5]])
 

@@ -9,6 +9,7 @@ from cadrefine.formats.grid import PHYSICAL, tag_array
 from cadrefine.formats.groups import BOUNDARY, is_list, set_groups, unused
 
 WIDTH = 4  # Most corners of a side.
+IN_PLANE = 2e-7  # A planar mesh leaves its plane by less, in parts of its extent: the filters take it for one, too.
 
 
 @dataclasses.dataclass
@@ -143,13 +144,17 @@ def once(mesh):
 
 
 def turned_alike(mesh):
-    """The cells of a mesh of the plane z = 0 all counter-clockwise: gmsh has those of each surface its own way round.
-    As it is where all are one way round, or two are on the same side of an edge between them, as inverted ones are."""
-    corners, cells = cells_of(mesh, 2)
-    if mesh.cell_dimensions().max(initial=0) != 2 or np.any(mesh.points[:, 2:]):
+    """The cells of a mesh of one plane all the same way round, in z = 0 counter-clockwise: gmsh has those of each
+    surface its own way round. As it is where all are one way round, or two are on the same side of an edge between
+    them, as inverted ones are."""
+    if mesh.cell_dimensions().max(initial=0) != 2:
         return mesh
-    x, y = np.moveaxis(mesh.points[np.where(corners < 0, corners[:, :1], corners), :2] -
-                       mesh.points[corners[:, :1], :2], 2, 0)
+    corners, cells = cells_of(mesh, 2)
+    points = np.pad(mesh.points, ((0, 0), (0, 3 - mesh.points.shape[1])))
+    axes = axes_of_plane(points[np.unique(corners[corners >= 0])])
+    if axes is None:
+        return mesh
+    x, y = np.moveaxis((points[np.where(corners < 0, corners[:, :1], corners)] - points[corners[:, :1]]) @ axes, 2, 0)
     turns = np.sign((x * np.roll(y, -1, axis=1) - y * np.roll(x, -1, axis=1)).sum(axis=1))
     ends, of_side, _ = all_sides(mesh, 2)
     on_left = turns[np.searchsorted(cells, of_side)] * np.where(ends[:, 0] < ends[:, 1], 1, -1)
@@ -163,6 +168,16 @@ def turned_alike(mesh):
             nodes = np.where(turns.pop(0)[:, np.newaxis] < 0, turned, nodes)
         blocks.append((kind, nodes))
     return dataclasses.replace(mesh, blocks=blocks)
+
+
+def axes_of_plane(points):
+    """Two unit vectors, as columns, that span the plane of the points; None where these lie in none."""
+    offsets = points - points.mean(axis=0)
+    (first, second, normal), extent = np.linalg.svd(offsets, full_matrices=False)[2], np.ptp(offsets, axis=0).max()
+    if np.abs(offsets @ normal).max() > IN_PLANE * extent:
+        return None
+    largest = np.abs(normal).argmax()
+    return np.column_stack([first, second * np.sign(np.cross(first, second)[largest])])
 
 
 def padded(side):
