@@ -29,6 +29,11 @@ std::int8_t sideOf(std::int64_t alike, std::int64_t opposite, std::int8_t otherw
 
 } // namespace
 
+FaceFinder onEitherSide(const CADModel& model)
+{
+  return { model, FaceSides(model.count(2), 0) };
+}
+
 FaceSides decideSides(
   const std::vector<std::int64_t>& alike, const std::vector<std::int64_t>& opposite)
 {
@@ -119,7 +124,10 @@ FaceMatch FaceFinder::find(const CornerHits& facet) const
     std::transform(facet.hits.begin(), facet.hits.end(), entities.begin(),
       [](const ClosestPoint& hit) { return hit.entity; });
     const auto common = commonFaces(model_.nurbs(), entities, facet.corners);
-    const std::int32_t ofAll = nearestFitting(common, centroid, normal);
+    const std::int32_t onSide = nearestFitting(common, centroid, normal);
+    // Where bodies touch whose meshes do not match, a face has facets on both sides.
+    const std::int32_t ofAll =
+      onSide >= 0 ? onSide : onEitherSide(model_).nearestFitting(common, centroid, normal);
     if (ofAll >= 0)
     {
       return { ofAll, 1 };

@@ -76,4 +76,7 @@ private:
   FaceSides sides_;
 };
 
+/// One for facets that may be on either side of their faces.
+FaceFinder onEitherSide(const CADModel& model);
+
 } // namespace cadrefine

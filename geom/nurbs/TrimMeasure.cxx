@@ -145,6 +145,20 @@ TrimSupport trimSupport(const NurbsModel& model, const NurbsFace& face, const Be
            : TrimSupport{ curve.edge, farthestFrom(EdgeCurve(model.edges[curve.edge]), points) };
 }
 
+double farthestFrom(const NurbsEdge& other, const NurbsEdge& edge)
+{
+  constexpr int steps = 8;
+  std::vector<Point3> points;
+  for (const BezierCurve& segment : edge.segments)
+  {
+    for (int k = 0; k <= steps; ++k)
+    {
+      points.push_back(evaluateLocal(viewOf(segment), static_cast<double>(k) / steps, 0));
+    }
+  }
+  return farthestFrom(EdgeCurve(other), points);
+}
+
 void measureTrims(const NurbsModel& model, NurbsFace& face)
 {
   for (TrimLoop& loop : face.loops)

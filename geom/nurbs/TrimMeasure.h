@@ -1,4 +1,4 @@
-// How far trim curves lie off the edges that they stand for.
+// How far trim curves lie off the edges that they stand for, and edges off each other.
 #pragma once
 
 #include <cadrefine/nurbs/NurbsModel.h>
@@ -23,6 +23,9 @@ struct TrimSupport
 /// the distance from an end of one, where that is nearer (at a pole). Work: nine evaluations of the
 /// face and nine searches of an edge's curve, some ten microseconds.
 TrimSupport trimSupport(const NurbsModel& model, const NurbsFace& face, const BezierCurve2& curve);
+
+/// The largest distance from another edge that is found at nine points of each segment of an edge.
+double farthestFrom(const NurbsEdge& other, const NurbsEdge& edge);
 
 /// Sets the edge and the deviation of all trim curves of one of the model's faces.
 void measureTrims(const NurbsModel& model, NurbsFace& face);

@@ -130,6 +130,24 @@ class ListedSurfaces(Case):
         self.generate(2, two_parts, with_layer, 1.0)
         self.expect_on_cad(3.9)
 
+    def test_bodies_that_touch(self):
+        """A ball in a shell in a box, on which a cylinder stands: the faces between them twice in the CAD, as in
+        assemblies, and triangulated in two ways, with few vertices in common."""
+        occ = gmsh.model.occ
+        assembly = self.path("assembly.step")
+        gmsh.initialize(["", "-v", "0"])
+        occ.fragment([(3, occ.addBox(-3, -3, -3, 6, 6, 6))], [(3, occ.addCylinder(0, 0, 3, 0, 0, 2, 1.5))] +
+                     [(3, occ.addSphere(0, 0, 0, radius)) for radius in (1, 1.8)])
+        occ.synchronize()
+        gmsh.write(assembly)
+        gmsh.finalize()
+
+        def bodies():
+            occ.importShapes(assembly)
+
+        self.generate(3, bodies, bodies, 0.7)
+        self.expect_on_cad(3.5)
+
     def test_plane_in_space(self):
         """The same where the plane is turned: as in the plane z = 0, the error is an area."""
         occ = gmsh.model.occ

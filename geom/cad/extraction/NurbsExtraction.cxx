@@ -2,6 +2,7 @@
 
 #include <cadrefine/cad/extraction/NurbsExtraction.h>
 
+#include <cadrefine/base/BoundingBox.h>
 #include <cadrefine/base/SortUniquely.h>
 #include <cadrefine/nurbs/TrimMeasure.h>
 
@@ -11,12 +12,18 @@
 #include <TopoDS.hxx>
 #include <gp_Pnt.hxx>
 
+#include <algorithm>
+#include <map>
+#include <utility>
+
 namespace cadrefine
 {
 namespace
 {
 
 constexpr std::size_t entityGrain = 8; // about a millisecond
+/// In parts of the box of all vertices: what is nearer has no nearest point of its own.
+constexpr double coincident = 1e-9;
 
 NurbsVertex extractVertex(const TopoDS_Vertex& vertex)
 {
@@ -41,20 +48,57 @@ void extractGeometry(const ShapeIndex& index, const ParallelFor& parallelFor, Nu
   }
 }
 
-/// Links vertices and edges.
-void linkVertices(const ShapeIndex& index, NurbsModel& model)
+/// For each edge the first one that runs along all of it: where bodies touch, files hold edges
+/// twice.
+std::vector<std::int32_t> findFirstAlong(const NurbsModel& model)
+{
+  BoundingBox box;
+  for (const NurbsVertex& vertex : model.vertices)
+  {
+    box.include(vertex.point);
+  }
+  const double limit = coincident * box.diagonal();
+  std::map<std::pair<std::int32_t, std::int32_t>, std::vector<std::int32_t>> ofEnds;
+  std::vector<std::int32_t> firsts;
+  for (std::size_t e = 0; e < model.edges.size(); ++e)
+  {
+    const NurbsEdge& edge = model.edges[e];
+    auto& others = ofEnds[std::minmax({ edge.firstVertex, edge.lastVertex })];
+    const auto found = std::find_if(others.begin(), others.end(),
+      [&](std::int32_t other) { return farthestFrom(model.edges[other], edge) <= limit; });
+    const auto index = static_cast<std::int32_t>(e);
+    firsts.push_back(found == others.end() ? index : *found);
+    if (found == others.end() && edge.firstVertex >= 0)
+    {
+      others.push_back(index);
+    }
+  }
+  return firsts;
+}
+
+/// Links vertices and edges, and gives edges that coincide one geometry. Returns the first one of
+/// these for each; the others bound nothing.
+std::vector<std::int32_t> linkVertices(const ShapeIndex& index, NurbsModel& model)
 {
   for (std::size_t e = 0; e < model.edges.size(); ++e)
   {
-    NurbsEdge& edge = model.edges[e];
     const TopoDS_Edge forward = TopoDS::Edge(index.edges()[e].Oriented(TopAbs_FORWARD));
-    edge.firstVertex = index.vertex(TopExp::FirstVertex(forward));
-    edge.lastVertex = index.vertex(TopExp::LastVertex(forward));
-    for (const std::int32_t v : { edge.firstVertex, edge.lastVertex })
+    model.edges[e].firstVertex = index.vertex(TopExp::FirstVertex(forward));
+    model.edges[e].lastVertex = index.vertex(TopExp::LastVertex(forward));
+  }
+  auto firsts = findFirstAlong(model);
+  for (std::size_t e = 0; e < model.edges.size(); ++e)
+  {
+    const auto first = static_cast<std::size_t>(firsts[e]);
+    if (first != e)
+    {
+      model.edges[e] = model.edges[first];
+    }
+    for (const std::int32_t v : { model.edges[first].firstVertex, model.edges[first].lastVertex })
     {
       if (v >= 0)
       {
-        model.vertices[v].edges.push_back(static_cast<std::int32_t>(e));
+        model.vertices[v].edges.push_back(firsts[e]);
       }
     }
   }
@@ -62,10 +106,12 @@ void linkVertices(const ShapeIndex& index, NurbsModel& model)
   {
     sortUniquely(vertex.edges);
   }
+  return firsts;
 }
 
 /// Links edges and faces, and tells creases from smooth edges.
-void linkFaces(const ShapeIndex& index, const ParallelFor& parallelFor, NurbsModel& model)
+void linkFaces(const ShapeIndex& index, const std::vector<std::int32_t>& firstEdges,
+  const ParallelFor& parallelFor, NurbsModel& model)
 {
   std::vector<std::vector<EdgeUse>> uses(model.edges.size());
   for (std::size_t f = 0; f < model.faces.size(); ++f)
@@ -77,18 +123,32 @@ void linkFaces(const ShapeIndex& index, const ParallelFor& parallelFor, NurbsMod
       if (e >= 0)
       {
         uses[e].push_back({ TopoDS::Edge(explorer.Current()), face });
-        model.faces[f].edges.push_back(e);
-        model.edges[e].faces.push_back(static_cast<std::int32_t>(f));
+        model.faces[f].edges.push_back(firstEdges[e]);
+        model.edges[firstEdges[e]].faces.push_back(static_cast<std::int32_t>(f));
       }
     }
     sortUniquely(model.faces[f].edges);
+    for (TrimLoop& loop : model.faces[f].loops)
+    {
+      for (BezierCurve2& curve : loop)
+      {
+        curve.edge = curve.edge < 0 ? -1 : firstEdges[curve.edge];
+      }
+    }
   }
-  forEachIndex(parallelFor, model.edges.size(), entityGrain,
+  std::vector<unsigned char> sharp(model.edges.size());
+  forEachIndex(parallelFor, sharp.size(), entityGrain,
     [&](std::size_t e)
     {
       sortUniquely(model.edges[e].faces);
-      model.edges[e].sharp = isSharp(uses[e]);
+      sharp[e] = isSharp(uses[e]);
     });
+  for (std::size_t e = 0; e < sharp.size(); ++e)
+  {
+    NurbsEdge& first = model.edges[firstEdges[e]];
+    const bool isFirst = firstEdges[e] == static_cast<std::int32_t>(e);
+    first.sharp = sharp[e] || (first.sharp && !isFirst);
+  }
 }
 
 } // namespace
@@ -97,8 +157,8 @@ NurbsModel extractNurbs(const ShapeIndex& index, const ParallelFor& parallelFor)
 {
   NurbsModel model;
   extractGeometry(index, parallelFor, model);
-  linkVertices(index, model);
-  linkFaces(index, parallelFor, model);
+  const auto firstEdges = linkVertices(index, model);
+  linkFaces(index, firstEdges, parallelFor, model);
   forEachIndex(parallelFor, model.faces.size(), entityGrain,
     [&](std::size_t f) { measureTrims(model, model.faces[f]); });
   return model;

@@ -101,8 +101,9 @@ TEST(Gaps, betweenOpenShellsAreSewnToo)
   EXPECT_EQ(model->count(0), 6);
 }
 
-/// Bodies that touch share no topology; else two vertices of a mesh would be wanted at one place.
-TEST(Gaps, bodiesThatTouchHaveOneVertexAtEachPlace)
+/// Bodies that touch share no topology; else two vertices of a mesh would be wanted at one place,
+/// and an edge would not know all of the faces beside it.
+TEST(Gaps, bodiesThatTouchHaveOneVertexAndOneEdgeAtEachPlace)
 {
   TopoDS_Compound bodies;
   const BRep_Builder builder;
@@ -118,14 +119,24 @@ TEST(Gaps, bodiesThatTouchHaveOneVertexAtEachPlace)
   {
     ++verticesWith[vertex.edges.size()];
   }
-  EXPECT_EQ(verticesWith, (std::map<std::size_t, int>{ { 0, 4 }, { 3, 8 }, { 6, 4 } }));
+  EXPECT_EQ(verticesWith, (std::map<std::size_t, int>{ { 0, 4 }, { 3, 8 }, { 4, 4 } }));
   for (int v = 0; v < model->count(0); ++v)
   {
     const Point3& point = model->nurbs().vertices[v].point;
     const EntityId found = model->nearest(point).entity;
     EXPECT_EQ(found.dimension, 0);
-    EXPECT_EQ(model->nurbs().vertices[found.index].edges.size(), point[0] == 1 ? 6u : 3u);
+    EXPECT_EQ(model->nurbs().vertices[found.index].edges.size(), point[0] == 1 ? 4u : 3u);
   }
+  std::map<std::size_t, int> edgesWith;
+  for (const NurbsEdge& edge : model->nurbs().edges)
+  {
+    ++edgesWith[edge.faces.size()];
+  }
+  EXPECT_EQ(edgesWith, (std::map<std::size_t, int>{ { 0, 4 }, { 2, 16 }, { 4, 4 } }));
+  const EntityId between = model->nearest({ 1, 0, 0.3 }).entity;
+  ASSERT_EQ(between.dimension, 1);
+  EXPECT_EQ(model->nurbs().edges[between.index].faces.size(), 4u);
+  EXPECT_TRUE(model->nurbs().edges[between.index].sharp);
 }
 
 } // namespace
