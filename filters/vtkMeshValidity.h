@@ -7,7 +7,7 @@
  * mean ratio: 1 is equilateral, 0 flat, negative inverted; of other cells the least scaled
  * Jacobian), and field data InvalidCells and MinimumQuality over all ranks. Tetrahedra are valid if
  * their volume is positive in VTK's order of vertices; triangles if their area is positive and, in
- * a coordinate plane, they turn the way most do; both are decided exactly, whatever the rounding of
+ * a planar mesh, they turn the way most do; both are decided exactly, whatever the rounding of
  * the mean ratio. Other cells are valid if their Jacobian is positive everywhere, by bounds. Cells
  * of lower dimension are valid with quality 1. Cost: linear in the number of cells, two reductions.
  */

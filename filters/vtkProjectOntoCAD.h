@@ -13,8 +13,8 @@
  * UnprojectedVertices how many there are. The point array CADConflict is 1 where the entity could
  * not be decided; ClassificationConflicts counts these.
  *
- * A mesh of triangles is compared with CAD edges if it lies in a coordinate plane or the model has
- * no faces, otherwise with CAD faces.
+ * A mesh of triangles is compared with CAD edges if it lies in a coordinate plane, or in one plane
+ * with the whole model, or the model has no faces; otherwise with CAD faces.
  *
  * Cost: one query of the whole model (some microseconds) for each boundary vertex, and about as
  * many for facets; messages in proportion to the interface between pieces.

@@ -8,6 +8,8 @@
 #include "mesh/BoundaryFacets.h"
 #include "mesh/MeshPlane.h"
 
+#include <cadrefine/base/BoundingBox.h>
+#include <cadrefine/classification/ClassificationTolerances.h>
 #include <cadrefine/mesh/Quality.h>
 
 #include <algorithm>
@@ -73,7 +75,23 @@ struct SentRecord
 
 bool isPlanar(RankExchange& exchange, const std::vector<Point3>& points, const CADModel& model)
 {
-  return model.count(2) == 0 || normalOfPoints(exchange, points) != Vector3{};
+  if (model.count(2) == 0)
+  {
+    return true;
+  }
+  const Vector3 normal = normalOfPoints(exchange, points);
+  if (std::count(normal.begin(), normal.end(), 0.0) >= 2)
+  {
+    return normal != Vector3{};
+  }
+  double offset = -std::numeric_limits<double>::infinity();
+  for (const Point3& point : points)
+  {
+    offset = std::max(offset, dot(normal, point));
+  }
+  offset = exchange.max(offset);
+  const double size = std::max(model.size(), combineBoxes(exchange, boxOf(points)).diagonal());
+  return liesInPlane(model.nurbs(), normal, offset, ClassificationTolerances::exact * size);
 }
 
 BoundaryKind kindOfBoundary(

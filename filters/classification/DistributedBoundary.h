@@ -41,7 +41,8 @@ struct DistributedBoundary
 };
 
 /// Whether a mesh of area with these vertices is compared with the edges of the model: if this has
-/// no faces, or if the mesh is planar (see normalOfPoints). Collective.
+/// no faces, or if the mesh is planar (see normalOfPoints), in a coordinate plane or in that of the
+/// whole model. Collective.
 bool isPlanar(RankExchange& exchange, const std::vector<Point3>& points, const CADModel& model);
 
 /// As what the boundary of a mesh is compared with the model. Collective.

@@ -3,6 +3,7 @@
 
 #include "comm/RankExchange.h"
 
+#include <cadrefine/classification/BoundaryProjector.h>
 #include <cadrefine/mesh/Mesh.h>
 
 #include <vector>
@@ -17,5 +18,9 @@ Vector3 normalOfPoints(RankExchange& exchange, const std::vector<Point3>& points
 
 /// The same of a mesh of area, turned the way most of its cells turn; zero of other meshes.
 Vector3 planeNormal(RankExchange& exchange, const Mesh& mesh);
+
+/// The same; zero of meshes that are compared with the faces of the CAD, which need not stay in
+/// their plane.
+Vector3 planeNormal(RankExchange& exchange, const Mesh& mesh, BoundaryKind kind);
 
 } // namespace cadrefine

@@ -70,6 +70,10 @@ struct NurbsModel
   }
 };
 
+/// Whether all control points are so near to the plane of the points p with dot(normal, p) =
+/// offset.
+bool liesInPlane(const NurbsModel& model, const Vector3& normal, double offset, double tolerance);
+
 /// The face itself, or the first one that holds the edge, or the first of the vertex's edges that
 /// one holds; -1: none.
 std::int32_t firstFaceAt(const NurbsModel& model, EntityId entity);

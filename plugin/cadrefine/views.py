@@ -120,7 +120,7 @@ def default_view(facets, shown):
     """The direction to the eye, of eight, from which most of the error is seen on what is shown."""
     if facets.flat:
         normal = facets.normals().sum(axis=0)
-        return normal / normal[np.abs(normal).argmax()] if normal.any() else IN_PLANE
+        return tuple(normal / normal[np.abs(normal).argmax()]) if normal.any() else IN_PLANE
     vectors = turned_out(facets, shown) * facets.normals()[shown]
     lengths = np.linalg.norm(vectors, axis=1)
     vectors *= np.divide(facets.error[shown], lengths, out=np.zeros(len(vectors)), where=lengths > 0)[:, None]
