@@ -437,11 +437,13 @@ double scaledJacobian(const Pyramid& corners)
 
 double scaledJacobian(const Quadrilateral& corners, const Vector3& side)
 {
+  const Vector3 normal = normalized(twofoldAreaVector(corners, 4));
   double least = 1;
   for (int k = 0; k < 4; ++k)
   {
     const auto [here, next, previous] = cornerOf(corners, k);
-    const double sine = norm(cross(normalized(next - here), normalized(previous - here)));
+    const double sine =
+      std::abs(dot(normal, cross(normalized(next - here), normalized(previous - here))));
     least = std::min(least, turnOf(here, next, previous, side) * sine);
   }
   return withSignOf(isValidQuadrilateral(corners, side), least);

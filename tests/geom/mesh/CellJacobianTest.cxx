@@ -335,4 +335,15 @@ TEST(WedgeJacobian, doesNotDependOnTheFirstCorner)
   }
 }
 
+/// Opposite corners of a square lifted by `height`: what its corners turn about the mean normal.
+TEST(QuadrilateralJacobian, isThatOfTheMeanNormal)
+{
+  for (const double height : { 0.0, 0.5, 1.0, 10.0 })
+  {
+    const Quadrilateral warped{ { { 0, 0, 0 }, { 1, 0, height }, { 1, 1, 0 }, { 0, 1, height } } };
+    EXPECT_NEAR(scaledJacobian(warped, { 0, 0, 2 }), 1 / (1 + height * height), 1e-15) << height;
+    EXPECT_LT(scaledJacobian(warped, { 0, 0, -1 }), 0) << height;
+  }
+}
+
 } // namespace
