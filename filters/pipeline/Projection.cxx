@@ -155,6 +155,11 @@ std::string reasonOfNone(
   {
     return none + "the region (Region) contains no boundary vertex";
   }
+  if (options.region)
+  {
+    return none + "no boundary facet lies on the CAD with all of its vertices in the region " +
+           "(Region); make that larger";
+  }
   if (!options.faces.empty())
   {
     return none + "no boundary facet lies on the chosen faces (Faces)";

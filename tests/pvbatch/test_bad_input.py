@@ -233,6 +233,8 @@ class BadInput(Case):
         """What a filter says of its property is said of the option."""
         self.assert_fails(self.mesh, self.cad, "--region", "50", "51", "50", "51", "50", "51",
                           names="the region (--region) contains no boundary vertex")
+        self.assert_fails(self.mesh, self.cad, "--region", "0", "0.01", "-1", "2", "-1", "1",
+                          names="no boundary facet lies on the CAD with all of its vertices in the region (--region)")
 
     def test_missing_density(self):
         self.assert_fails(self.mesh, self.cad, "--conserve", "heat",
