@@ -4,6 +4,7 @@
 #include "pipeline/MeshSummary.h"
 
 #include <cadrefine/base/Error.h>
+#include <cadrefine/classification/ClassificationTolerances.h>
 
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
@@ -15,6 +16,10 @@ namespace cadrefine
 {
 namespace
 {
+
+/// Of the cube of the largest chord error: a facet that misses the CAD by its chords has a larger
+/// volume before it.
+constexpr double negligible = 1e-6;
 
 void addErrors(MeshState& state, const MeshError& error)
 {
@@ -57,6 +62,14 @@ void measureMesh(const PipelineContext& context, MeshState& state, int recursion
   const MeshError error =
     measureError(context.exchange, state.mesh, boundary, *state.classification,
       { recursionDepth, facetsOn(context, state, faces) }, state.cache, state.remembers);
+  const double chord = error.largest.chord;
+  if (error.dimension == 3 && chord > ClassificationTolerances::tie * context.model.size() &&
+      error.global < negligible * chord * chord * chord)
+  {
+    context.warn("the geometric error is zero but for rounding, though edges of the mesh miss the "
+                 "CAD: it is a volume, and plane parts of a surface have none where their border "
+                 "is curved; mark cells by ChordTolerance instead");
+  }
   recordBalance(context.statistics, "error", error.balance);
   addErrors(state, error);
 }
