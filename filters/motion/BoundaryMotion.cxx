@@ -8,6 +8,7 @@
 #include "motion/Untangling.h"
 
 #include <cadrefine/base/IndicesWhere.h>
+#include <cadrefine/classification/CADAdjacency.h>
 #include <cadrefine/mesh/VertexFlags.h>
 
 #include <algorithm>
@@ -362,8 +363,8 @@ void record(const Motion& motion, Classification& classification)
   }
   for (const Index vertex : motion.aimed)
   {
-    classification.distances[vertex] =
-      distance(motion.mesh().points[vertex], moves.targets[vertex]);
+    classification.distances[vertex] = distanceFromPlace(
+      motion.settings.projector.model(), motion.mesh().points[vertex], moves.targets[vertex]);
   }
 }
 
