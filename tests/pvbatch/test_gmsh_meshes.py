@@ -1,0 +1,201 @@
+#!/usr/bin/python3
+"""The driver on meshes that gmsh makes and saves by its defaults. Without physical groups it lists the surfaces of all
+volumes: also those that are not in the CAD."""
+
+import itertools
+import json
+import os
+import sys
+import tempfile
+import unittest
+
+import driver
+import gmsh
+import meshio
+import numpy as np
+
+RANKS = int(sys.argv.pop()) if sys.argv[-1].isdigit() else 1
+
+
+class GmshMeshes(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def generate(self, dimension, make_cad, make_mesh, size):
+        gmsh.initialize()
+        try:
+            gmsh.option.setNumber("General.Terminal", 0)
+            for make, name in ((make_cad, "cad.brep"), (make_mesh, "mesh.msh")):
+                gmsh.clear()
+                make()
+                gmsh.model.occ.synchronize()
+                if make is make_mesh:
+                    gmsh.option.setNumber("Mesh.MeshSizeMax", size)
+                    gmsh.model.mesh.generate(dimension)
+                gmsh.write(self.path(name))
+        finally:
+            gmsh.finalize()
+
+    def expect_on_cad(self, ratio):
+        report = driver.report_of(RANKS, self.path("mesh.msh"), self.path("cad.brep"), "--method", "uniform",
+                                  "--steps", "2")
+        errors = [step["global_error"] for step in report["steps"]]
+        self.assertEqual([step["unprojected_vertices"] for step in report["steps"]], [0, 0, 0])
+        self.assertEqual([step["invalid_cells"] for step in report["steps"]], [0, 0, 0])
+        self.assertGreater(min(errors[0] / errors[1], errors[1] / errors[2]), ratio)
+        return report
+
+    def test_thin_ring_of_tetrahedra(self):
+        """Round a hole, thinner than the CAD bulges over a facet."""
+        occ = gmsh.model.occ
+
+        def box():
+            return occ.cut([(3, occ.addBox(-3, -3, 0, 6, 6, 2))], [(3, occ.addCylinder(0, 0, -1, 0, 0, 4, 1))])[0]
+
+        def with_ring():
+            pieces = occ.fragment(box(), [(3, occ.addCylinder(0, 0, 0, 0, 0, 2, 1.02))])[0]
+            occ.synchronize()
+            occ.remove([piece for piece in pieces if gmsh.model.getBoundingBox(*piece)[3] < 1.01], recursive=True)
+
+        self.generate(3, box, with_ring, 0.6)
+        self.expect_on_cad(3.0)
+
+    def test_layer_on_a_core(self):
+        """In the plane, of quadrilaterals, on a disc that is meshed too: its rim is in the CAD."""
+        occ = gmsh.model.occ
+
+        def two_parts():
+            occ.fragment([(2, occ.addRectangle(-3, -3, 0, 6, 6))], [(2, occ.addDisk(0, 0, 0, 1, 1))])
+
+        def with_layer():
+            middle = occ.addPoint(0, 0, 0)
+            places = [(np.cos(angle), np.sin(angle)) for angle in np.arange(4) * np.pi / 2]
+            rims = [[occ.addPoint(radius * x, radius * y, 0) for x, y in places] for radius in (1, 1.1)]
+            arcs = [[occ.addCircleArc(rim[k], middle, rim[(k + 1) % 4]) for k in range(4)] for rim in rims]
+            lines = [occ.addLine(*ends) for ends in zip(*rims)]
+            corners = [occ.addPoint(x, y, 0) for x, y in ((-3, -3), (3, -3), (3, 3), (-3, 3))]
+            sides = [occ.addLine(corners[k], corners[(k + 1) % 4]) for k in range(4)]
+            inner, outer, square = (occ.addCurveLoop(curves) for curves in (*arcs, sides))
+            occ.addPlaneSurface([inner])
+            occ.addPlaneSurface([square, outer])
+            parts = [occ.addPlaneSurface([occ.addCurveLoop([lines[k], arcs[1][k], lines[(k + 1) % 4], arcs[0][k]])])
+                     for k in range(4)]
+            occ.remove([(0, middle)])
+            occ.synchronize()
+            for k in range(4):
+                for curve, count in ((arcs[0][k], 4), (arcs[1][k], 4), (lines[k], 2)):
+                    gmsh.model.mesh.setTransfiniteCurve(curve, count)
+                gmsh.model.mesh.setTransfiniteSurface(parts[k])
+                gmsh.model.mesh.setRecombine(2, parts[k])
+
+        self.generate(2, two_parts, with_layer, 1.0)
+        self.expect_on_cad(3.9)
+
+    def test_bodies_that_touch(self):
+        """A ball in a shell in a box, on which a cylinder stands: the faces between them twice in the CAD, as in
+        assemblies, and triangulated in two ways, with few vertices in common."""
+        occ = gmsh.model.occ
+        assembly = self.path("assembly.step")
+        gmsh.initialize(["", "-v", "0"])
+        occ.fragment([(3, occ.addBox(-3, -3, -3, 6, 6, 6))], [(3, occ.addCylinder(0, 0, 3, 0, 0, 2, 1.5))] +
+                     [(3, occ.addSphere(0, 0, 0, radius)) for radius in (1, 1.8)])
+        occ.synchronize()
+        gmsh.write(assembly)
+        gmsh.finalize()
+
+        def bodies():
+            occ.importShapes(assembly)
+
+        self.generate(3, bodies, bodies, 0.7)
+        self.expect_on_cad(3.5)
+
+    def test_plane_in_space(self):
+        """The same where the plane is turned: as in the plane z = 0, the error is an area."""
+        occ = gmsh.model.occ
+
+        def discs():
+            parts = occ.fragment([(2, occ.addDisk(0, 0, 0, 1, 1))], [(2, occ.addDisk(0, 0, 0, 0.5, 0.5))])[0]
+            occ.rotate(parts, 0, 0, 0, 1, 2, 3, 1.0)
+            occ.synchronize()
+            gmsh.model.mesh.setRecombine(*parts[0])
+            gmsh.model.mesh.setReverse(*parts[0])
+
+        self.generate(2, discs, discs, 0.3)
+        report = self.expect_on_cad(3.9)
+        self.assertEqual((report["dimension"], report["error_measure"]), (2, "area"))
+
+    def test_hole_in_a_flat_part_of_a_shell(self):
+        """The volume between mesh and CAD is zero, whatever the edges round the hole miss: a warning names the remedy,
+        which refines there."""
+        occ = gmsh.model.occ
+
+        def shell():
+            plate = occ.cut([(2, occ.addRectangle(-2, -2, 0, 4, 4))], [(2, occ.addDisk(0, 0, 0, 1, 1))])[0]
+            wall = [(2, occ.addRectangle(-2, -2, 0, 4, 2))]
+            occ.rotate(wall, -2, -2, 0, 1, 0, 0, np.pi / 2)
+            occ.fragment(plate, wall)
+
+        self.generate(2, shell, shell, 0.8)
+        run = driver.Run(RANKS, self.path("mesh.msh"), self.path("cad.brep"), "--steps", "0")
+        self.assertEqual(run.status, 0)
+        self.assertIn("mark cells by ChordTolerance", "".join([run.output, *run.errors]))
+        run = driver.Run(RANKS, self.path("mesh.msh"), self.path("cad.brep"), "--chord-tolerance", "0.01", "--steps", "9",
+                         "--report", self.path("report.json"))
+        with open(self.path("report.json"), encoding="utf-8") as file:
+            steps = json.load(file)["steps"]
+        self.assertGreater(steps[0]["maximum_distance"], 0.03)
+        self.assertLessEqual(steps[-1]["maximum_distance"], 0.01)
+
+    def test_wall_of_one_cell(self):
+        """Hexahedra between two cylinders, over which these bulge by seven times as much as they are apart."""
+        occ = gmsh.model.occ
+
+        def pipe():
+            occ.cut([(3, occ.addCylinder(0, 0, 0, 0, 0, 1.5, 1))], [(3, occ.addCylinder(0, 0, 0, 0, 0, 1.5, 0.995))])
+
+        def with_hexahedra():
+            side = [(2, occ.addRectangle(0.995, 0, 0, 0.005, 1.5))]
+            occ.rotate(side, 0, 0, 0, 1, 0, 0, np.pi / 2)
+            occ.rotate(side, 0, 0, 0, 0, 0, 1, np.pi / 12)  # the seams of the cylinders are over middles of facets
+            for _ in range(2):
+                side = occ.revolve(side, 0, 0, 0, 0, 0, 1, np.pi, numElements=[6], recombine=True)[:1]
+            occ.removeAllDuplicates()
+            occ.synchronize()
+            for _, curve in gmsh.model.getEntities(1):
+                gmsh.model.mesh.setTransfiniteCurve(curve, 2)
+            for _, surface in gmsh.model.getEntities(2):
+                gmsh.model.mesh.setTransfiniteSurface(surface)
+                gmsh.model.mesh.setRecombine(2, surface)
+
+        self.generate(3, pipe, with_hexahedra, 5.0)
+        self.assertEqual(len(meshio.read(self.path("mesh.msh")).cells_dict["hexahedron"]), 12)
+        self.expect_on_cad(3.9)
+
+    def test_one_cell_high(self):
+        """Wedges on either side of an interface that is in the CAD, which is listed either way round: all of its
+        vertices are on the CAD's edges."""
+        occ = gmsh.model.occ
+
+        def extrusion(**options):
+            discs = occ.fragment([(2, occ.addDisk(0, 0, 0, 0.6, 0.6))], [(2, occ.addDisk(0, 0, 0, 1, 1))])[0]
+            occ.extrude(discs, 0, 0, 1.5, **options)
+
+        self.generate(3, extrusion, lambda: extrusion(numElements=[1], recombine=True), 0.5)
+        self.expect_on_cad(3.7)
+        cells = meshio.read(self.path("mesh.msh"))
+        quads, wedges = cells.cells_dict["quad"], cells.cells_dict["wedge"]
+        for way, digits in itertools.product((1, -1), (16, 5)):
+            path = self.path(f"{way}.vtu")
+            meshio.Mesh(np.round(cells.points, digits), [("quad", quads[:, ::way]), ("wedge", wedges)]).write(path)
+            fit = driver.report_of(RANKS, path, self.path("cad.brep"), "--steps", "0")["fit"]
+            self.assertEqual(fit["conflicts"], [])
+            self.assertGreater(fit["cad_covered"], 0.9)
+
+
+if __name__ == "__main__":
+    unittest.main()
