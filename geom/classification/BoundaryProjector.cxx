@@ -38,6 +38,7 @@ ClosestPoint BoundaryProjector::nearest(const Point3& point, double limit) const
   SearchScope scope;
   scope.maximumDistance = limit;
   scope.faces = kind_ == BoundaryKind::Faces;
+  scope.strays = kind_ == BoundaryKind::Edges;
   return onSharedEdge(model_, point, model_.nearest(point, scope));
 }
 
@@ -51,6 +52,7 @@ ClosestPoint BoundaryProjector::onSmallest(
   SearchScope scope;
   scope.maximumDistance = exact;
   scope.faces = false;
+  scope.strays = kind_ == BoundaryKind::Edges;
   scope.edges = scope.sharpEdges = false;
   const ClosestPoint vertex = model_.nearest(point, scope);
   if (vertex.entity)

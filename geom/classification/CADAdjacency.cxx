@@ -69,7 +69,8 @@ bool normalsDifferAround(const CADModel& model, std::int32_t vertex)
 /// meet at an angle, as those of a cone do, are the normals looked at.
 bool isApex(const CADModel& model, std::int32_t vertex)
 {
-  const auto directions = directionsAt(model, vertex, [](const NurbsEdge&) { return true; });
+  const auto directions =
+    directionsAt(model, vertex, [](const NurbsEdge& edge) { return !edge.faces.empty(); });
   return !directions.empty() && directions.size() <= 2 && !areOpposite(directions) &&
          normalsDifferAround(model, vertex);
 }

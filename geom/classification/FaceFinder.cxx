@@ -133,8 +133,10 @@ FaceMatch FaceFinder::find(const CornerHits& facet) const
       return { ofAll, 1 };
     }
   }
+  SearchScope scope;
+  scope.strays = false;
   const auto nearest = [&](const Point3& point)
-  { return onSharedEdge(model_, point, model_.nearest(point)); };
+  { return onSharedEdge(model_, point, model_.nearest(point, scope)); };
   const ClosestPoint where = nearest(centroid);
   if (where.entity.dimension == 2 && fitsAt(where, normal))
   {

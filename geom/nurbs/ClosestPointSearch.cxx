@@ -21,6 +21,10 @@ enum class Role
 
 Role roleOf(const SearchEntity& entity, const SearchScope& scope)
 {
+  if (entity.stray && !scope.strays)
+  {
+    return Role::none;
+  }
   switch (entity.id.dimension)
   {
     case 0:

@@ -36,6 +36,7 @@ struct SearchScope
   bool edges = true; ///< All edges. Off with `sharpEdges` on: only creases.
   bool sharpEdges = true;
   bool vertices = true;
+  bool strays = true; ///< Edges that bound no face, and vertices of no other edge.
 };
 
 /// Search structure over one model, built once. Queries are const, free of hidden state and safe

@@ -41,7 +41,8 @@ struct NurbsEdge
   std::int32_t lastVertex = -1;
   std::vector<std::int32_t> faces; ///< Faces that it bounds, each once, ascending.
   /// True where the surface has a crease here: the edge bounds one face only (and is no seam), or
-  /// the outward normals on its two sides differ by more than NurbsModel::creaseAngle anywhere.
+  /// the outward normals on its two sides differ by more than NurbsModel::creaseAngle anywhere; and
+  /// of all edges where there is no surface.
   bool sharp = true;
   double tolerance = 0; ///< How far it may lie off its faces.
 };

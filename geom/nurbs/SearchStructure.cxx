@@ -178,6 +178,7 @@ private:
     const Point3& point = model_.vertices[index].point;
     SearchLeaf leaf;
     leaf.entity = addEntity({ 0, index });
+    structure_.entities[leaf.entity].stray = firstFaceAt(model_, { 0, index }) < 0;
     BoundingBox box;
     box.include(point);
     addLeaf(leaf, box);
@@ -188,6 +189,7 @@ private:
     const NurbsEdge& edge = model_.edges[index];
     const int entity = addEntity({ 1, index });
     structure_.entities[entity].sharp = edge.sharp;
+    structure_.entities[entity].stray = edge.faces.empty();
     structure_.entities[entity].face = coveredFace_[index];
     startGrid(entity, static_cast<int>(edge.segments.size()), 1);
     for (const BezierCurve& segment : edge.segments)

@@ -63,6 +63,7 @@ struct SearchEntity
   /// Of a face, tree over these and the leaves of its edges and their vertices.
   BoundingBoxTree::Root closure = BoundingBoxTree::none;
   bool sharp = false; ///< Of an edge.
+  bool stray = false; ///< See SearchScope::strays.
   int face = -1;      ///< Of an edge, the first face whose border it covers; -1: none.
   std::unique_ptr<const TrimRegion> trim; ///< Of a face.
   int firstPatch = 0; ///< Its patches are consecutive, in a grid; then come those of its border.

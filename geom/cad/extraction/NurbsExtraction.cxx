@@ -141,7 +141,7 @@ void linkFaces(const ShapeIndex& index, const std::vector<std::int32_t>& firstEd
     [&](std::size_t e)
     {
       sortUniquely(model.edges[e].faces);
-      sharp[e] = isSharp(uses[e]);
+      sharp[e] = uses[e].empty() ? model.faces.empty() : isSharp(uses[e]);
     });
   for (std::size_t e = 0; e < sharp.size(); ++e)
   {

@@ -10,6 +10,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include <algorithm>
 #include <limits>
 
@@ -158,6 +160,21 @@ TEST(WallFacets, areNotOnTheCad)
     projector.isOnCAD(facetAt(projector, { { { 0.1, 0, 0 }, { 0.5, 0, 0 }, { 0.3, 0, 0.4 } } })));
   EXPECT_FALSE(projector.isOnCAD(
     facetAt(projector, { { { 0.1, 0.5, 0 }, { 0.5, 0.5, 0 }, { 0.3, 0.6, 0.4 } } })));
+}
+
+/// Curves and points that bound no face, which files hold beside bodies, are no part of these.
+TEST(StrayCurve, isNoPartOfABody)
+{
+  const auto model = cadtest::modelOf(
+    cadtest::together(cadtest::box(2, 2, 2), cadtest::moved(cadtest::circle(0.9), { 1, 1, 1 })));
+  const Point3 beside{ 1.88, 1, 1 };
+  const BoundaryProjector ofFaces(*model, BoundaryKind::Faces);
+  EXPECT_NEAR(distance(ofFaces.nearest(beside, 1).point, { 2, 1, 1 }), 0, 1e-9);
+  EXPECT_EQ(ofFaces.corners().size(), 8u);
+  EXPECT_NEAR(ofFaces.nearestCrease(beside, 2).distance, std::hypot(0.12, 1), 1e-9);
+  const ClosestPoint onCircle{ { 2, 0 }, { 1.9, 1, 1 }, {}, 0 };
+  EXPECT_EQ(ofFaces.onSmallest(onCircle.point, 1e-6, onCircle).entity, onCircle.entity);
+  EXPECT_NEAR(distance(model->nearest(beside).point, { 1.9, 1, 1 }), 0, 1e-9);
 }
 
 TEST(Pipe, hasNoCorners)
