@@ -195,7 +195,7 @@ std::vector<FaceMatch> findFaces(
   const auto& records = classes.records;
   const auto amongTheirOwn = findThoseAmongTheirOwn(task, hits);
   const FaceFinder finder(task.model(), classes.sides);
-  const FaceFinder ofInside = onEitherSide(task.model());
+  const FaceFinder ofInside(task.model(), {});
   std::vector<CornerHits> queries;
   std::vector<std::size_t> facets;
   for (std::size_t f = 0; f < records.size(); ++f)

@@ -104,7 +104,7 @@ void addFaces(const ProjectionTask& task, const std::vector<ClosestPoint>& hits,
   meeting.undecided.assign(hits.size(), 0);
   meeting.wrongSide.assign(hits.size(), 1);
   const FaceFinder finder(task.model(), facets.sides);
-  const FaceFinder ofInside = onEitherSide(task.model());
+  const FaceFinder ofInside(task.model(), {});
   for (std::size_t f = 0; f < facets.records.size(); ++f)
   {
     const FacetRecord& record = facets.records[f];

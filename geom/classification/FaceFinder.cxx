@@ -29,11 +29,6 @@ std::int8_t sideOf(std::int64_t alike, std::int64_t opposite, std::int8_t otherw
 
 } // namespace
 
-FaceFinder onEitherSide(const CADModel& model)
-{
-  return { model, FaceSides(model.count(2), 0) };
-}
-
 FaceSides decideSides(
   const std::vector<std::int64_t>& alike, const std::vector<std::int64_t>& opposite)
 {
@@ -50,7 +45,8 @@ FaceSides decideSides(
 
 bool FaceFinder::fits(std::int32_t face, const Vector3& normalOfFace, const Vector3& normal) const
 {
-  return fitsEitherWay(normalOfFace, normal) && sides_[face] * dot(normalOfFace, normal) >= 0;
+  return fitsEitherWay(normalOfFace, normal) &&
+         (sides_.empty() || sides_[face] * dot(normalOfFace, normal) >= 0);
 }
 
 bool FaceFinder::fitsAt(const ClosestPoint& where, const Vector3& normal) const
@@ -127,7 +123,7 @@ FaceMatch FaceFinder::find(const CornerHits& facet) const
     const std::int32_t onSide = nearestFitting(common, centroid, normal);
     // Where bodies touch whose meshes do not match, a face has facets on both sides.
     const std::int32_t ofAll =
-      onSide >= 0 ? onSide : onEitherSide(model_).nearestFitting(common, centroid, normal);
+      onSide >= 0 ? onSide : FaceFinder(model_, {}).nearestFitting(common, centroid, normal);
     if (ofAll >= 0)
     {
       return { ofAll, 1 };

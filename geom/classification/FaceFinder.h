@@ -47,7 +47,7 @@ struct FaceMatch
 class FaceFinder
 {
 public:
-  /// `sides` has one entry for each face of the model.
+  /// `sides` has one entry for each face of the model; none: facets may be on either side.
   FaceFinder(const CADModel& model, FaceSides sides) : model_(model), sides_(std::move(sides)) {}
 
   /// The face nearest to the centroid of those whose normal there fits the facet's: to 60
@@ -75,8 +75,5 @@ private:
   const CADModel& model_;
   FaceSides sides_;
 };
-
-/// One for facets that may be on either side of their faces.
-FaceFinder onEitherSide(const CADModel& model);
 
 } // namespace cadrefine
