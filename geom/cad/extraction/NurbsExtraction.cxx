@@ -145,9 +145,9 @@ void linkFaces(const ShapeIndex& index, const std::vector<std::int32_t>& firstEd
     });
   for (std::size_t e = 0; e < sharp.size(); ++e)
   {
+    model.edges[e].sharp = false;
     NurbsEdge& first = model.edges[firstEdges[e]];
-    const bool isFirst = firstEdges[e] == static_cast<std::int32_t>(e);
-    first.sharp = sharp[e] || (first.sharp && !isFirst);
+    first.sharp = first.sharp || sharp[e];
   }
 }
 

@@ -131,6 +131,7 @@ TEST(Gaps, bodiesThatTouchHaveOneVertexAndOneEdgeAtEachPlace)
   for (const NurbsEdge& edge : model->nurbs().edges)
   {
     ++edgesWith[edge.faces.size()];
+    EXPECT_EQ(edge.sharp, !edge.faces.empty());
   }
   EXPECT_EQ(edgesWith, (std::map<std::size_t, int>{ { 0, 4 }, { 2, 16 }, { 4, 4 } }));
   const EntityId between = model->nearest({ 1, 0, 0.3 }).entity;
