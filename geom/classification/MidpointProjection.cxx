@@ -14,9 +14,9 @@ namespace cadrefine
 namespace
 {
 
-/// A place inside its face is looked for as far from the border as the middle is, and less far, by
-/// halves, down to this part of it.
-constexpr double leastPartInside = 1.0 / 1024;
+/// A place inside its face is looked for as far from the border as the middle is, and so often half
+/// as far.
+constexpr int halvingsInside = 10;
 /// A place on a face is taken instead of one on its border that is so many times nearer.
 constexpr double asNear = 1.25;
 /// Of a mesh edge's length: a place so near to one of its ends is not that of its middle.
@@ -283,8 +283,9 @@ ClosestPoint offCrease(
     return isBeside ? where : border;
   }
   // As far inside as the middle is outside; where the face is narrower than that, less.
-  for (double part = 1; part >= leastPartInside; part *= 0.5)
+  for (int halvings = 0; halvings <= halvingsInside; ++halvings)
   {
+    const double part = std::ldexp(1.0, -halvings);
     ClosestPoint inside = projector.nearestOnShared(
       edge.edgeClass, edge.entities, border.point + part * (border.point - middle));
     if (inside.entity)
