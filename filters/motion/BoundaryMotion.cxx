@@ -8,7 +8,6 @@
 #include "motion/Untangling.h"
 
 #include <cadrefine/base/IndicesWhere.h>
-#include <cadrefine/classification/CADAdjacency.h>
 #include <cadrefine/mesh/VertexFlags.h>
 
 #include <algorithm>
@@ -363,8 +362,8 @@ void record(const Motion& motion, Classification& classification)
   }
   for (const Index vertex : motion.aimed)
   {
-    classification.distances[vertex] = distanceFromPlace(
-      motion.settings.projector.model(), motion.mesh().points[vertex], moves.targets[vertex]);
+    classification.distances[vertex] =
+      distance(motion.mesh().points[vertex], moves.targets[vertex]);
   }
 }
 

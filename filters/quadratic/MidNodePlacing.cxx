@@ -5,7 +5,6 @@
 #include "mesh/MeshPlane.h"
 #include "motion/LayerColumns.h"
 
-#include <cadrefine/classification/CADAdjacency.h>
 #include <cadrefine/quadratic/MidNodeGuard.h>
 
 #include <algorithm>
@@ -186,8 +185,7 @@ PlacedMidNodes placeMidNodes(RankExchange& exchange, DistributedMesh& mesh,
   classifyMidpoints(hits, mesh.pointCount(), classification);
   for (const MidpointOnCAD& hit : hits)
   {
-    classification.distances[vertices + hit.place] =
-      distanceFromPlace(classified.projector.model(), nodes[hit.place], hit.where.point);
+    classification.distances[vertices + hit.place] = distance(nodes[hit.place], hit.where.point);
   }
   placed.projected = countHits(exchange, mesh.sharedPoints, vertices, hits);
   return placed;

@@ -176,12 +176,6 @@ double roundedDistance(const CADModel& model, double shortestEdge)
   return std::min(T::rounded * model.size(), T::exactPartOfEdge * shortestEdge);
 }
 
-double distanceFromPlace(const CADModel& model, const Point3& vertex, const Point3& place)
-{
-  const double away = distance(vertex, place);
-  return away <= ClassificationTolerances::tie * model.size() ? 0 : away;
-}
-
 bool fitsTangent(const CADModel& model, const ClosestPoint& where, const Vector3& direction)
 {
   if (where.entity.dimension == 1)

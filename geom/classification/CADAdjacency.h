@@ -43,10 +43,6 @@ double exactDistance(const CADModel& model, double shortestEdge);
 /// size, or a tenth of the shortest edge.
 double roundedDistance(const CADModel& model, double shortestEdge);
 
-/// How far a vertex is from its place on the CAD: 0 where only a rounding is left, 1e-9 of the
-/// size.
-double distanceFromPlace(const CADModel& model, const Point3& vertex, const Point3& place);
-
 /// Whether the CAD edge at this point, or one that ends there, fits the direction.
 bool fitsTangent(const CADModel& model, const ClosestPoint& where, const Vector3& direction);
 
