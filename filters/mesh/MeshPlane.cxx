@@ -87,9 +87,9 @@ Vector3 planeNormal(RankExchange& exchange, const Mesh& mesh)
   return exchange.sum(turns) < 0 ? -1.0 * normal : normal;
 }
 
-Vector3 planeNormal(RankExchange& exchange, const Mesh& mesh, BoundaryKind kind)
+Vector3 planeNormal(RankExchange& exchange, const Mesh& mesh, bool staysInPlane)
 {
-  return kind == BoundaryKind::Edges ? planeNormal(exchange, mesh) : Vector3{};
+  return staysInPlane ? planeNormal(exchange, mesh) : Vector3{};
 }
 
 } // namespace cadrefine

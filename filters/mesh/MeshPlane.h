@@ -3,7 +3,6 @@
 
 #include "comm/RankExchange.h"
 
-#include <cadrefine/classification/BoundaryProjector.h>
 #include <cadrefine/mesh/Mesh.h>
 
 #include <vector>
@@ -19,8 +18,8 @@ Vector3 normalOfPoints(RankExchange& exchange, const std::vector<Point3>& points
 /// The same of a mesh of area, turned the way most of its cells turn; zero of other meshes.
 Vector3 planeNormal(RankExchange& exchange, const Mesh& mesh);
 
-/// The same; zero of meshes that are compared with the faces of the CAD, which need not stay in
-/// their plane.
-Vector3 planeNormal(RankExchange& exchange, const Mesh& mesh, BoundaryKind kind);
+/// The same; zero of a mesh that need not stay in its plane, as it is compared with faces of the
+/// CAD.
+Vector3 planeNormal(RankExchange& exchange, const Mesh& mesh, bool staysInPlane);
 
 } // namespace cadrefine

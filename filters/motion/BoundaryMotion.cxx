@@ -374,7 +374,8 @@ void moveOntoCAD(RankExchange& exchange, DistributedMesh& mesh, Moves moves,
 {
   const Progress& progress = exchange.progress();
   progress.say(0, "moving vertices onto the CAD");
-  const Vector3 plane = planeNormal(exchange, mesh.mesh(), settings.projector.kind());
+  const Vector3 plane =
+    planeNormal(exchange, mesh.mesh(), settings.projector.kind() == BoundaryKind::Edges);
   const std::vector<Index> aimed = movingVertices(moves);
   Left left{ aimed, settings.mendCells ? invalidCells(mesh.mesh(), plane, forOnThreads(exchange))
                                        : std::vector<Index>{} };
@@ -434,7 +435,7 @@ std::vector<Point3> wantedPoints(RankExchange& exchange, const DistributedMesh& 
       vertex, projector.nearestOn(classification.entities[vertex], piece.points[vertex]).point);
   }
   LayerColumns columns(exchange, mesh, verticesOf(mesh, classification), moves, projector, fixed,
-    planeNormal(exchange, piece, projector.kind()));
+    planeNormal(exchange, piece, projector.kind() == BoundaryKind::Edges));
   if (columns.any())
   {
     columns.follow(exchange, moves);

@@ -226,7 +226,8 @@ OperationTrace operateOnBlocks(RankExchange& exchange, DistributedMesh& mesh,
   {
     list.emplace_back(number, &ofBlock);
   }
-  const Vector3 plane = planeNormal(exchange, mesh.mesh(), boundary.boundary.kind);
+  const Vector3 plane =
+    planeNormal(exchange, mesh.mesh(), boundary.boundary.kind == BoundaryKind::Edges);
   std::vector<BlockMesh> meshes(list.size(),
     BlockMesh(mesh, task.wanted, plane, ofVertices, classification, boundary, task.labels));
   std::vector<OperationResult> results(list.size());

@@ -58,7 +58,7 @@ public:
     {
       return; // other cells do not change
     }
-    plane_ = planeNormal(exchange_, mesh(), projector_.kind());
+    plane_ = planeNormal(exchange_, mesh(), projector_.kind() == BoundaryKind::Edges);
     if (isSurface(mesh(), plane_) && projector_.kind() == BoundaryKind::Edges)
     {
       return; // the CAD's edges do not tell on which surface they are

@@ -41,8 +41,9 @@ public:
   Placing(RankExchange& exchange, const DistributedMesh& mesh, const SharedEdges& sharedEdges,
     const ClassifiedBoundary& classified)
     : exchange_(exchange), mesh_(mesh), sharedEdges_(sharedEdges), classified_(classified),
-      nodes_(*mesh.converted.midNodes),
-      plane_(planeNormal(exchange, mesh.mesh(), classified.projector.kind())), moves_(nodes_.points)
+      nodes_(*mesh.converted.midNodes), plane_(planeNormal(exchange, mesh.mesh(),
+                                          classified.projector.kind() == BoundaryKind::Edges)),
+      moves_(nodes_.points)
   {
   }
 
