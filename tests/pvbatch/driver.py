@@ -5,6 +5,7 @@ import json
 import os
 import subprocess
 import tempfile
+import unittest
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 DRIVER = os.path.join(ROOT, "plugin", "cadrefine.py")
@@ -26,6 +27,18 @@ def with_display():
     """What starts a command on an X server of its own. Without -noreset the server starts anew when one rank leaves,
     and the next one may come just then."""
     return ["xvfb-run", f"--server-num={next(DISPLAYS)}", "--server-args=-screen 0 1280x1024x24 -noreset"]
+
+
+class Case(unittest.TestCase):
+    """A test with a folder of its own."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
 
 
 class Run:

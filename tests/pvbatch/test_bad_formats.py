@@ -23,15 +23,7 @@ NO_NODE = HEXAHEDRON.replace("1 5 2 1 1 1 2 3 4 5 6 7 8", "1 4 2 1 1 1 2 3 9")
 LINE3_OF_ORDER_3 = HEXAHEDRON.replace("1 5 2 1 1 1 2 3 4 5 6 7 8", "1 26 2 1 1 1 2 3 4")
 
 
-class BadFormats(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-
-    def path(self, name):
-        return os.path.join(self.folder, name)
-
+class BadFormats(driver.Case):
     def write(self, name, content):
         with open(self.path(name), "wb") as file:
             file.write(content if isinstance(content, bytes) else content.encode())

@@ -4,7 +4,6 @@
 import os
 import shutil
 import sys
-import tempfile
 import unittest
 
 import driver
@@ -27,11 +26,9 @@ CELL_TYPES {types}
 """
 
 
-class Case(unittest.TestCase):
+class Case(driver.Case):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
+        super().setUp()
         self.mesh = driver.data("naca0012_coarse.vtu")
         self.cad = driver.data("naca0012_sharp.igs")
 

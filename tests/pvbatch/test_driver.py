@@ -5,7 +5,6 @@ import json
 import os
 import subprocess
 import sys
-import tempfile
 import unittest
 
 import driver
@@ -38,15 +37,7 @@ def held_by_triangles(mesh, name):
     return total
 
 
-class Case(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-
-    def path(self, name):
-        return os.path.join(self.folder, name)
-
+class Case(driver.Case):
     def tagged_wing(self):
         """The wing with its boundary triangles, which come before the tetrahedra."""
         path = self.path("tagged.vtu")

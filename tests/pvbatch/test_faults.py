@@ -7,7 +7,6 @@ import re
 import shutil
 import signal
 import subprocess
-import tempfile
 import time
 import unittest
 
@@ -33,15 +32,7 @@ for index, source in enumerate(sys.argv[2:]):
 """
 
 
-class Faults(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-
-    def path(self, name):
-        return os.path.join(self.folder, name)
-
+class Faults(driver.Case):
     def start(self, ranks, *options, **environment):
         command = [*driver.launcher(ranks), driver.DRIVER, *WING, *options]
         process = subprocess.Popen(command, env={**os.environ, **driver.ENVIRONMENT, **environment}, text=True,

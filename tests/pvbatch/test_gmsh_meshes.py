@@ -4,9 +4,7 @@ volumes: also those that are not in the CAD."""
 
 import itertools
 import json
-import os
 import sys
-import tempfile
 import unittest
 
 import driver
@@ -17,15 +15,7 @@ import numpy as np
 RANKS = int(sys.argv.pop()) if sys.argv[-1].isdigit() else 1
 
 
-class GmshMeshes(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-
-    def path(self, name):
-        return os.path.join(self.folder, name)
-
+class GmshMeshes(driver.Case):
     def generate(self, dimension, make_cad, make_mesh, size):
         gmsh.initialize()
         try:

@@ -5,7 +5,6 @@ import os
 import re
 import shutil
 import sys
-import tempfile
 import unittest
 
 import driver
@@ -86,15 +85,10 @@ def write_mesh(folder):
     return len(surface)
 
 
-class Pieces(unittest.TestCase):
+class Pieces(driver.Case):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
+        super().setUp()
         self.surface_cells = write_mesh(self.folder)
-
-    def path(self, name):
-        return os.path.join(self.folder, name)
 
     def copy(self, name, piece, spoil):
         """A copy of the mesh whose file `piece` is spoilt; the path of its file `name`."""

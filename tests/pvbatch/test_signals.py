@@ -29,16 +29,8 @@ def passes_on_last_words():
 PASSES_ON = passes_on_last_words()
 
 
-class Signals(unittest.TestCase):
+class Signals(driver.Case):
     whole_runs = {}  # Contents of the files that runs leave which nothing ends: by ranks, name and steps.
-
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-
-    def path(self, name):
-        return os.path.join(self.folder, name)
 
     def command(self, ranks, place, *options, case=WING):
         return [*driver.launcher(ranks), driver.DRIVER, *case, *options, "--output", place]
