@@ -90,12 +90,16 @@ int FindDimension(
   {
     dimension = std::max(dimension, mesh->GetCell(cell)->GetCellDimension());
   }
+  if (exchange.max(dimension) != 2)
+  {
+    return 2;
+  }
   std::vector<cadrefine::Point3> points(mesh->GetNumberOfPoints());
   for (std::size_t p = 0; p < points.size(); ++p)
   {
     mesh->GetPoint(static_cast<vtkIdType>(p), points[p].data());
   }
-  return exchange.max(dimension) == 2 && cadrefine::isPlanar(exchange, points, model) ? 1 : 2;
+  return cadrefine::isPlanar(exchange, points, model) ? 1 : 2;
 }
 
 /// Of all ranks, on rank 0. Collective.

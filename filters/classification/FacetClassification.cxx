@@ -88,15 +88,16 @@ std::vector<std::int32_t> findCovered(
 }
 
 /// Takes facets between two cells off the CAD where outer ones are on the same face of it (of a
-/// planar mesh, edge), or others whose corners are exactly there while none of theirs is.
+/// planar mesh, edge), or others whose corners are there, but for rounding, while none of theirs
+/// is.
 void leaveEndsOfLayers(const ProjectionTask& task, const std::vector<ClosestPoint>& hits,
   std::vector<FacetRecord>& records)
 {
-  constexpr std::int64_t byExact = 1;
+  constexpr std::int64_t byInside = 1;
   constexpr std::int64_t byOuter = 2;
   const auto& facets = task.boundary.facets;
   const int dimension = task.boundary.facetDimension();
-  const auto isExact = [&](Index vertex)
+  const auto isThere = [&](Index vertex)
   {
     return hits[vertex].distance <=
            roundedDistance(task.model(), task.boundary.shortestEdge[vertex]);
@@ -105,11 +106,11 @@ void leaveEndsOfLayers(const ProjectionTask& task, const std::vector<ClosestPoin
   for (std::size_t f = 0; f < facets.size(); ++f)
   {
     if (records[f].onCAD &&
-        (!facets[f].isInside || std::all_of(facets[f].begin(), facets[f].end(), isExact)))
+        (!facets[f].isInside || std::all_of(facets[f].begin(), facets[f].end(), isThere)))
     {
       for (const std::int32_t entity : findCovered(task, hits, facets[f]))
       {
-        covers[entity] = std::max(covers[entity], facets[f].isInside ? byExact : byOuter);
+        covers[entity] = std::max(covers[entity], facets[f].isInside ? byInside : byOuter);
       }
     }
   }
@@ -117,14 +118,14 @@ void leaveEndsOfLayers(const ProjectionTask& task, const std::vector<ClosestPoin
   const auto isOf = [&](Index vertex, std::int32_t entity)
   {
     const auto around = entitiesAround(task.model().nurbs(), hits[vertex].entity, dimension);
-    return isExact(vertex) && std::binary_search(around.begin(), around.end(), entity);
+    return isThere(vertex) && std::binary_search(around.begin(), around.end(), entity);
   };
   const auto isBeside = [&](const Facet& facet, Index corner)
   {
     const EntityId entity = hits[corner].entity;
-    return entity.dimension == dimension && !isExact(corner) &&
+    return entity.dimension == dimension && !isThere(corner) &&
            (covers[entity.index] == byOuter ||
-             (covers[entity.index] == byExact &&
+             (covers[entity.index] == byInside &&
                std::none_of(facet.begin(), facet.end(),
                  [&](Index vertex) { return isOf(vertex, entity.index); })));
   };
@@ -195,7 +196,6 @@ std::vector<FaceMatch> findFaces(
   const auto& records = classes.records;
   const auto amongTheirOwn = findThoseAmongTheirOwn(task, hits);
   const FaceFinder finder(task.model(), classes.sides);
-  const FaceFinder ofInside(task.model(), {});
   std::vector<CornerHits> queries;
   std::vector<std::size_t> facets;
   for (std::size_t f = 0; f < records.size(); ++f)
@@ -220,7 +220,7 @@ std::vector<FaceMatch> findFaces(
     facets.push_back(f);
   }
   const auto answers = mapBalanced<FaceMatch>(task.exchange, std::move(queries),
-    [&](const CornerHits& query) { return (query.isInside ? ofInside : finder).find(query); },
+    [&](const CornerHits& query) { return finder.find(query); },
     { "finding the CAD faces of", "facets" });
   std::vector<FaceMatch> matches(records.size());
   for (std::size_t i = 0; i < facets.size(); ++i)

@@ -17,15 +17,16 @@ struct FacetClasses
 /// Classes of the facets, given the nearest point of each vertex:
 ///   1. a facet is on the CAD if all of its corners found a point, its normal fits there, and it
 ///      looks alike there; it is free if a corner is outside the user's region;
-///   2. facets between two cells are not on the CAD if a corner is not exactly there, and outer
-///      facets are on the same face, or others exactly on it while no corner of theirs is: they are
-///      the end of a layer over it;
+///   2. facets between two cells are not on the CAD if a corner is not there (see roundedDistance),
+///      and outer facets are on the same face, or others are there while no corner of theirs is:
+///      they are the end of a layer over it;
 ///   3. the outer facets that lie clearly on one face tell which way the CAD's normals point, seen
-///      from the mesh (see decideSides); to a face with facets between two cells, both ways do;
+///      from the mesh (see decideSides); those of facets between two cells may point either way;
 ///   4. each triangle on the CAD finds its face (see FaceFinder);
 ///   5. those that are not sure of it take the face that most of their neighbours over smooth mesh
 ///      edges have.
-/// Collective: two reductions, of four numbers for each CAD face, and an exchange of the interface.
+/// Collective: two reductions, of three numbers for each CAD face, and an exchange of the
+/// interface.
 FacetClasses classifyFacets(const ProjectionTask& task, const std::vector<ClosestPoint>& hits);
 
 } // namespace cadrefine

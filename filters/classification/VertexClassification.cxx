@@ -104,7 +104,6 @@ void addFaces(const ProjectionTask& task, const std::vector<ClosestPoint>& hits,
   meeting.undecided.assign(hits.size(), 0);
   meeting.wrongSide.assign(hits.size(), 1);
   const FaceFinder finder(task.model(), facets.sides);
-  const FaceFinder ofInside(task.model(), {});
   for (std::size_t f = 0; f < facets.records.size(); ++f)
   {
     const FacetRecord& record = facets.records[f];
@@ -120,8 +119,7 @@ void addFaces(const ProjectionTask& task, const std::vector<ClosestPoint>& hits,
         continue;
       }
       meeting.faces[vertex].add(record.face);
-      if (meeting.wrongSide[vertex] &&
-          (record.isInside ? ofInside : finder).fitsAt(hits[vertex], record.normal))
+      if (meeting.wrongSide[vertex] && finder.fitsAt(hits[vertex], record.normal, record.isInside))
       {
         meeting.wrongSide[vertex] = 0;
       }

@@ -12,7 +12,8 @@ namespace cadrefine
 
 /// A unit normal of the plane in which the points of all ranks lie, to 2e-7 of their extent, which
 /// is what single precision leaves; zero where they lie in none. One axis, up to its sign, where
-/// they have a coordinate in common. Collective; four reductions, work linear in the points.
+/// they have a coordinate in common. Collective: three gathers of four numbers a rank, and a
+/// reduction; work linear in the points.
 Vector3 normalOfPoints(RankExchange& exchange, const std::vector<Point3>& points);
 
 /// The same of a mesh of area, turned the way most of its cells turn; zero of other meshes.

@@ -155,14 +155,14 @@ std::string reasonOfNone(
   {
     return none + "the region (Region) contains no boundary vertex";
   }
+  if (!options.faces.empty())
+  {
+    return none + "no boundary facet lies on the chosen faces (Faces)";
+  }
   if (options.region)
   {
     return none + "no boundary facet lies on the CAD with all of its vertices in the region " +
            "(Region); make that larger";
-  }
-  if (!options.faces.empty())
-  {
-    return none + "no boundary facet lies on the chosen faces (Faces)";
   }
   const std::string farther = options.maximumDistance
                                 ? "MaximumDistance"

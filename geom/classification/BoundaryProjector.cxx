@@ -28,8 +28,8 @@ Vector3 normalAtCorner(const ClassifiedFacet& facet, int k, const Vector3& ofFac
 } // namespace
 
 BoundaryProjector::BoundaryProjector(const CADModel& model, BoundaryKind kind)
-  : model_(model), kind_(kind), faces_(model, {}), edges_(model), corners_(findCorners(model)),
-    lines_(findCreaseLines(model.nurbs(), corners_))
+  : model_(model), kind_(kind), faces_(model, FaceSides(model.count(2), 0)), edges_(model),
+    corners_(findCorners(model)), lines_(findCreaseLines(model.nurbs(), corners_))
 {
 }
 

@@ -43,21 +43,24 @@ FaceSides decideSides(
   return sides;
 }
 
-bool FaceFinder::fits(std::int32_t face, const Vector3& normalOfFace, const Vector3& normal) const
+bool FaceFinder::fits(
+  std::int32_t face, const Vector3& normalOfFace, const Vector3& normal, bool eitherWay) const
 {
   return fitsEitherWay(normalOfFace, normal) &&
-         (sides_.empty() || sides_[face] * dot(normalOfFace, normal) >= 0);
+         (eitherWay || sides_[face] * dot(normalOfFace, normal) >= 0);
 }
 
-bool FaceFinder::fitsAt(const ClosestPoint& where, const Vector3& normal) const
+bool FaceFinder::fitsAt(const ClosestPoint& where, const Vector3& normal, bool eitherWay) const
 {
   if (where.entity.dimension == 2)
   {
-    return fits(where.entity.index, model_.normal(where.entity.index, where.parameters), normal);
+    return fits(
+      where.entity.index, model_.normal(where.entity.index, where.parameters), normal, eitherWay);
   }
   const auto faces = entitiesAround(model_.nurbs(), where.entity, 2);
   return std::any_of(faces.begin(), faces.end(),
-    [&](std::int32_t face) { return fits(face, model_.normalNear(face, where.point), normal); });
+    [&](std::int32_t face)
+    { return fits(face, model_.normalNear(face, where.point), normal, eitherWay); });
 }
 
 std::int32_t FaceFinder::faceByCorners(const CornerHits& facet, const Vector3& normal) const
@@ -65,7 +68,7 @@ std::int32_t FaceFinder::faceByCorners(const CornerHits& facet, const Vector3& n
   for (int k = 0; k < facet.corners; ++k)
   {
     const ClosestPoint& hit = facet.hits[k];
-    if (facet.amongItsOwn[k] && hit.entity.dimension == 2 && fitsAt(hit, normal))
+    if (facet.amongItsOwn[k] && hit.entity.dimension == 2 && fitsAt(hit, normal, facet.isInside))
     {
       return hit.entity.index;
     }
@@ -74,8 +77,8 @@ std::int32_t FaceFinder::faceByCorners(const CornerHits& facet, const Vector3& n
 }
 
 /// Of faces that are equally near, as those at an edge are, the one whose normal fits best.
-std::int32_t FaceFinder::nearestFitting(
-  const std::vector<std::int32_t>& faces, const Point3& centroid, const Vector3& normal) const
+std::int32_t FaceFinder::nearestFitting(const std::vector<std::int32_t>& faces,
+  const Point3& centroid, const Vector3& normal, bool eitherWay) const
 {
   const double tie = ClassificationTolerances::tie * model_.size();
   std::vector<double> distances(faces.size(), std::numeric_limits<double>::infinity());
@@ -83,7 +86,7 @@ std::int32_t FaceFinder::nearestFitting(
   for (std::size_t i = 0; i < faces.size(); ++i)
   {
     const Vector3 ofFace = model_.normalNear(faces[i], centroid);
-    if (fits(faces[i], ofFace, normal))
+    if (fits(faces[i], ofFace, normal, eitherWay))
     {
       distances[i] = model_.nearestOn({ 2, faces[i] }, centroid).distance;
       cosines[i] = std::abs(dot(ofFace, normal));
@@ -120,10 +123,10 @@ FaceMatch FaceFinder::find(const CornerHits& facet) const
     std::transform(facet.hits.begin(), facet.hits.end(), entities.begin(),
       [](const ClosestPoint& hit) { return hit.entity; });
     const auto common = commonFaces(model_.nurbs(), entities, facet.corners);
-    const std::int32_t onSide = nearestFitting(common, centroid, normal);
+    const std::int32_t onSide = nearestFitting(common, centroid, normal, facet.isInside);
     // Where bodies touch whose meshes do not match, a face has facets on both sides.
     const std::int32_t ofAll =
-      onSide >= 0 ? onSide : FaceFinder(model_, {}).nearestFitting(common, centroid, normal);
+      onSide >= 0 ? onSide : nearestFitting(common, centroid, normal, true);
     if (ofAll >= 0)
     {
       return { ofAll, 1 };
@@ -134,7 +137,7 @@ FaceMatch FaceFinder::find(const CornerHits& facet) const
   const auto nearest = [&](const Point3& point)
   { return onSharedEdge(model_, point, model_.nearest(point, scope)); };
   const ClosestPoint where = nearest(centroid);
-  if (where.entity.dimension == 2 && fitsAt(where, normal))
+  if (where.entity.dimension == 2 && fitsAt(where, normal, facet.isInside))
   {
     return { where.entity.index, 1 };
   }
@@ -150,7 +153,7 @@ FaceMatch FaceFinder::find(const CornerHits& facet) const
       nearby.push_back(facet.hits[k].entity);
     }
   }
-  const std::int32_t face = nearestFitting(facesAround(nearby), centroid, normal);
+  const std::int32_t face = nearestFitting(facesAround(nearby), centroid, normal, facet.isInside);
   return { face, face >= 0 && where.entity.dimension == 2 };
 }
 
@@ -170,7 +173,7 @@ std::int32_t FaceFinder::nearestOf(
   const std::vector<std::int32_t>& faces, const std::array<Point3, 4>& points, int corners) const
 {
   return nearestFitting(
-    faces, centroidOf(points, corners), normalized(twofoldAreaVector(points, corners)));
+    faces, centroidOf(points, corners), normalized(twofoldAreaVector(points, corners)), true);
 }
 
 } // namespace cadrefine

@@ -47,7 +47,7 @@ struct FaceMatch
 class FaceFinder
 {
 public:
-  /// `sides` has one entry for each face of the model; none: facets may be on either side.
+  /// `sides` has one entry for each face of the model.
   FaceFinder(const CADModel& model, FaceSides sides) : model_(model), sides_(std::move(sides)) {}
 
   /// The face nearest to the centroid of those whose normal there fits the facet's: to 60
@@ -58,18 +58,20 @@ public:
   /// face at the points found.
   FaceMatch find(const CornerHits& facet) const;
 
-  /// Whether a face at this point of the model has a normal that fits, and on the right side.
-  bool fitsAt(const ClosestPoint& where, const Vector3& normal) const;
+  /// Whether a face at this point of the model has a normal that fits, and, unless it may be either
+  /// one, on the right side.
+  bool fitsAt(const ClosestPoint& where, const Vector3& normal, bool eitherWay) const;
 
-  /// Of these faces the nearest whose normal fits, or -1.
+  /// Of these faces the nearest whose normal fits, either way, or -1.
   std::int32_t nearestOf(
     const std::vector<std::int32_t>& faces, const std::array<Point3, 4>& points, int corners) const;
 
 private:
-  bool fits(std::int32_t face, const Vector3& normalOfFace, const Vector3& normal) const;
+  bool fits(
+    std::int32_t face, const Vector3& normalOfFace, const Vector3& normal, bool eitherWay) const;
   std::int32_t faceByCorners(const CornerHits& facet, const Vector3& normal) const;
-  std::int32_t nearestFitting(
-    const std::vector<std::int32_t>& faces, const Point3& centroid, const Vector3& normal) const;
+  std::int32_t nearestFitting(const std::vector<std::int32_t>& faces, const Point3& centroid,
+    const Vector3& normal, bool eitherWay) const;
   std::vector<std::int32_t> facesAround(const std::vector<EntityId>& entities) const;
 
   const CADModel& model_;
