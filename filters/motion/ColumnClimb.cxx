@@ -8,8 +8,10 @@ namespace cadrefine
 {
 
 ColumnClimb::ColumnClimb(const DistributedMesh& mesh, const CellStacks& stacks,
-  const ColumnNodes& nodes, const Moves& moves, const std::vector<unsigned char>& onInnerWalls)
-  : mesh_(mesh), nodes_(nodes), stacks_(stacks), moves_(moves), onInnerWalls_(onInnerWalls)
+  const ColumnNodes& nodes, const Moves& moves, const std::vector<unsigned char>& onInnerWalls,
+  bool onSurface)
+  : mesh_(mesh), nodes_(nodes), stacks_(stacks), moves_(moves), onInnerWalls_(onInnerWalls),
+    onSurface_(onSurface)
 {
   for (const Index vertex : mesh.shared.all)
   {
@@ -24,6 +26,14 @@ void ColumnClimb::start(const Facet& facet, int place, double highest, double re
   const GlobalId wall = nodes_.ids[nodes_.at(facet, place)];
   climb(facet, { 2 * wall, {}, place, 0, highest, reach });
   goBeyond(facet, { 2 * wall + 1, {}, place, 0, highest, reach });
+}
+
+void ColumnClimb::startInCell(const Facet& facet, int place, double highest, double reach)
+{
+  const GlobalId wall = nodes_.ids[nodes_.at(facet, place)];
+  const auto& ids = mesh_.mesh().ids;
+  const GlobalId way = ids[facet.vertices[0]] < ids[facet.vertices[1]] ? 0 : 1;
+  climb(facet, { 2 * wall + way, {}, place, 0, highest, reach });
 }
 
 std::vector<ColumnVisit> ColumnClimb::run(RankExchange& exchange)
@@ -67,7 +77,7 @@ void ColumnClimb::climb(Facet side, Front front)
       return;
     }
     visited_.push_back({ node, front.column, front.height });
-    if (front.height >= front.reach || isMovingWall(above, node))
+    if (front.height >= front.reach || endsAt(above, node))
     {
       return;
     }
@@ -79,10 +89,11 @@ void ColumnClimb::climb(Facet side, Front front)
   }
 }
 
-bool ColumnClimb::isMovingWall(const Facet& side, Index node) const
+bool ColumnClimb::endsAt(const Facet& side, Index node) const
 {
-  return moves_.fractions[node] > 0 && std::all_of(side.begin(), side.end(),
-                                         [&](Index vertex) { return onInnerWalls_[vertex] != 0; });
+  return (onSurface_ || moves_.fractions[node] > 0) &&
+         std::all_of(
+           side.begin(), side.end(), [&](Index vertex) { return onInnerWalls_[vertex] != 0; });
 }
 
 void ColumnClimb::goBeyond(const Facet& side, const Front& front)

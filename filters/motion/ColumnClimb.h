@@ -54,13 +54,16 @@ class ColumnClimb
 {
 public:
   /// `onInnerWalls`: 1 for vertices of walls inside the mesh, over all ranks. Columns end at such
-  /// walls, where a node of theirs moves itself.
+  /// walls, on a surface at each, else where a node of theirs moves itself.
   ColumnClimb(const DistributedMesh& mesh, const CellStacks& stacks, const ColumnNodes& nodes,
-    const Moves& moves, const std::vector<unsigned char>& onInnerWalls);
+    const Moves& moves, const std::vector<unsigned char>& onInnerWalls, bool onSurface);
 
   /// A column that stands on this node of a facet (see ColumnNodes::at), on both sides of it, and
   /// ends at the height `reach`; none where its first cell is higher than `highest`.
   void start(const Facet& facet, int place, double highest, double reach);
+  /// The same in the facet's own cell only. Columns of two cells are told apart by the ways in
+  /// which they go round it.
+  void startInCell(const Facet& facet, int place, double highest, double reach);
 
   /// What the columns come to on this rank: on it, and from others. Collective; messages: one to
   /// and from each neighbour for every time that columns cross between ranks.
@@ -82,7 +85,7 @@ private:
   void climb(Facet side, Front front);
   void goBeyond(const Facet& side, const Front& front);
   void send(const Facet& side, Front front);
-  bool isMovingWall(const Facet& side, Index node) const;
+  bool endsAt(const Facet& side, Index node) const;
   Facet facetOf(const std::array<GlobalId, 4>& ids) const;
 
   const DistributedMesh& mesh_;
@@ -90,6 +93,7 @@ private:
   const CellStacks& stacks_;
   const Moves& moves_;
   const std::vector<unsigned char>& onInnerWalls_;
+  bool onSurface_;
   std::vector<std::pair<GlobalId, Index>> vertexOf_; ///< Of the ids of shared vertices.
   std::vector<std::vector<Front>> outgoing_;
   std::vector<ColumnVisit> visited_;

@@ -50,6 +50,31 @@ struct Arrival
   double height = 0;
 };
 
+/// Of a surface in space: the sides of quadrilaterals that are on CAD edges, once for each cell.
+std::vector<Facet> findSidesOnEdges(const Columns& columns)
+{
+  const ColumnNodes& nodes = columns.nodes;
+  std::vector<Facet> sides;
+  forEachSide(columns.mesh.mesh(),
+    [&](Facet side)
+    {
+      EntityId edge;
+      bool isOnEdge = side.cell >= static_cast<Index>(columns.mesh.mesh().triangles.size());
+      for (int k = 0; k < nodes.count(side) && isOnEdge; ++k)
+      {
+        const EntityId entity = nodes.entities[nodes.at(side, k)];
+        isOnEdge = entity.dimension == 0 || (entity.dimension == 1 && (!edge || edge == entity));
+        edge = entity.dimension == 1 ? entity : edge;
+      }
+      if (isOnEdge)
+      {
+        side.isInside = true;
+        sides.push_back(side);
+      }
+    });
+  return sides;
+}
+
 /// 1 for vertices of facets between two cells all of whose nodes are on the CAD. Collective.
 std::vector<unsigned char> findInnerWalls(RankExchange& exchange, const Columns& columns)
 {
@@ -71,6 +96,13 @@ std::vector<unsigned char> findInnerWalls(RankExchange& exchange, const Columns&
   return flags;
 }
 
+std::array<GlobalId, 4> sortedIdsOf(const Mesh& mesh, const Facet& facet)
+{
+  auto ids = idsOf(mesh, facet.vertices);
+  std::sort(ids.begin(), ids.end());
+  return ids;
+}
+
 /// For each moving node the facet that its column stands on, none of one that only a rounding
 /// moves. Collective.
 std::vector<BestFacet> findBestFacets(
@@ -89,7 +121,7 @@ std::vector<BestFacet> findBestFacets(
       if (moves.fractions[n] > 0 && norm(move) > rounding)
       {
         best[n] = better(best[n],
-          { std::abs(dot(normalized(move), normal)), idsOf(columns.mesh.mesh(), facet.vertices) });
+          { std::abs(dot(normalized(move), normal)), sortedIdsOf(columns.mesh.mesh(), facet) });
       }
     }
   }
@@ -153,20 +185,27 @@ void ColumnPlanning::run(
   RankExchange& exchange, const Moves& moves, const std::vector<unsigned char>& fixed)
 {
   const Mesh& piece = columns_.mesh.mesh();
-  columns_.facets = findBoundaryFacets(exchange, columns_.mesh, fixed);
+  const bool onSurface = isSurface(piece, columns_.plane);
+  columns_.facets =
+    onSurface ? findSidesOnEdges(columns_) : findBoundaryFacets(exchange, columns_.mesh, fixed);
   const auto best = findBestFacets(exchange, columns_, moves);
   const CellStacks stacks(piece);
   const auto onInnerWalls = findInnerWalls(exchange, columns_);
-  ColumnClimb climb(columns_.mesh, stacks, columns_.nodes, moves, onInnerWalls);
+  ColumnClimb climb(columns_.mesh, stacks, columns_.nodes, moves, onInnerWalls, onSurface);
   for (const Facet& facet : columns_.facets)
   {
     for (int k = 0; k < columns_.nodes.count(facet); ++k)
     {
       const Index n = columns_.nodes.at(facet, k);
-      if (moves.fractions[n] > 0 && best[n].ids == idsOf(piece, facet.vertices))
+      if (moves.fractions[n] > 0 && best[n].ids == sortedIdsOf(piece, facet))
       {
-        const double move = distance(moves.targets[n], columns_.nodes.points[n]);
-        climb.start(facet, k, move / columns_.nodes.leastMove, reachOfMove * move);
+        const Vector3 move = moves.targets[n] - columns_.nodes.points[n];
+        const double ofFacet =
+          onSurface ? std::abs(dot(move, columns_.normalOf(facet))) : norm(move);
+        const double highest = ofFacet / columns_.nodes.leastMove;
+        const double reach = reachOfMove * norm(move);
+        onSurface ? climb.startInCell(facet, k, highest, reach)
+                  : climb.start(facet, k, highest, reach);
       }
     }
   }

@@ -1,5 +1,6 @@
 #include "motion/Columns.h"
 
+#include <cadrefine/mesh/CellState.h>
 #include <cadrefine/mesh/Quality.h>
 
 #include <algorithm>
@@ -20,11 +21,18 @@ constexpr double alongEntity = 0.1;
 
 Vector3 Columns::normalOf(const Facet& facet) const
 {
-  std::array<Point3, 4> p{};
-  std::transform(facet.begin(), facet.end(), p.begin(),
-    [&](Index vertex) { return mesh.mesh().points[vertex]; });
-  return normalized(
-    facet.corners() == 2 ? cross(p[1] - p[0], plane) : twofoldAreaVector(p, facet.corners()));
+  const Mesh& piece = mesh.mesh();
+  const std::array<Point3, 4> p = pointsOf(piece, facet);
+  if (facet.corners() > 2)
+  {
+    return normalized(twofoldAreaVector(p, facet.corners()));
+  }
+  const Vector3 ofCell =
+    isSurface(piece, plane)
+      ? twofoldAreaVector(
+          cornersOf(piece.quadrilaterals[facet.cell - piece.triangles.size()], piece.points), 4)
+      : plane;
+  return normalized(cross(p[1] - p[0], ofCell));
 }
 
 /// The moves of these nodes, one for each column, on this rank or on others. Collective.
@@ -80,6 +88,10 @@ std::vector<unsigned char> Columns::findBlocked(
       blocked[n] = blocked[n] || (!nodes.entities[n] && !facet.isInside &&
                                    std::abs(dot(move, normal)) > inPlane * norm(move));
     });
+  for (std::size_t n = 0; n < blocked.size() && isSurface(mesh.mesh(), plane); ++n)
+  {
+    blocked[n] = blocked[n] || !nodes.entities[n];
+  }
   combineFlags(exchange, nodes.shared, blocked);
   return blocked;
 }

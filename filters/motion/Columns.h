@@ -40,8 +40,9 @@ struct Columns
   const DistributedMesh& mesh;
   ColumnNodes nodes;
   const BoundaryProjector& projector;
-  Vector3 plane;                  ///< See planeNormal.
-  std::vector<Facet> facets = {}; ///< Of the mesh's boundary.
+  Vector3 plane; ///< See planeNormal.
+  /// Of the mesh's boundary; of a surface in space the sides of quadrilaterals on CAD edges.
+  std::vector<Facet> facets = {};
   std::vector<GlobalId> ids = {}; ///< Ascending: twice the id of the wall's node, 1 more beyond.
   std::vector<Index> walls = {};  ///< The node of the wall; -1: only other ranks start the column.
   /// The node of the wall where a column ends, if another one comes back from there; -1: none, or
@@ -86,7 +87,7 @@ struct Columns
     }
   }
 
-  /// Of unit length.
+  /// Of unit length; on a surface in space in its cell.
   Vector3 normalOf(const Facet& facet) const;
 
 private:

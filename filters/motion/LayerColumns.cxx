@@ -25,7 +25,7 @@ LayerColumns::LayerColumns(RankExchange& exchange, const DistributedMesh& mesh, 
   const Moves& moves, const BoundaryProjector& projector, const std::vector<unsigned char>& fixed,
   const Vector3& plane)
   : columns_{ mesh, std::move(nodes), projector, plane },
-    any_(exchange.any(mesh.mesh().hasNonSimplices()) && !isSurface(mesh.mesh(), plane))
+    any_(exchange.any(mesh.mesh().hasNonSimplices()))
 {
   if (any_)
   {

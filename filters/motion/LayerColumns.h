@@ -27,16 +27,17 @@ namespace cadrefine
 /// fades into that of this wall, and the two columns go as one. Where a height
 /// is less than twice the move that fades out, the profile blends from the cubic to scaling all
 /// heights in proportion. A node that is to move along the boundary itself, as on a plane of
-/// symmetry, goes with a column that does so too.
+/// symmetry, goes with a column that does so too. On a surface in space the walls are its CAD
+/// edges, where columns also end.
 ///
 /// Work: linear in the cells that are not simplices. Messages: one to and from each neighbour for
 /// every time that columns cross between ranks, and a few more.
 class LayerColumns
 {
 public:
-  /// None, unless some rank has other cells than simplices; nor where `plane`, the normal of a
-  /// planar mesh, is zero in 2D. `moves`: of the nodes. `fixed`: 1 for vertices on the boundary,
-  /// over all ranks. Keeps references to the mesh and to what the nodes refer to. Collective.
+  /// None, unless some rank has other cells than simplices. `plane`: see planeNormal. `moves`: of
+  /// the nodes. `fixed`: 1 for vertices on the boundary, over all ranks. Keeps references to the
+  /// mesh and to what the nodes refer to. Collective.
   LayerColumns(RankExchange& exchange, const DistributedMesh& mesh, ColumnNodes nodes,
     const Moves& moves, const BoundaryProjector& projector, const std::vector<unsigned char>& fixed,
     const Vector3& plane);

@@ -15,7 +15,7 @@ namespace
 {
 
 /// A place inside its face is looked for as far from the border as the middle is, and so often half
-/// as far.
+/// as far, and twice.
 constexpr int halvingsInside = 10;
 /// A place on a face is taken instead of one on its border that is so many times nearer.
 constexpr double asNear = 1.25;
@@ -282,10 +282,11 @@ ClosestPoint offCrease(
                           std::binary_search(beside.begin(), beside.end(), where.entity.index);
     return isBeside ? where : border;
   }
-  // As far inside as the middle is outside; where the face is narrower than that, less.
-  for (int halvings = 0; halvings <= halvingsInside; ++halvings)
+  // As far inside as the middle is outside; where the face is narrower than that, less, and where
+  // that is next to nothing, more.
+  for (int step = 0; step <= 2 * halvingsInside; ++step)
   {
-    const double part = std::ldexp(1.0, -halvings);
+    const double part = std::ldexp(1.0, step <= halvingsInside ? -step : step - halvingsInside);
     ClosestPoint inside = projector.nearestOnShared(
       edge.edgeClass, edge.entities, border.point + part * (border.point - middle));
     if (inside.entity)

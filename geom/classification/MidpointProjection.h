@@ -25,8 +25,9 @@ ClosestPoint onNose(
 /// A place for the midpoint of an edge that is projected to `where`, in its face, or in those that
 /// both ends share: not on another one that is nearer to a chord which leaves its face, and not on
 /// a crease that the edge is not on, where it would meet the vertices of the crease's own mesh
-/// edges. As far inside the crease as the midpoint is outside, or less where the face is narrower.
-/// Work: none where `where` is on such a face; else a projection a face, and up to eleven more.
+/// edges. As far inside the crease as the midpoint is outside, or less where the face is narrower,
+/// or more where the midpoint is right over the crease. Work: none where `where` is on such a face;
+/// else a projection a face, and up to 21 more.
 ClosestPoint offCrease(
   const BoundaryProjector& projector, const BoundaryEdge& edge, const ClosestPoint& where);
 

@@ -31,13 +31,13 @@ class GmshMeshes(driver.Case):
         finally:
             gmsh.finalize()
 
-    def expect_on_cad(self, ratio):
-        report = driver.report_of(RANKS, self.path("mesh.msh"), self.path("cad.brep"), "--method", "uniform",
-                                  "--steps", "2")
-        errors = [step["global_error"] for step in report["steps"]]
-        self.assertEqual([step["unprojected_vertices"] for step in report["steps"]], [0, 0, 0])
-        self.assertEqual([step["invalid_cells"] for step in report["steps"]], [0, 0, 0])
-        self.assertGreater(min(errors[0] / errors[1], errors[1] / errors[2]), ratio)
+    def expect_on_cad(self, ratio, mesh="mesh.msh", levels=2):
+        report = driver.report_of(RANKS, self.path(mesh), self.path("cad.brep"), "--method", "uniform",
+                                  "--steps", str(levels))
+        errors = np.array([step["global_error"] for step in report["steps"]])
+        self.assertEqual([step["unprojected_vertices"] for step in report["steps"]], [0] * (levels + 1))
+        self.assertEqual([step["invalid_cells"] for step in report["steps"]], [0] * (levels + 1))
+        self.assertGreater(min(errors[:-1] / errors[1:]), ratio)
         return report
 
     def test_thin_ring_of_tetrahedra(self):
@@ -140,6 +140,35 @@ class GmshMeshes(driver.Case):
             steps = json.load(file)["steps"]
         self.assertGreater(steps[0]["maximum_distance"], 0.03)
         self.assertLessEqual(steps[-1]["maximum_distance"], 0.01)
+
+    def test_layers_on_a_curved_surface(self):
+        """Quadrilaterals round a hole in the wall of a cylinder. Over a chord its rim bulges by thirteen of their
+        heights, so that the middles of the first ones are in the hole."""
+        occ = gmsh.model.occ
+
+        def ring():
+            body = occ.addCylinder(0, 0, -1, 0, 0, 2, 1, angle=np.pi)
+            occ.rotate([(3, body)], 0, 0, 0, 0, 0, 1, -np.pi / 2)
+            occ.synchronize()
+            wall = [face for face in gmsh.model.getBoundary([(3, body)], oriented=False) if
+                    gmsh.model.getType(*face) == "Cylinder"]
+            outer, inner = (occ.addCylinder(0, 0, 0, 2, 0, 0, radius) for radius in (0.7, 0.4))
+            walls = occ.copy(wall)
+            occ.remove([(3, body)], recursive=True)
+            occ.intersect(walls, occ.cut([(3, outer)], [(3, inner)])[0])
+
+        self.generate(2, ring, ring, 0.5)
+        around = 12
+        radii = 0.4 + np.array([0, *1e-3 * np.cumsum(1.5 ** np.arange(12)), 0.3])
+        angles = 2 * np.pi * (np.arange(around) + 0.3) / around
+        y, z = (np.outer(radii, way(angles)).ravel() for way in (np.cos, np.sin))
+        first = (around * np.arange(len(radii) - 1)[:, None] + np.arange(around)).ravel()
+        beside = first - first % around + (first + 1) % around
+        meshio.Mesh(np.column_stack([np.sqrt(1 - y**2), y, z]),
+                    [("quad", np.column_stack([first, first + around, beside + around, beside]))]
+                    ).write(self.path("mesh.vtu"))
+        report = self.expect_on_cad(3.8, "mesh.vtu", 3)
+        self.assertGreater(report["steps"][-1]["minimum_quality"], 0.9)
 
     def test_wall_of_one_cell(self):
         """Hexahedra between two cylinders, over which these bulge by seven times as much as they are apart."""
