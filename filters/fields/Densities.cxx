@@ -6,7 +6,9 @@
 #include <cadrefine/mesh/CellState.h>
 #include <cadrefine/mesh/Overlap.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 
 namespace cadrefine
@@ -31,10 +33,13 @@ double sizeOf(Shape, const std::array<Point3, Shape::corners>& corners)
   }
 }
 
+/// Volumes that differ by less of themselves are the same.
+constexpr double rounding = 1e-13;
+
 /// Rows of cells of the mesh's own dimension of which each comes from one: `sources`, without those
-/// of lower dimension.
+/// of lower dimension. `factors`: by which these change what cells take from them; none: by 1.
 WeightedRows rowsOf(const Mesh& mesh, const std::vector<Point3>& before,
-  const std::vector<Index>& sources, Index firstSource)
+  const std::vector<Index>& sources, Index firstSource, const std::vector<double>& factors = {})
 {
   WeightedRows rows;
   if (mesh.dimension < 2)
@@ -48,7 +53,8 @@ WeightedRows rowsOf(const Mesh& mesh, const std::vector<Point3>& before,
     {
       for (const auto& cell : cells)
       {
-        const double was = sizeOf(shape, cornersOf(cell, before));
+        const double factor = factors.empty() ? 1 : factors[sources[number]];
+        const double was = factor * sizeOf(shape, cornersOf(cell, before));
         const double is = sizeOf(shape, cornersOf(cell, mesh.points));
         if (was != is && is > 0)
         {
@@ -107,6 +113,20 @@ void placeByRows(const WeightedRows& rows, std::size_t oldCount, std::vector<Poi
 
 } // namespace
 
+std::vector<double> sizesOfCells(const Mesh& mesh)
+{
+  std::vector<double> sizes;
+  visitOwnShapes(mesh,
+    [&](auto shape, const auto& cells)
+    {
+      for (const auto& cell : cells)
+      {
+        sizes.push_back(sizeOf(shape, cornersOf(cell, mesh.points)));
+      }
+    });
+  return sizes;
+}
+
 WeightedRows densitiesOfCurved(const Mesh& mesh, const MidNodes& nodes, const Vector3& plane)
 {
   WeightedRows rows;
@@ -144,8 +164,8 @@ WeightedRows densitiesOfMoved(const Mesh& mesh, const std::vector<Point3>& befor
   return rowsOf(mesh, before, sources, first);
 }
 
-WeightedRows densitiesOfRefined(
-  const Mesh& mesh, const RefinementTrace& trace, std::vector<Point3> before)
+WeightedRows densitiesOfRefined(const Mesh& mesh, const RefinementTrace& trace,
+  std::vector<Point3> before, const std::vector<double>& parentSizes)
 {
   const std::size_t oldCount = before.size();
   for (const auto& [a, b] : trace.parentEdges)
@@ -160,7 +180,25 @@ WeightedRows densitiesOfRefined(
   {
     firstParent += static_cast<Index>(trace.firstChildren[d].size()) - 1;
   }
-  return rowsOf(mesh, before, parents, firstParent);
+  std::vector<double> factors;
+  if (!parentSizes.empty())
+  {
+    std::vector<double> ofChildren(parentSizes.size(), 0);
+    Index number = 0;
+    visitOwnShapes(mesh,
+      [&](auto shape, const auto& cells)
+      {
+        for (const auto& cell : cells)
+        {
+          ofChildren[parents[number++]] += sizeOf(shape, cornersOf(cell, before));
+        }
+      });
+    std::transform(parentSizes.begin(), parentSizes.end(), ofChildren.begin(),
+      std::back_inserter(factors),
+      [](double size, double sum)
+      { return sum > 0 && std::abs(sum - size) > rounding * size ? size / sum : 1; });
+  }
+  return rowsOf(mesh, before, parents, firstParent, factors);
 }
 
 } // namespace cadrefine

@@ -17,10 +17,15 @@ namespace cadrefine
 /// flat now keep their densities; what inverted ones held counts as if they were not.
 WeightedRows densitiesOfMoved(const Mesh& mesh, const std::vector<Point3>& before);
 
-/// The same for the cells of a refined mesh, from their parents: these were cut straight, then
-/// vertices moved. `before`: the places of the vertices that there were before the cut.
-WeightedRows densitiesOfRefined(
-  const Mesh& mesh, const RefinementTrace& trace, std::vector<Point3> before);
+/// Volumes (in 2D, areas) of the cells of the mesh's own dimension.
+std::vector<double> sizesOfCells(const Mesh& mesh);
+
+/// The same as densitiesOfMoved for the cells of a refined mesh, from their parents: these were cut
+/// straight, then vertices moved. `before`: the places of the vertices that there were before the
+/// cut. `parentSizes` (see sizesOfCells): children together hold what their parent held, also where
+/// triangles replace a quadrilateral that is not plane; none: there is none, all are simplices.
+WeightedRows densitiesOfRefined(const Mesh& mesh, const RefinementTrace& trace,
+  std::vector<Point3> before, const std::vector<double>& parentSizes);
 
 /// The same for cells that were straight and are of second order now: their volumes are integrals
 /// of polynomials (see jacobianOf), and exact. `plane` is the unit normal of a planar mesh; on

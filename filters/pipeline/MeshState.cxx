@@ -181,7 +181,11 @@ void meshHasChanged(MeshState& state)
 std::int64_t cut(const PipelineContext& context, MeshState& state, const RefinementPlan& plan,
   NewVertices newVertices)
 {
+  const bool keepsDensities = !state.mapping.needs().densities.empty();
   std::vector<Point3> before = pointsToKeep(state);
+  const std::vector<double> sizes = keepsDensities && state.mesh.mesh().hasNonSimplices()
+                                      ? sizesOfCells(state.mesh.mesh())
+                                      : std::vector<double>{};
   RefinementTrace trace =
     state.classification
       ? refineOntoCAD(context.exchange, state.mesh, plan, boundaryOf(context, state),
@@ -191,9 +195,9 @@ std::int64_t cut(const PipelineContext& context, MeshState& state, const Refinem
   state.onBoundary = std::move(trace.onBoundary);
   const std::int64_t projectedPoints = trace.projectedPoints;
   const RunStatistics::Stopwatch stopwatch(context.statistics, "seconds copying fields");
-  if (!state.mapping.needs().densities.empty())
+  if (keepsDensities)
   {
-    trace.ofDensities = densitiesOfRefined(state.mesh.mesh(), trace, std::move(before));
+    trace.ofDensities = densitiesOfRefined(state.mesh.mesh(), trace, std::move(before), sizes);
   }
   const std::size_t done = state.mapping.stageCount();
   state.mapping.refine(std::move(trace));
