@@ -66,6 +66,40 @@ std::vector<KnownMidpoint> findKnown(const EdgeTable& table, const ClassifiedBou
   return known;
 }
 
+/// Of the edges at which the CAD meets an outer facet that is not on it the normal of that, or its
+/// opposite, of others zero; none where there are no such edges, on any rank. Collective.
+std::vector<Vector3> findWalls(
+  RankExchange& exchange, const MarkedEdges& edges, const ClassifiedBoundary& classified)
+{
+  const DistributedBoundary& boundary = classified.boundary;
+  std::vector<std::pair<Index, Vector3>> found;
+  for (std::size_t f = 0; f < boundary.facets.size(); ++f)
+  {
+    const FacetRecord& record = classified.classes.facets[f];
+    const bool isWall = !record.onCAD && !record.free && !record.isInside;
+    for (int k = 0; k < boundary.facets[f].edges() && isWall; ++k)
+    {
+      const Index edge = boundary.facetEdges[f][k];
+      if (classified.classes.ofEdges[edge].kind == EdgeClass::Smooth)
+      {
+        const auto& [a, b] = boundary.edges.edges()[edge];
+        found.emplace_back(edges.table.find(a, b), std::max(record.normal, -1.0 * record.normal));
+      }
+    }
+  }
+  std::vector<Vector3> walls;
+  if (boundary.kind == BoundaryKind::Faces && exchange.any(!found.empty()))
+  {
+    walls.resize(edges.table.edges.size());
+    for (const auto& [edge, normal] : found)
+    {
+      walls[edge] = std::max(walls[edge], normal);
+    }
+    combineLargest(exchange, edges.sharedEdges, walls);
+  }
+  return walls;
+}
+
 /// Fills in those that are in the cache: 1.
 std::vector<unsigned char> rememberMidpoints(
   const BoundaryCache& cache, ClassifiedBoundary& classified)
@@ -247,6 +281,17 @@ std::vector<MidpointOnCAD> projectMidpoints(RankExchange& exchange, const Mesh& 
     const BoundaryEdge edge =
       edgeOf(classOfCode(codes[e]), edges.table.edges[e], mesh, classification);
     midpoints[i].where = offCrease(classified.projector, edge, midpoints[i].where);
+  }
+  const std::vector<Vector3> walls = findWalls(exchange, edges, classified);
+  for (std::size_t i = 0; !walls.empty() && i < midpoints.size(); ++i)
+  {
+    const Index e = edgesOf[i];
+    if (walls[e] != Vector3{})
+    {
+      const BoundaryEdge edge =
+        edgeOf(classOfCode(codes[e]), edges.table.edges[e], mesh, classification);
+      midpoints[i].where = inPlane(classified.projector, edge, midpoints[i].where, walls[e]);
+    }
   }
   midpoints.erase(std::remove_if(midpoints.begin(), midpoints.end(),
                     [](const MidpointOnCAD& midpoint) { return !midpoint.where.entity; }),

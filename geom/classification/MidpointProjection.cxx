@@ -17,6 +17,12 @@ namespace
 /// A place inside its face is looked for as far from the border as the middle is, and so often half
 /// as far, and twice.
 constexpr int halvingsInside = 10;
+/// Of the model's size: a place so near to a plane is in it.
+constexpr double planeTolerance = 1e-13;
+/// Each step of Newton's method doubles the digits.
+constexpr int mostSteps = 10;
+/// The least sine between a plane and the CAD, for the line in which they meet: of 30 degrees.
+constexpr double leastSlope = 0.5;
 /// A place on a face is taken instead of one on its border that is so many times nearer.
 constexpr double asNear = 1.25;
 /// Of a mesh edge's length: a place so near to one of its ends is not that of its middle.
@@ -296,6 +302,39 @@ ClosestPoint offCrease(
     }
   }
   return border;
+}
+
+ClosestPoint inPlane(const BoundaryProjector& projector, const BoundaryEdge& edge,
+  const ClosestPoint& where, const Vector3& normal)
+{
+  const CADModel& model = projector.model();
+  const double tolerance = planeTolerance * model.size();
+  const Point3 middle = 0.5 * (edge.points[0] + edge.points[1]);
+  if (edge.edgeClass.kind != EdgeClass::Smooth ||
+      std::abs(dot(where.point - middle, normal)) <= tolerance)
+  {
+    return where;
+  }
+  Point3 point = middle;
+  ClosestPoint place = where;
+  for (int step = 0; step < mostSteps && place.entity.dimension == 2; ++step)
+  {
+    const Vector3 ofCAD = model.normal(place.entity.index, place.parameters);
+    const Vector3 along = ofCAD - dot(ofCAD, normal) * normal;
+    const double slope = squaredNorm(along);
+    if (slope < leastSlope * leastSlope)
+    {
+      return where;
+    }
+    point = point + (dot(place.point - point, ofCAD) / slope) * along;
+    place = projector.nearestOnShared(edge.edgeClass, edge.entities, point);
+    if (place.distance <= tolerance && place.entity)
+    {
+      place.distance = distance(place.point, middle);
+      return place.distance <= where.distance / leastSlope ? place : where;
+    }
+  }
+  return where;
 }
 
 } // namespace cadrefine

@@ -421,7 +421,17 @@ std::optional<ClosestPoint> SurfaceRule::placeOfMiddle(
   }
   const BoundaryEdge onCAD{ edgeClass, { mesh.vertex(a).wanted, mesh.vertex(b).wanted },
     { mesh.vertex(a).entity, mesh.vertex(b).entity } };
-  const ClosestPoint where = offCrease(projector_, onCAD, projectMidpoint(projector_, onCAD));
+  ClosestPoint where = offCrease(projector_, onCAD, projectMidpoint(projector_, onCAD));
+  for (const Index facet : mesh.facets().at(a, b))
+  {
+    if (mesh.kind() == EditableMesh::Kind::Solid && mesh.facets()[facet].label < 0)
+    {
+      const auto& [p, q, r] = mesh.facets()[facet].corners;
+      where = inPlane(projector_, onCAD, where,
+        normalized(
+          twofoldAreaVector(mesh.vertex(p).point, mesh.vertex(q).point, mesh.vertex(r).point)));
+    }
+  }
   return where.entity ? std::optional(where) : std::nullopt;
 }
 

@@ -244,6 +244,30 @@ TEST(Ring, takesTheMiddleOfAChordFromAnotherFaceToItsOwn)
   EXPECT_EQ(offCrease(projector, onWall, wall).entity, wall.entity) << "only of smooth edges";
 }
 
+/// A sphere cut off its centre, by a plane that is not in the CAD.
+TEST(CutSphere, keepsMidpointsInThePlane)
+{
+  constexpr double radius = 2;
+  const auto model = cadtest::modelOf(cadtest::sphere(radius));
+  const BoundaryProjector projector(*model, BoundaryKind::Faces);
+  const Vector3 normal{ 0, 0, 1 };
+  for (const double height : { 0.0, 0.5, -1.2, 1.6 })
+  {
+    const double rim = std::sqrt(radius * radius - height * height);
+    const std::array<Point3, 2> points{ Point3{ rim * std::cos(2), rim * std::sin(2), height },
+      Point3{ rim * std::cos(3), rim * std::sin(3), height } };
+    const BoundaryEdge edge{ { EdgeClass::Smooth, -1 }, points, entitiesAt(projector, points) };
+    const ClosestPoint nearest = projectMidpoint(projector, edge);
+    const ClosestPoint where = inPlane(projector, edge, nearest, normal);
+    EXPECT_EQ(where.entity, nearest.entity);
+    const Point3 exact{ rim * std::cos(2.5), rim * std::sin(2.5), height };
+    EXPECT_NEAR(distance(where.point, exact), 0, 1e-12);
+    EXPECT_NEAR(where.distance, rim * (1 - std::cos(0.5)), 1e-12);
+    EXPECT_EQ(inPlane(projector, edge, nearest, normalized(exact)).point, nearest.point)
+      << "a tangent plane";
+  }
+}
+
 /// Near the sharp trailing edge the two sides of the wing are close to each other.
 TEST(SharpWing, keepsMidpointsAtTheTrailingEdgeOnTheirSide)
 {
