@@ -4,8 +4,10 @@
 #include "comm/LoadBalancedMap.h"
 #include "comm/Threads.h"
 
+#include <cadrefine/base/IndicesWhere.h>
 #include <cadrefine/classification/CADAdjacency.h>
 #include <cadrefine/classification/ClassificationTolerances.h>
+#include <cadrefine/mesh/Quality.h>
 
 #include <algorithm>
 #include <array>
@@ -17,8 +19,9 @@ namespace
 {
 
 /// Whether the facet looks alike on the CAD: no edge shorter than half of it or longer than twice,
-/// and, where the user sets no limit, no corner farther away than half of the longest edge. Facets
-/// of walls and of the far field collapse when their corners are projected.
+/// not less than a quarter of its area, and, where the user sets no limit, no corner farther away
+/// than half of the longest edge. Facets of walls and of the far field collapse when their corners
+/// are projected, and so do those beside a face, in its plane, as on a plane of symmetry.
 bool keepsItsShape(
   const ProjectionTask& task, const std::vector<ClosestPoint>& hits, const Facet& facet)
 {
@@ -39,6 +42,18 @@ bool keepsItsShape(
     }
     longest = std::max(longest, before);
     farthest = std::max(farthest, hits[a].distance);
+  }
+  if (corners > 2)
+  {
+    std::array<Point3, 4> projected{};
+    std::transform(facet.begin(), facet.end(), projected.begin(),
+      [&](Index vertex) { return hits[vertex].point; });
+    if (norm(twofoldAreaVector(projected, corners)) <
+        ClassificationTolerances::leastArea *
+          norm(twofoldAreaVector(pointsOf(task.mesh.mesh(), facet), corners)))
+    {
+      return false;
+    }
   }
   return task.options.maximumDistance ||
          farthest <= ClassificationTolerances::farthestCorner * longest;
@@ -87,6 +102,12 @@ std::vector<std::int32_t> findCovered(
                           : commonEntities(task.model().nurbs(), entities[0], entities[1], 1);
 }
 
+/// Whether a vertex is on the CAD already, but for rounding.
+bool isOnItsHit(const ProjectionTask& task, const std::vector<ClosestPoint>& hits, Index vertex)
+{
+  return hits[vertex].distance <= roundedDistance(task.model(), task.boundary.shortestEdge[vertex]);
+}
+
 /// Takes facets between two cells off the CAD where outer ones are on the same face of it (of a
 /// planar mesh, edge), or others whose corners are there, but for rounding, while none of theirs
 /// is.
@@ -97,11 +118,7 @@ void leaveEndsOfLayers(const ProjectionTask& task, const std::vector<ClosestPoin
   constexpr std::int64_t byOuter = 2;
   const auto& facets = task.boundary.facets;
   const int dimension = task.boundary.facetDimension();
-  const auto isThere = [&](Index vertex)
-  {
-    return hits[vertex].distance <=
-           roundedDistance(task.model(), task.boundary.shortestEdge[vertex]);
-  };
+  const auto isThere = [&](Index vertex) { return isOnItsHit(task, hits, vertex); };
   std::vector<std::int64_t> covers(task.model().count(dimension), 0);
   for (std::size_t f = 0; f < facets.size(); ++f)
   {
@@ -133,6 +150,76 @@ void leaveEndsOfLayers(const ProjectionTask& task, const std::vector<ClosestPoin
   {
     if (facets[f].isInside && std::any_of(facets[f].begin(), facets[f].end(),
                                 [&](Index corner) { return isBeside(facets[f], corner); }))
+    {
+      records[f].onCAD = 0;
+    }
+  }
+}
+
+/// Cosine between the normals of a facet and of a face (of a planar mesh, between the directions of
+/// a segment and of an edge) where this is nearest to its middle; 0 where an edge ends there.
+double cosineOn(const ProjectionTask& task, const Facet& facet, std::int32_t entity)
+{
+  const std::array<Point3, 4> p = pointsOf(task.mesh.mesh(), facet);
+  if (task.ofFaces())
+  {
+    const Vector3 normal = normalized(twofoldAreaVector(p, facet.corners()));
+    return dot(task.model().normalNear(entity, centroidOf(p, facet.corners())), normal);
+  }
+  const ClosestPoint where = task.model().nearestOn({ 1, entity }, 0.5 * (p[0] + p[1]));
+  return where.entity.dimension == 1
+           ? dot(task.model().tangent(entity, where.parameters[0]), normalized(p[1] - p[0]))
+           : 0;
+}
+
+/// Takes outer facets off the CAD some of whose corners are not there, where nearly all others on
+/// the same face lie on it with all corners, and which turn from it by more than 30 degrees, or
+/// face the other way: walls that meet the CAD at a slant, and those beyond a gap that is narrower
+/// than facets are long.
+void leaveWalls(const ProjectionTask& task, const std::vector<ClosestPoint>& hits,
+  std::vector<FacetRecord>& records)
+{
+  using T = ClassificationTolerances;
+  const auto& facets = task.boundary.facets;
+  const auto isThere = [&](Index vertex) { return isOnItsHit(task, hits, vertex); };
+  const auto isExact = [&](std::size_t f)
+  { return std::all_of(facets[f].begin(), facets[f].end(), isThere); };
+  const auto suspects = indicesWhere(records.size(),
+    [&](std::size_t f) { return records[f].onCAD && !facets[f].isInside && !isExact(f); });
+  if (!task.exchange.any(!suspects.empty()))
+  {
+    return;
+  }
+  const std::size_t count = task.model().count(task.boundary.facetDimension());
+  std::vector<std::int64_t> exact(2 * count, 0); // the CAD's way, and the other
+  std::vector<std::int64_t> others(2 * count, 0);
+  for (std::size_t f = 0; f < records.size(); ++f)
+  {
+    for (const std::int32_t entity : records[f].onCAD && !facets[f].isInside
+                                       ? findCovered(task, hits, facets[f])
+                                       : std::vector<std::int32_t>{})
+    {
+      const double cosine = cosineOn(task, facets[f], entity);
+      const std::size_t place = entity + (cosine < 0 ? count : 0);
+      exact[place] += isExact(f);
+      others[place] += !isExact(f);
+    }
+  }
+  exact = task.exchange.sum(exact);
+  others = task.exchange.sum(others);
+  const auto isWall = [&](const Facet& facet, std::int32_t entity)
+  {
+    const bool alike = exact[entity] >= exact[entity + count];
+    const std::size_t place = entity + (alike ? 0 : count);
+    const auto all = static_cast<double>(exact[entity] + exact[entity + count] + others[place]);
+    return exact[place] > 0 && static_cast<double>(exact[place]) >= T::sideMajority * all &&
+           (alike ? 1 : -1) * cosineOn(task, facet, entity) < T::followingCosine;
+  };
+  for (const Index f : suspects)
+  {
+    const auto covered = findCovered(task, hits, facets[f]);
+    if (!covered.empty() && std::all_of(covered.begin(), covered.end(),
+                              [&](std::int32_t entity) { return isWall(facets[f], entity); }))
     {
       records[f].onCAD = 0;
     }
@@ -284,6 +371,7 @@ FacetClasses classifyFacets(const ProjectionTask& task, const std::vector<Closes
   const ParallelFor parallelFor = forOnThreads(task.exchange);
   agreeOnFailure(task.exchange, [&] { records = makeRecords(task, hits, parallelFor); });
   leaveEndsOfLayers(task, hits, records);
+  leaveWalls(task, hits, records);
   if (!task.ofFaces())
   {
     return classes;

@@ -69,6 +69,8 @@ struct ClassificationTolerances
   /// A projected edge is not shorter than this part of what it was, nor longer than its inverse:
   /// facets of walls and of the far field collapse.
   static constexpr double leastShrinking = 0.5;
+  /// Of its area a facet keeps more: those beside a face, in its plane, collapse.
+  static constexpr double leastArea = 0.25;
   /// Where the user sets no limit, no corner is farther away, in terms of the longest edge.
   static constexpr double farthestCorner = 0.5;
   /// Part of the facets on a CAD face that must agree on its side.

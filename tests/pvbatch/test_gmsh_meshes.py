@@ -141,6 +141,68 @@ class GmshMeshes(driver.Case):
         self.assertGreater(steps[0]["maximum_distance"], 0.03)
         self.assertLessEqual(steps[-1]["maximum_distance"], 0.01)
 
+    def test_gap_round_a_body(self):
+        """The bore is not in the CAD, but nearer to it than half of a facet is long."""
+        occ = gmsh.model.occ
+
+        def piston():
+            occ.addCylinder(0, 0, 0, 0, 0, 1, 0.5)
+
+        def bore():
+            piston()
+            occ.cut([(3, occ.addCylinder(0, 0, -0.5, 0, 0, 2, 0.6))], [(3, 1)])
+
+        self.generate(3, piston, bore, 0.25)
+        self.expect_on_cad(3.9)
+        # In the plane a tunnel, whose walls are 0.05 from the body, with facets of 0.3.
+        self.generate(2, lambda: occ.addDisk(0, 0, 0, 0.5, 0.5),
+                      lambda: occ.cut([(2, occ.addRectangle(-2, -0.55, 0, 5, 1.1))],
+                                      [(2, occ.addDisk(0, 0, 0, 0.5, 0.5))]), 0.3)
+        self.expect_on_cad(3.9)
+
+    def test_slanting_cylinder_between_walls(self):
+        """Which are not in the CAD: the cylinder goes on through them. They turn from it by 55 degrees, and stay plane."""
+        occ = gmsh.model.occ
+
+        def cylinder():
+            occ.addCylinder(-1, 0, -1.5, 2, 0, 3, 0.5)
+
+        def channel():
+            cylinder()
+            occ.cut([(3, occ.addBox(-2, -2, 0, 4, 4, 1))], [(3, 1)])
+
+        self.generate(3, cylinder, channel, 0.4)
+        run = driver.Run(RANKS, self.path("mesh.msh"), self.path("cad.brep"), "--method", "uniform", "--steps", "1",
+                         "--output", self.path("fine.vtu"))
+        self.assertEqual(run.status, 0)
+        coarse, fine = meshio.read(self.path("mesh.msh")), meshio.read(self.path("fine.vtu"))
+        for height in (0, 1):
+            isIn = np.abs(coarse.points[:, 2] - height) < 1e-9
+            wall = [triangle for triangle in coarse.cells_dict["triangle"] if all(isIn[triangle])]
+            edges = {tuple(sorted((triangle[k - 1], triangle[k]))) for triangle in wall for k in range(3)}
+            self.assertEqual(np.sum(np.abs(fine.points[:, 2] - height) < 1e-12), sum(isIn) + len(edges))
+        self.expect_on_cad(3.5)
+
+    def test_layers_beside_the_end_of_a_body(self):
+        """Planes of symmetry, which the ends of a solid cylinder continue. The lines of the layers lean, so that facets
+        there do not become shorter when their corners are projected, only lower."""
+        occ = gmsh.model.occ
+        self.generate(3, lambda: occ.addCylinder(0, 0, 0, 0, 0, 1, 1), lambda: occ.addBox(0, 0, 0, 1, 1, 1), 1.0)
+        around = 16
+        heights = np.array([0, *0.01 * np.cumsum(1.5 ** np.arange(10)), 3])
+        angles = 2 * np.pi * np.arange(around) / around + np.log1p(heights)[:, None]
+        z, x, y = (np.stack([along] * 3) for along in (0 * angles, (1 + heights[:, None]) * np.cos(angles),
+                                                       (1 + heights[:, None]) * np.sin(angles)))
+        z += np.array([0, 0.5, 1])[:, None, None]
+        numbers = np.arange(z.size).reshape(z.shape)
+        beside = np.roll(numbers, -1, axis=2)
+        square = [numbers[:, :-1], numbers[:, 1:], beside[:, 1:], beside[:, :-1]]
+        hexahedra = np.stack([side[:-1] for side in square] + [side[1:] for side in square], axis=-1)
+        meshio.Mesh(np.column_stack([x.ravel(), y.ravel(), z.ravel()]), [("hexahedron", hexahedra.reshape(-1, 8))]
+                    ).write(self.path("mesh.vtu"))
+        report = self.expect_on_cad(3.9, "mesh.vtu")
+        self.assertEqual(report["fit"]["conflicts"], [])
+
     def test_layers_on_a_curved_surface(self):
         """Quadrilaterals round a hole in the wall of a cylinder. Over a chord its rim bulges by thirteen of their
         heights, so that the middles of the first ones are in the hole."""
