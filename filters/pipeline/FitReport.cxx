@@ -109,11 +109,16 @@ std::string describeShift(const Fit& fit)
 {
   constexpr double least = 1e-5; // of the size
   constexpr double alike = 1e-2;
-  const Vector3 low = fit.meshBox.low - fit.cadBox.low;
+  constexpr double rounding = 1e-9;
+  Vector3 low = fit.meshBox.low - fit.cadBox.low;
   const Vector3 high = fit.meshBox.high - fit.cadBox.high;
   if (norm(low) <= least * fit.cadBox.diagonal() || distance(low, high) > alike * norm(low))
   {
     return {};
+  }
+  for (double& coordinate : low)
+  {
+    coordinate = std::abs(coordinate) <= rounding * norm(low) ? 0 : coordinate;
   }
   std::ostringstream text;
   text << "the mesh's box has the size of the CAD's, but is shifted by " << low
@@ -167,7 +172,7 @@ std::string describeFit(const Fit& fit, const std::string& cadUnit)
 std::string warningOfMisfit(const Fit& fit, const std::string& cadUnit, bool isWhole)
 {
   constexpr double half = 0.5;
-  constexpr double most = 0.7; // facets are chords
+  constexpr double most = 0.65; // half a ball on a plane of symmetry, of chords; of a box a corner
   constexpr double little = 0.2;
   constexpr double nearlyAll = 0.9; // a box in another unit may share half of its sides
   const std::string shift = describeShift(fit);

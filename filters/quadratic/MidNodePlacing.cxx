@@ -69,7 +69,7 @@ public:
     {
       columns.follow(exchange_, moves_);
     }
-    takeHits(hits);
+    takeHits(held, hits);
     std::transform(moves_.fractions.begin(), moves_.fractions.end(), held.begin(),
       moves_.fractions.begin(), [](double fraction, bool stays) { return stays ? 0 : fraction; });
     tooCurved = settle(columns);
@@ -98,11 +98,17 @@ private:
   }
 
   /// What no column has moved goes to its hit, others that are on the CAD to where they are near.
-  void takeHits(std::vector<MidpointOnCAD>& hits)
+  /// One that is held and at its hit, but for rounding, is on the CAD where it is.
+  void takeHits(const std::vector<unsigned char>& held, std::vector<MidpointOnCAD>& hits)
   {
-    for (auto& [edge, where] : hits)
+    for (MidpointOnCAD& hit : hits)
     {
-      if (moves_.fractions[edge] > 0 && moves_.targets[edge] != where.point)
+      auto& [edge, where] = hit;
+      if (held[edge] && isThere(hit))
+      {
+        where.point = nodes_.points[edge];
+      }
+      else if (moves_.fractions[edge] > 0 && moves_.targets[edge] != where.point)
       {
         where = classified_.projector.nearestOn(where.entity, moves_.targets[edge]);
       }

@@ -43,6 +43,9 @@ def open_in_paraview(path):
 
 
 def read_in_paraview(path):
+    if path.lower().endswith(".p3d") and not files.start_of(path).startswith(b"{"):  # ParaView ends with a trace.
+        raise Failure(f"{path}: ParaView reads .p3d files that name the files of a PLOT3D mesh in JSON, which this one "
+                      "does not; save the mesh in another format")
     try:
         reader = simple.OpenDataFile(path)
     except RuntimeError:

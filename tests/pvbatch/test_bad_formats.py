@@ -49,6 +49,7 @@ class BadFormats(driver.Case):
 
         return (
             ("text.msh", "This is no mesh.\n", "ParaView cannot read this as a mesh"),
+            ("grid.p3d", "1\n2 2 2\n0 1 0 1\n", "name the files of a PLOT3D mesh in JSON, which this one does not"),
             ("old.msh", OLD, "version 4.0 of the format; save it as version 4.1 or 2.2"),
             ("parts.msh", PARTS, "the mesh is partitioned; save it in one part"),
             ("empty.msh", "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n", "the mesh has no cells"),
