@@ -103,7 +103,7 @@ std::vector<std::int32_t> findCovered(
 }
 
 /// Whether a vertex is on the CAD already, but for rounding.
-bool isOnItsHit(const ProjectionTask& task, const std::vector<ClosestPoint>& hits, Index vertex)
+bool liesOnCAD(const ProjectionTask& task, const std::vector<ClosestPoint>& hits, Index vertex)
 {
   return hits[vertex].distance <= roundedDistance(task.model(), task.boundary.shortestEdge[vertex]);
 }
@@ -118,7 +118,7 @@ void leaveEndsOfLayers(const ProjectionTask& task, const std::vector<ClosestPoin
   constexpr std::int64_t byOuter = 2;
   const auto& facets = task.boundary.facets;
   const int dimension = task.boundary.facetDimension();
-  const auto isThere = [&](Index vertex) { return isOnItsHit(task, hits, vertex); };
+  const auto isThere = [&](Index vertex) { return liesOnCAD(task, hits, vertex); };
   std::vector<std::int64_t> covers(task.model().count(dimension), 0);
   for (std::size_t f = 0; f < facets.size(); ++f)
   {
@@ -181,30 +181,40 @@ void leaveWalls(const ProjectionTask& task, const std::vector<ClosestPoint>& hit
 {
   using T = ClassificationTolerances;
   const auto& facets = task.boundary.facets;
-  const auto isThere = [&](Index vertex) { return isOnItsHit(task, hits, vertex); };
-  const auto isExact = [&](std::size_t f)
-  { return std::all_of(facets[f].begin(), facets[f].end(), isThere); };
-  const auto suspects = indicesWhere(records.size(),
-    [&](std::size_t f) { return records[f].onCAD && !facets[f].isInside && !isExact(f); });
-  if (!task.exchange.any(!suspects.empty()))
-  {
-    return;
-  }
   const std::size_t count = task.model().count(task.boundary.facetDimension());
+  const auto isExact = [&](const Facet& facet)
+  {
+    return std::all_of(
+      facet.begin(), facet.end(), [&](Index vertex) { return liesOnCAD(task, hits, vertex); });
+  };
+  const auto forAllCovered = [&](const auto& use)
+  {
+    for (std::size_t f = 0; f < facets.size(); ++f)
+    {
+      if (records[f].onCAD && !facets[f].isInside)
+      {
+        for (const std::int32_t entity : findCovered(task, hits, facets[f]))
+        {
+          use(facets[f], entity);
+        }
+      }
+    }
+  };
+  std::vector<std::int64_t> has(2 * count, 0); // exact facets; others
+  forAllCovered([&](const Facet& facet, std::int32_t entity)
+    { has[entity + (isExact(facet) ? 0 : count)] = 1; });
+  has = task.exchange.max(has);
   std::vector<std::int64_t> exact(2 * count, 0); // the CAD's way, and the other
   std::vector<std::int64_t> others(2 * count, 0);
-  for (std::size_t f = 0; f < records.size(); ++f)
-  {
-    for (const std::int32_t entity : records[f].onCAD && !facets[f].isInside
-                                       ? findCovered(task, hits, facets[f])
-                                       : std::vector<std::int32_t>{})
+  forAllCovered(
+    [&](const Facet& facet, std::int32_t entity)
     {
-      const double cosine = cosineOn(task, facets[f], entity);
-      const std::size_t place = entity + (cosine < 0 ? count : 0);
-      exact[place] += isExact(f);
-      others[place] += !isExact(f);
-    }
-  }
+      if (has[entity] && has[entity + count])
+      {
+        const std::size_t place = entity + (cosineOn(task, facet, entity) < 0 ? count : 0);
+        ++(isExact(facet) ? exact : others)[place];
+      }
+    });
   exact = task.exchange.sum(exact);
   others = task.exchange.sum(others);
   const auto isWall = [&](const Facet& facet, std::int32_t entity)
@@ -215,14 +225,64 @@ void leaveWalls(const ProjectionTask& task, const std::vector<ClosestPoint>& hit
     return exact[place] > 0 && static_cast<double>(exact[place]) >= T::sideMajority * all &&
            (alike ? 1 : -1) * cosineOn(task, facet, entity) < T::followingCosine;
   };
-  for (const Index f : suspects)
+  for (std::size_t f = 0; f < facets.size(); ++f)
   {
-    const auto covered = findCovered(task, hits, facets[f]);
-    if (!covered.empty() && std::all_of(covered.begin(), covered.end(),
-                              [&](std::int32_t entity) { return isWall(facets[f], entity); }))
+    if (records[f].onCAD && !facets[f].isInside && !isExact(facets[f]))
     {
-      records[f].onCAD = 0;
+      const auto covered = findCovered(task, hits, facets[f]);
+      const bool isOfWall =
+        !covered.empty() && std::all_of(covered.begin(), covered.end(),
+                              [&](std::int32_t entity) { return isWall(facets[f], entity); });
+      records[f].onCAD = isOfWall ? 0 : 1;
     }
+  }
+}
+
+/// Takes outer facets off the CAD that continue one that is off it in the same plane, and that turn
+/// from their faces: the rest of a plane wall that meets the CAD at however small an angle.
+/// Collective; one exchange of records for each ring of facets.
+void leavePlaneWalls(const ProjectionTask& task, const std::vector<ClosestPoint>& hits,
+  std::vector<FacetRecord>& records)
+{
+  using T = ClassificationTolerances;
+  const DistributedBoundary& boundary = task.boundary;
+  const auto isSuspect = [&](std::size_t f)
+  {
+    const Facet& facet = boundary.facets[f];
+    if (!records[f].onCAD || facet.isInside ||
+        std::all_of(
+          facet.begin(), facet.end(), [&](Index vertex) { return liesOnCAD(task, hits, vertex); }))
+    {
+      return false;
+    }
+    const auto covered = findCovered(task, hits, facet);
+    return std::all_of(covered.begin(), covered.end(),
+      [&](std::int32_t face) { return std::abs(cosineOn(task, facet, face)) < T::flatCosine; });
+  };
+  auto suspects = indicesWhere(records.size(), isSuspect);
+  const auto continues = [](const FacetRecord& facet, const FacetRecord& other)
+  {
+    return !other.onCAD && !other.free && !other.isInside && dot(facet.normal, other.normal) > 0 &&
+           norm(cross(facet.normal, other.normal)) <= T::samePlane;
+  };
+  for (bool changes = true; task.exchange.any(changes && !suspects.empty());)
+  {
+    const auto ofEdges = gatherFacetRecords(task.exchange, boundary, records);
+    const auto isOfWall = [&](Index f)
+    {
+      const auto& edges = boundary.facetEdges[f];
+      return std::any_of(edges.begin(), edges.begin() + boundary.facets[f].edges(),
+        [&](Index edge)
+        {
+          return std::any_of(ofEdges[edge].begin(), ofEdges[edge].end(),
+            [&](const FacetRecord& other) { return continues(records[f], other); });
+        });
+    };
+    const auto found = std::stable_partition(
+      suspects.begin(), suspects.end(), [&](Index f) { return !isOfWall(f); });
+    changes = found != suspects.end();
+    std::for_each(found, suspects.end(), [&](Index f) { records[f].onCAD = 0; });
+    suspects.erase(found, suspects.end());
   }
 }
 
@@ -376,6 +436,7 @@ FacetClasses classifyFacets(const ProjectionTask& task, const std::vector<Closes
   {
     return classes;
   }
+  leavePlaneWalls(task, hits, records);
   classes.sides = findSides(task, hits, records);
   const auto matches = findFaces(task, hits, classes);
   for (std::size_t f = 0; f < records.size(); ++f)

@@ -36,6 +36,9 @@ struct ClassificationTolerances
   /// edges there.
   static inline const double followingCosine = cosineOfDegrees(30);
 
+  /// Sine of the angle between facets of one plane.
+  static constexpr double samePlane = 1e-6;
+
   // Distances of mesh edges from CAD edges
 
   /// A crease passes the middle of a mesh edge within this part of its reach (its length, or the

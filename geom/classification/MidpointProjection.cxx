@@ -20,9 +20,9 @@ constexpr int halvingsInside = 10;
 /// Of the model's size: a place so near to a plane is in it.
 constexpr double planeTolerance = 1e-13;
 /// Each step of Newton's method doubles the digits.
-constexpr int mostSteps = 10;
-/// The least sine between a plane and the CAD, for the line in which they meet: of 30 degrees.
-constexpr double leastSlope = 0.5;
+constexpr int mostSteps = 20;
+/// The least sine between a plane and the CAD, for the line in which they meet: of 10 degrees.
+constexpr double leastSlope = 0.17;
 /// A place on a face is taken instead of one on its border that is so many times nearer.
 constexpr double asNear = 1.25;
 /// Of a mesh edge's length: a place so near to one of its ends is not that of its middle.

@@ -35,7 +35,7 @@ ClosestPoint offCrease(
 /// of this unit normal through the edge: a plane of symmetry, or another plane wall that is not in
 /// the CAD, stays plane where the CAD cuts it at a slant. By Newton's method, from tangent plane to
 /// tangent plane. `where`, if it is in the plane already, if the CAD turns from the plane by less
-/// than 30 degrees, or if that finds no place. Work: none if `where` is in the plane; else three
+/// than 10 degrees, or if that finds no place. Work: none if `where` is in the plane; else three
 /// or four projections.
 ClosestPoint inPlane(const BoundaryProjector& projector, const BoundaryEdge& edge,
   const ClosestPoint& where, const Vector3& normal);

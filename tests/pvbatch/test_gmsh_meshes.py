@@ -160,28 +160,33 @@ class GmshMeshes(driver.Case):
                                       [(2, occ.addDisk(0, 0, 0, 0.5, 0.5))]), 0.3)
         self.expect_on_cad(3.9)
 
-    def test_slanting_cylinder_between_walls(self):
-        """Which are not in the CAD: the cylinder goes on through them. They turn from it by 55 degrees, and stay plane."""
+    def test_walls_that_cut_the_cad(self):
+        """They are not in the CAD, which goes on through them, and stay plane: those of a channel that turn by 55 degrees
+        from a cylinder, and the floor under a sphere, by 26 degrees."""
         occ = gmsh.model.occ
 
         def cylinder():
             occ.addCylinder(-1, 0, -1.5, 2, 0, 3, 0.5)
 
-        def channel():
-            cylinder()
-            occ.cut([(3, occ.addBox(-2, -2, 0, 4, 4, 1))], [(3, 1)])
+        def sphere():
+            occ.addSphere(0, 0, 0.9, 1)
 
-        self.generate(3, cylinder, channel, 0.4)
-        run = driver.Run(RANKS, self.path("mesh.msh"), self.path("cad.brep"), "--method", "uniform", "--steps", "1",
-                         "--output", self.path("fine.vtu"))
-        self.assertEqual(run.status, 0)
-        coarse, fine = meshio.read(self.path("mesh.msh")), meshio.read(self.path("fine.vtu"))
-        for height in (0, 1):
-            isIn = np.abs(coarse.points[:, 2] - height) < 1e-9
-            wall = [triangle for triangle in coarse.cells_dict["triangle"] if all(isIn[triangle])]
-            edges = {tuple(sorted((triangle[k - 1], triangle[k]))) for triangle in wall for k in range(3)}
-            self.assertEqual(np.sum(np.abs(fine.points[:, 2] - height) < 1e-12), sum(isIn) + len(edges))
-        self.expect_on_cad(3.5)
+        def around(body, height):
+            body()
+            occ.cut([(3, occ.addBox(-2.5, -2.5, 0, 5, 5, height))], [(3, 1)])
+
+        for body, size, height, walls in (cylinder, 0.4, 1, (0, 1)), (sphere, 0.5, 2.5, (0,)):
+            self.generate(3, body, lambda body=body, height=height: around(body, height), size)
+            run = driver.Run(RANKS, self.path("mesh.msh"), self.path("cad.brep"), "--method", "uniform", "--steps", "1",
+                             "--output", self.path("fine.vtu"))
+            self.assertEqual(run.status, 0)
+            coarse, fine = meshio.read(self.path("mesh.msh")), meshio.read(self.path("fine.vtu"))
+            for wall in walls:
+                is_in = np.abs(coarse.points[:, 2] - wall) < 1e-9
+                facets = [facet for facet in coarse.cells_dict["triangle"] if all(is_in[facet])]
+                edges = {tuple(sorted((facet[k - 1], facet[k]))) for facet in facets for k in range(3)}
+                self.assertEqual(np.sum(np.abs(fine.points[:, 2] - wall) < 1e-12), sum(is_in) + len(edges))
+            self.expect_on_cad(3.5)
 
     def test_layers_beside_the_end_of_a_body(self):
         """Planes of symmetry, which the ends of a solid cylinder continue. The lines of the layers lean, so that facets
