@@ -19,9 +19,10 @@ namespace
 {
 
 /// Whether the facet looks alike on the CAD: no edge shorter than half of it or longer than twice,
-/// not less than a quarter of its area, and, where the user sets no limit, no corner farther away
-/// than half of the longest edge. Facets of walls and of the far field collapse when their corners
-/// are projected, and so do those beside a face, in its plane, as on a plane of symmetry.
+/// not less than a quarter of its area, if all corners come onto edges, and, where the user sets no
+/// limit, no corner farther away than half of the longest edge. Facets of walls and of the far
+/// field collapse when their corners are projected, and so do those beside a face, in its plane, as
+/// on a plane of symmetry.
 bool keepsItsShape(
   const ProjectionTask& task, const std::vector<ClosestPoint>& hits, const Facet& facet)
 {
@@ -43,7 +44,9 @@ bool keepsItsShape(
     longest = std::max(longest, before);
     farthest = std::max(farthest, hits[a].distance);
   }
-  if (corners > 2)
+  const bool isAlongEdges = std::all_of(
+    facet.begin(), facet.end(), [&](Index vertex) { return hits[vertex].entity.dimension < 2; });
+  if (corners > 2 && isAlongEdges)
   {
     std::array<Point3, 4> projected{};
     std::transform(facet.begin(), facet.end(), projected.begin(),
@@ -172,94 +175,98 @@ double cosineOn(const ProjectionTask& task, const Facet& facet, std::int32_t ent
            : 0;
 }
 
-/// Takes outer facets off the CAD some of whose corners are not there, where nearly all others on
-/// the same face lie on it with all corners, and which turn from it by more than 30 degrees, or
-/// face the other way: walls that meet the CAD at a slant, and those beyond a gap that is narrower
-/// than facets are long.
-void leaveWalls(const ProjectionTask& task, const std::vector<ClosestPoint>& hits,
-  std::vector<FacetRecord>& records)
+/// An outer facet on the CAD, not all of whose corners are there.
+bool isInexact(const ProjectionTask& task, const std::vector<ClosestPoint>& hits,
+  const FacetRecord& record, const Facet& facet)
 {
-  using T = ClassificationTolerances;
+  return record.onCAD && !facet.isInside &&
+         !std::all_of(
+           facet.begin(), facet.end(), [&](Index vertex) { return liesOnCAD(task, hits, vertex); });
+}
+
+/// For each face (of a planar mesh, edge) of the CAD the way that facets on it face, 1 as it does,
+/// -1 the other, where nearly all that face so lie on it with all corners; else 0.
+FaceSides findExactSides(const ProjectionTask& task, const std::vector<ClosestPoint>& hits,
+  const std::vector<FacetRecord>& records)
+{
   const auto& facets = task.boundary.facets;
   const std::size_t count = task.model().count(task.boundary.facetDimension());
-  const auto isExact = [&](const Facet& facet)
-  {
-    return std::all_of(
-      facet.begin(), facet.end(), [&](Index vertex) { return liesOnCAD(task, hits, vertex); });
-  };
   const auto forAllCovered = [&](const auto& use)
   {
     for (std::size_t f = 0; f < facets.size(); ++f)
     {
       if (records[f].onCAD && !facets[f].isInside)
       {
+        const bool isExact = !isInexact(task, hits, records[f], facets[f]);
         for (const std::int32_t entity : findCovered(task, hits, facets[f]))
         {
-          use(facets[f], entity);
+          use(facets[f], entity, isExact);
         }
       }
     }
   };
   std::vector<std::int64_t> has(2 * count, 0); // exact facets; others
-  forAllCovered([&](const Facet& facet, std::int32_t entity)
-    { has[entity + (isExact(facet) ? 0 : count)] = 1; });
+  forAllCovered([&](const Facet&, std::int32_t entity, bool isExact)
+    { has[entity + (isExact ? 0 : count)] = 1; });
   has = task.exchange.max(has);
   std::vector<std::int64_t> exact(2 * count, 0); // the CAD's way, and the other
   std::vector<std::int64_t> others(2 * count, 0);
   forAllCovered(
-    [&](const Facet& facet, std::int32_t entity)
+    [&](const Facet& facet, std::int32_t entity, bool isExact)
     {
       if (has[entity] && has[entity + count])
       {
-        const std::size_t place = entity + (cosineOn(task, facet, entity) < 0 ? count : 0);
-        ++(isExact(facet) ? exact : others)[place];
+        ++(isExact ? exact : others)[entity + (cosineOn(task, facet, entity) < 0 ? count : 0)];
       }
     });
   exact = task.exchange.sum(exact);
   others = task.exchange.sum(others);
-  const auto isWall = [&](const Facet& facet, std::int32_t entity)
+  FaceSides sides(count, 0);
+  for (std::size_t entity = 0; entity < count; ++entity)
   {
     const bool alike = exact[entity] >= exact[entity + count];
     const std::size_t place = entity + (alike ? 0 : count);
     const auto all = static_cast<double>(exact[entity] + exact[entity + count] + others[place]);
-    return exact[place] > 0 && static_cast<double>(exact[place]) >= T::sideMajority * all &&
-           (alike ? 1 : -1) * cosineOn(task, facet, entity) < T::followingCosine;
-  };
-  for (std::size_t f = 0; f < facets.size(); ++f)
-  {
-    if (records[f].onCAD && !facets[f].isInside && !isExact(facets[f]))
-    {
-      const auto covered = findCovered(task, hits, facets[f]);
-      const bool isOfWall =
-        !covered.empty() && std::all_of(covered.begin(), covered.end(),
-                              [&](std::int32_t entity) { return isWall(facets[f], entity); });
-      records[f].onCAD = isOfWall ? 0 : 1;
-    }
+    const bool isMost =
+      static_cast<double>(exact[place]) >= ClassificationTolerances::sideMajority * all;
+    sides[entity] = exact[place] > 0 && isMost ? (alike ? 1 : -1) : 0;
   }
+  return sides;
 }
 
-/// Takes outer facets off the CAD that continue one that is off it in the same plane, and that turn
-/// from their faces: the rest of a plane wall that meets the CAD at however small an angle.
-/// Collective; one exchange of records for each ring of facets.
-void leavePlaneWalls(const ProjectionTask& task, const std::vector<ClosestPoint>& hits,
+/// Takes outer facets off the CAD that are no part of a face whose own facets lie exactly on it
+/// (see findExactSides): walls that turn from it by more than 30 degrees, where they meet it, or
+/// that face the other way, beyond a gap that is narrower than facets are long; and what is left of
+/// plane walls, which turns by more than 10 degrees, and continues facets that are off the CAD.
+/// Collective; an exchange of records for each ring of such facets.
+void leaveWalls(const ProjectionTask& task, const std::vector<ClosestPoint>& hits,
   std::vector<FacetRecord>& records)
 {
   using T = ClassificationTolerances;
   const DistributedBoundary& boundary = task.boundary;
-  const auto isSuspect = [&](std::size_t f)
+  const FaceSides sides = findExactSides(task, hits, records);
+  const auto turnsBy = [&](std::size_t f, double cosine)
   {
-    const Facet& facet = boundary.facets[f];
-    if (!records[f].onCAD || facet.isInside ||
-        std::all_of(
-          facet.begin(), facet.end(), [&](Index vertex) { return liesOnCAD(task, hits, vertex); }))
-    {
-      return false;
-    }
-    const auto covered = findCovered(task, hits, facet);
-    return std::all_of(covered.begin(), covered.end(),
-      [&](std::int32_t face) { return std::abs(cosineOn(task, facet, face)) < T::flatCosine; });
+    const auto covered = findCovered(task, hits, boundary.facets[f]);
+    return !covered.empty() &&
+           std::all_of(covered.begin(), covered.end(),
+             [&](std::int32_t entity)
+             {
+               return sides[entity] != 0 &&
+                      sides[entity] * cosineOn(task, boundary.facets[f], entity) < cosine;
+             });
   };
-  auto suspects = indicesWhere(records.size(), isSuspect);
+  const auto inexact = indicesWhere(records.size(),
+    [&](std::size_t f) { return isInexact(task, hits, records[f], boundary.facets[f]); });
+  std::vector<Index> suspects;
+  for (const Index f : inexact)
+  {
+    records[f].onCAD = turnsBy(f, T::followingCosine) ? 0 : 1;
+    if (records[f].onCAD && task.ofFaces() && turnsBy(f, T::flatCosine))
+    {
+      suspects.push_back(f);
+    }
+  }
   const auto continues = [](const FacetRecord& facet, const FacetRecord& other)
   {
     return !other.onCAD && !other.free && !other.isInside && dot(facet.normal, other.normal) > 0 &&
@@ -436,7 +443,6 @@ FacetClasses classifyFacets(const ProjectionTask& task, const std::vector<Closes
   {
     return classes;
   }
-  leavePlaneWalls(task, hits, records);
   classes.sides = findSides(task, hits, records);
   const auto matches = findFaces(task, hits, classes);
   for (std::size_t f = 0; f < records.size(); ++f)
