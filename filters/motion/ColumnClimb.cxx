@@ -24,16 +24,13 @@ ColumnClimb::ColumnClimb(const DistributedMesh& mesh, const CellStacks& stacks,
 void ColumnClimb::start(const Facet& facet, int place, double highest, double reach)
 {
   const GlobalId wall = nodes_.ids[nodes_.at(facet, place)];
-  climb(facet, { 2 * wall, {}, place, 0, highest, reach });
-  goBeyond(facet, { 2 * wall + 1, {}, place, 0, highest, reach });
-}
-
-void ColumnClimb::startInCell(const Facet& facet, int place, double highest, double reach)
-{
-  const GlobalId wall = nodes_.ids[nodes_.at(facet, place)];
   const auto& ids = mesh_.mesh().ids;
-  const GlobalId way = ids[facet.vertices[0]] < ids[facet.vertices[1]] ? 0 : 1;
-  climb(facet, { 2 * wall + way, {}, place, 0, highest, reach });
+  const bool isOther = onSurface_ && ids[facet.vertices[0]] > ids[facet.vertices[1]];
+  climb(facet, { 2 * wall + (isOther ? 1 : 0), {}, place, 0, highest, reach });
+  if (!onSurface_)
+  {
+    goBeyond(facet, { 2 * wall + 1, {}, place, 0, highest, reach });
+  }
 }
 
 std::vector<ColumnVisit> ColumnClimb::run(RankExchange& exchange)

@@ -58,12 +58,11 @@ public:
   ColumnClimb(const DistributedMesh& mesh, const CellStacks& stacks, const ColumnNodes& nodes,
     const Moves& moves, const std::vector<unsigned char>& onInnerWalls, bool onSurface);
 
-  /// A column that stands on this node of a facet (see ColumnNodes::at), on both sides of it, and
-  /// ends at the height `reach`; none where its first cell is higher than `highest`.
+  /// A column that stands on this node of a facet (see ColumnNodes::at), on both sides of it, on a
+  /// surface in the facet's own cell, and ends at the height `reach`; none where its first cell is
+  /// higher than `highest`. On a surface, columns of two cells are told apart by the ways in which
+  /// these go round the side.
   void start(const Facet& facet, int place, double highest, double reach);
-  /// The same in the facet's own cell only. Columns of two cells are told apart by the ways in
-  /// which they go round it.
-  void startInCell(const Facet& facet, int place, double highest, double reach);
 
   /// What the columns come to on this rank: on it, and from others. Collective; messages: one to
   /// and from each neighbour for every time that columns cross between ranks.

@@ -1,10 +1,9 @@
 #include "motion/ColumnPlanning.h"
 
-#include "mesh/BoundaryFacets.h"
+#include "motion/ColumnStarts.h"
 #include "motion/FirstEdges.h"
 
 #include <cadrefine/base/SortUniquely.h>
-#include <cadrefine/classification/ClassificationTolerances.h>
 
 #include <algorithm>
 #include <array>
@@ -20,9 +19,6 @@ namespace
 {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-/// A column is so many times as high as the move of its wall, at most: over that the move may fade
-/// out, as no height changes by more than some hundredths, and the first one not by one.
-constexpr double reachOfMove = 100;
 /// A stack that is so many moves high takes all of a move, and no cell of it loses more than 1.5
 /// over this of its height; of a lower one so much less fades out within it.
 constexpr double heightsOfMove = 6;
@@ -31,103 +27,12 @@ constexpr double smoothHeights = 2;
 /// The least cosine between a facet's normal and a move across it, not along it.
 constexpr double across = 0.5;
 
-/// The facet at a moving node whose normal is nearest to the direction of its move.
-struct BestFacet
-{
-  double cosine = -1;
-  std::array<GlobalId, 4> ids{};
-};
-
-BestFacet better(const BestFacet& a, const BestFacet& b)
-{
-  return a.cosine != b.cosine ? (a.cosine > b.cosine ? a : b) : (a.ids < b.ids ? a : b);
-}
-
 /// Where a column ends: at a moving node, so high up.
 struct Arrival
 {
   GlobalId end = -1;
   double height = 0;
 };
-
-/// Of a surface in space: the sides of quadrilaterals that are on CAD edges, once for each cell.
-std::vector<Facet> findSidesOnEdges(const Columns& columns)
-{
-  const ColumnNodes& nodes = columns.nodes;
-  std::vector<Facet> sides;
-  forEachSide(columns.mesh.mesh(),
-    [&](Facet side)
-    {
-      EntityId edge;
-      bool isOnEdge = side.cell >= static_cast<Index>(columns.mesh.mesh().triangles.size());
-      for (int k = 0; k < nodes.count(side) && isOnEdge; ++k)
-      {
-        const EntityId entity = nodes.entities[nodes.at(side, k)];
-        isOnEdge = entity.dimension == 0 || (entity.dimension == 1 && (!edge || edge == entity));
-        edge = entity.dimension == 1 ? entity : edge;
-      }
-      if (isOnEdge)
-      {
-        side.isInside = true;
-        sides.push_back(side);
-      }
-    });
-  return sides;
-}
-
-/// 1 for vertices of facets between two cells all of whose nodes are on the CAD. Collective.
-std::vector<unsigned char> findInnerWalls(RankExchange& exchange, const Columns& columns)
-{
-  const ColumnNodes& nodes = columns.nodes;
-  std::vector<unsigned char> flags(columns.mesh.mesh().points.size(), 0);
-  for (const Facet& facet : columns.facets)
-  {
-    bool isWall = facet.isInside;
-    for (int k = 0; k < nodes.count(facet) && isWall; ++k)
-    {
-      isWall = static_cast<bool>(nodes.entities[nodes.at(facet, k)]);
-    }
-    for (const Index vertex : facet)
-    {
-      flags[vertex] = flags[vertex] || isWall;
-    }
-  }
-  combineFlags(exchange, columns.mesh.shared, flags);
-  return flags;
-}
-
-std::array<GlobalId, 4> sortedIdsOf(const Mesh& mesh, const Facet& facet)
-{
-  auto ids = idsOf(mesh, facet.vertices);
-  std::sort(ids.begin(), ids.end());
-  return ids;
-}
-
-/// For each moving node the facet that its column stands on, none of one that only a rounding
-/// moves. Collective.
-std::vector<BestFacet> findBestFacets(
-  RankExchange& exchange, const Columns& columns, const Moves& moves)
-{
-  const ColumnNodes& nodes = columns.nodes;
-  const double rounding = ClassificationTolerances::tie * columns.projector.model().size();
-  std::vector<BestFacet> best(nodes.points.size());
-  for (const Facet& facet : columns.facets)
-  {
-    const Vector3 normal = columns.normalOf(facet);
-    for (int k = 0; k < nodes.count(facet); ++k)
-    {
-      const Index n = nodes.at(facet, k);
-      const Vector3 move = moves.targets[n] - nodes.points[n];
-      if (moves.fractions[n] > 0 && norm(move) > rounding)
-      {
-        best[n] = better(best[n],
-          { std::abs(dot(normalized(move), normal)), sortedIdsOf(columns.mesh.mesh(), facet) });
-      }
-    }
-  }
-  combineShared(exchange, nodes.shared, best, better);
-  return best;
-}
 
 /// The steps of planColumns, each with what those before it found.
 class ColumnPlanning
@@ -184,32 +89,9 @@ private:
 void ColumnPlanning::run(
   RankExchange& exchange, const Moves& moves, const std::vector<unsigned char>& fixed)
 {
-  const Mesh& piece = columns_.mesh.mesh();
-  const bool onSurface = isSurface(piece, columns_.plane);
-  columns_.facets =
-    onSurface ? findSidesOnEdges(columns_) : findBoundaryFacets(exchange, columns_.mesh, fixed);
-  const auto best = findBestFacets(exchange, columns_, moves);
-  const CellStacks stacks(piece);
-  const auto onInnerWalls = findInnerWalls(exchange, columns_);
-  ColumnClimb climb(columns_.mesh, stacks, columns_.nodes, moves, onInnerWalls, onSurface);
-  for (const Facet& facet : columns_.facets)
-  {
-    for (int k = 0; k < columns_.nodes.count(facet); ++k)
-    {
-      const Index n = columns_.nodes.at(facet, k);
-      if (moves.fractions[n] > 0 && best[n].ids == sortedIdsOf(piece, facet))
-      {
-        const Vector3 move = moves.targets[n] - columns_.nodes.points[n];
-        const double ofFacet =
-          onSurface ? std::abs(dot(move, columns_.normalOf(facet))) : norm(move);
-        const double highest = ofFacet / columns_.nodes.leastMove;
-        const double reach = reachOfMove * norm(move);
-        onSurface ? climb.startInCell(facet, k, highest, reach)
-                  : climb.start(facet, k, highest, reach);
-      }
-    }
-  }
-  listMembers(exchange, climb.run(exchange), moves);
+  const CellStacks stacks(columns_.mesh.mesh());
+  const ColumnStarts starts = startColumns(exchange, moves, fixed, stacks, columns_);
+  listMembers(exchange, starts.visits, moves);
   columns_.lifts.assign(columns_.ids.size(), Vector3{});
   if (columns_.nodes.parents)
   {
@@ -217,10 +99,7 @@ void ColumnPlanning::run(
       findFirstEdges(
         exchange, stacks, columns_.nodes, columns_.facets, moves, columns_.projector, fixed));
   }
-  std::vector<double> cosines;
-  std::transform(best.begin(), best.end(), std::back_inserter(cosines),
-    [](const BestFacet& facet) { return facet.cosine; });
-  findYielding(exchange, moves, cosines);
+  findYielding(exchange, moves, starts.cosines);
   const auto claims =
     findClaims(exchange, moves, std::vector<unsigned char>(columns_.members.size(), 0));
   const auto spans = findSpans(exchange, moves, claims);

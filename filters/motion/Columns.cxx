@@ -28,7 +28,7 @@ Vector3 Columns::normalOf(const Facet& facet) const
     return normalized(twofoldAreaVector(p, facet.corners()));
   }
   const Vector3 ofCell =
-    isSurface(piece, plane)
+    onSurface()
       ? twofoldAreaVector(
           cornersOf(piece.quadrilaterals[facet.cell - piece.triangles.size()], piece.points), 4)
       : plane;
@@ -88,9 +88,10 @@ std::vector<unsigned char> Columns::findBlocked(
       blocked[n] = blocked[n] || (!nodes.entities[n] && !facet.isInside &&
                                    std::abs(dot(move, normal)) > inPlane * norm(move));
     });
-  for (std::size_t n = 0; n < blocked.size() && isSurface(mesh.mesh(), plane); ++n)
+  if (onSurface())
   {
-    blocked[n] = blocked[n] || !nodes.entities[n];
+    std::transform(blocked.begin(), blocked.end(), nodes.entities.begin(), blocked.begin(),
+      [](bool isBlocked, EntityId entity) { return isBlocked || !entity; });
   }
   combineFlags(exchange, nodes.shared, blocked);
   return blocked;

@@ -54,6 +54,8 @@ struct Columns
   SharedItems shared = {};
   std::vector<ColumnMember> members = {};
 
+  bool onSurface() const { return isSurface(mesh.mesh(), plane); } ///< In space.
+
   /// Those of the walls' nodes on this rank or on others, with the lifts. Collective.
   WallMoves movesOfWalls(RankExchange& exchange, const Moves& moves) const;
 

@@ -1,0 +1,141 @@
+#include "motion/ColumnStarts.h"
+
+#include "mesh/BoundaryFacets.h"
+
+#include <cadrefine/classification/ClassificationTolerances.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+
+namespace cadrefine
+{
+namespace
+{
+
+/// The facet at a moving node whose normal is nearest to the direction of its move.
+struct BestFacet
+{
+  double cosine = -1;
+  std::array<GlobalId, 4> ids{};
+};
+
+BestFacet better(const BestFacet& a, const BestFacet& b)
+{
+  return a.cosine != b.cosine ? (a.cosine > b.cosine ? a : b) : (a.ids < b.ids ? a : b);
+}
+
+/// Of a surface in space: the sides of quadrilaterals that are on CAD edges, once for each cell.
+std::vector<Facet> findSidesOnEdges(const Columns& columns)
+{
+  const ColumnNodes& nodes = columns.nodes;
+  std::vector<Facet> sides;
+  forEachSide(columns.mesh.mesh(),
+    [&](Facet side)
+    {
+      EntityId edge;
+      bool isOnEdge = side.cell >= static_cast<Index>(columns.mesh.mesh().triangles.size());
+      for (int k = 0; k < nodes.count(side) && isOnEdge; ++k)
+      {
+        const EntityId entity = nodes.entities[nodes.at(side, k)];
+        isOnEdge = entity.dimension == 0 || (entity.dimension == 1 && (!edge || edge == entity));
+        edge = entity.dimension == 1 ? entity : edge;
+      }
+      if (isOnEdge)
+      {
+        side.isInside = true;
+        sides.push_back(side);
+      }
+    });
+  return sides;
+}
+
+/// 1 for vertices of facets between two cells all of whose nodes are on the CAD. Collective.
+std::vector<unsigned char> findInnerWalls(RankExchange& exchange, const Columns& columns)
+{
+  const ColumnNodes& nodes = columns.nodes;
+  std::vector<unsigned char> flags(columns.mesh.mesh().points.size(), 0);
+  for (const Facet& facet : columns.facets)
+  {
+    bool isWall = facet.isInside;
+    for (int k = 0; k < nodes.count(facet) && isWall; ++k)
+    {
+      isWall = static_cast<bool>(nodes.entities[nodes.at(facet, k)]);
+    }
+    for (const Index vertex : facet)
+    {
+      flags[vertex] = flags[vertex] || isWall;
+    }
+  }
+  combineFlags(exchange, columns.mesh.shared, flags);
+  return flags;
+}
+
+std::array<GlobalId, 4> sortedIdsOf(const Mesh& mesh, const Facet& facet)
+{
+  auto ids = idsOf(mesh, facet.vertices);
+  std::sort(ids.begin(), ids.end());
+  return ids;
+}
+
+/// For each moving node the facet that its column stands on, none of one that only a rounding
+/// moves. Collective.
+std::vector<BestFacet> findBestFacets(
+  RankExchange& exchange, const Columns& columns, const Moves& moves)
+{
+  const ColumnNodes& nodes = columns.nodes;
+  const double rounding = ClassificationTolerances::tie * columns.projector.model().size();
+  std::vector<BestFacet> best(nodes.points.size());
+  for (const Facet& facet : columns.facets)
+  {
+    const Vector3 normal = columns.normalOf(facet);
+    for (int k = 0; k < nodes.count(facet); ++k)
+    {
+      const Index n = nodes.at(facet, k);
+      const Vector3 move = moves.targets[n] - nodes.points[n];
+      if (moves.fractions[n] > 0 && norm(move) > rounding)
+      {
+        best[n] = better(best[n],
+          { std::abs(dot(normalized(move), normal)), sortedIdsOf(columns.mesh.mesh(), facet) });
+      }
+    }
+  }
+  combineShared(exchange, nodes.shared, best, better);
+  return best;
+}
+
+} // namespace
+
+ColumnStarts startColumns(RankExchange& exchange, const Moves& moves,
+  const std::vector<unsigned char>& fixed, const CellStacks& stacks, Columns& columns)
+{
+  const ColumnNodes& nodes = columns.nodes;
+  columns.facets = columns.onSurface() ? findSidesOnEdges(columns)
+                                       : findBoundaryFacets(exchange, columns.mesh, fixed);
+  const auto best = findBestFacets(exchange, columns, moves);
+  const auto onInnerWalls = findInnerWalls(exchange, columns);
+  ColumnClimb climb(columns.mesh, stacks, nodes, moves, onInnerWalls, columns.onSurface());
+  for (const Facet& facet : columns.facets)
+  {
+    for (int k = 0; k < nodes.count(facet); ++k)
+    {
+      const Index n = nodes.at(facet, k);
+      if (moves.fractions[n] > 0 && best[n].ids == sortedIdsOf(columns.mesh.mesh(), facet))
+      {
+        const Vector3 move = moves.targets[n] - nodes.points[n];
+        const double length = norm(move);
+        const double inCell =
+          columns.onSurface() ? std::abs(dot(move, columns.normalOf(facet))) : length;
+        climb.start(facet, k, inCell / nodes.leastMove, reachOfMove * length);
+      }
+    }
+  }
+  ColumnStarts starts;
+  std::transform(best.begin(), best.end(), std::back_inserter(starts.cosines),
+    [](const BestFacet& facet) { return facet.cosine; });
+  starts.visits = climb.run(exchange);
+  return starts;
+}
+
+} // namespace cadrefine

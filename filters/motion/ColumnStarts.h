@@ -1,0 +1,30 @@
+// On which facets of which walls columns stand.
+#pragma once
+
+#include "motion/ColumnClimb.h"
+#include "motion/Columns.h"
+
+#include <vector>
+
+namespace cadrefine
+{
+
+/// A column is so many times as high as the move of its wall, at most: over that the move may fade
+/// out, as no height changes by more than some hundredths, and the first one not by one.
+inline constexpr double reachOfMove = 100;
+
+struct ColumnStarts
+{
+  /// Of the nodes, between the move of each and the normal of the facet that its column stands on;
+  /// -1: it has none.
+  std::vector<double> cosines;
+  std::vector<ColumnVisit> visits; ///< On this rank, see ColumnClimb::run.
+};
+
+/// Finds the facets of the walls, `columns.facets`, and lets columns climb from those at moving
+/// nodes: of several the one whose normal is nearest to the move. `fixed`: 1 for vertices on the
+/// boundary, over all ranks. Collective.
+ColumnStarts startColumns(RankExchange& exchange, const Moves& moves,
+  const std::vector<unsigned char>& fixed, const CellStacks& stacks, Columns& columns);
+
+} // namespace cadrefine
