@@ -6,9 +6,7 @@
 #include <cadrefine/mesh/CellState.h>
 #include <cadrefine/mesh/Overlap.h>
 
-#include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <numeric>
 
 namespace cadrefine
@@ -37,33 +35,21 @@ double sizeOf(Shape, const std::array<Point3, Shape::corners>& corners)
 constexpr double rounding = 1e-13;
 
 /// Rows of cells of the mesh's own dimension of which each comes from one: `sources`, without those
-/// of lower dimension. `factors`: by which these change what cells take from them; none: by 1.
-WeightedRows rowsOf(const Mesh& mesh, const std::vector<Point3>& before,
-  const std::vector<Index>& sources, Index firstSource, const std::vector<double>& factors = {})
+/// of lower dimension, and which had these sizes before.
+WeightedRows rowsOf(const Mesh& mesh, const std::vector<double>& before,
+  const std::vector<Index>& sources, Index firstSource)
 {
   WeightedRows rows;
-  if (mesh.dimension < 2)
-  {
-    return rows;
-  }
   const auto first = static_cast<Index>(firstCellOfDimension(mesh, mesh.dimension));
-  Index number = 0;
-  visitOwnShapes(mesh,
-    [&](auto shape, const auto& cells)
+  const std::vector<double> now = sizesOfCells(mesh, mesh.points);
+  for (std::size_t c = 0; c < now.size(); ++c)
+  {
+    if (before[c] != now[c] && now[c] > 0)
     {
-      for (const auto& cell : cells)
-      {
-        const double factor = factors.empty() ? 1 : factors[sources[number]];
-        const double was = factor * sizeOf(shape, cornersOf(cell, before));
-        const double is = sizeOf(shape, cornersOf(cell, mesh.points));
-        if (was != is && is > 0)
-        {
-          rows.add(firstSource + sources[number], was / is);
-          rows.endRow(first + number);
-        }
-        ++number;
-      }
-    });
+      rows.add(firstSource + sources[c], before[c] / now[c]);
+      rows.endRow(first + static_cast<Index>(c));
+    }
+  }
   return rows;
 }
 
@@ -113,17 +99,21 @@ void placeByRows(const WeightedRows& rows, std::size_t oldCount, std::vector<Poi
 
 } // namespace
 
-std::vector<double> sizesOfCells(const Mesh& mesh)
+std::vector<double> sizesOfCells(const Mesh& mesh, const std::vector<Point3>& points)
 {
   std::vector<double> sizes;
-  visitOwnShapes(mesh,
-    [&](auto shape, const auto& cells)
-    {
-      for (const auto& cell : cells)
+  if (mesh.dimension >= 2)
+  {
+    sizes.reserve(mesh.cellCount(mesh.dimension));
+    visitOwnShapes(mesh,
+      [&](auto shape, const auto& cells)
       {
-        sizes.push_back(sizeOf(shape, cornersOf(cell, mesh.points)));
-      }
-    });
+        for (const auto& cell : cells)
+        {
+          sizes.push_back(sizeOf(shape, cornersOf(cell, points)));
+        }
+      });
+  }
   return sizes;
 }
 
@@ -161,7 +151,7 @@ WeightedRows densitiesOfMoved(const Mesh& mesh, const std::vector<Point3>& befor
   std::vector<Index> sources(mesh.cellCount());
   std::iota(sources.begin(), sources.end(), 0);
   const auto first = static_cast<Index>(firstCellOfDimension(mesh, mesh.dimension));
-  return rowsOf(mesh, before, sources, first);
+  return rowsOf(mesh, sizesOfCells(mesh, before), sources, first);
 }
 
 WeightedRows densitiesOfRefined(const Mesh& mesh, const RefinementTrace& trace,
@@ -180,25 +170,23 @@ WeightedRows densitiesOfRefined(const Mesh& mesh, const RefinementTrace& trace,
   {
     firstParent += static_cast<Index>(trace.firstChildren[d].size()) - 1;
   }
-  std::vector<double> factors;
+  std::vector<double> sizes = sizesOfCells(mesh, before);
+  std::vector<double> ofChildren(parentSizes.size(), 0); // together
   if (!parentSizes.empty())
   {
-    std::vector<double> ofChildren(parentSizes.size(), 0);
-    Index number = 0;
-    visitOwnShapes(mesh,
-      [&](auto shape, const auto& cells)
-      {
-        for (const auto& cell : cells)
-        {
-          ofChildren[parents[number++]] += sizeOf(shape, cornersOf(cell, before));
-        }
-      });
-    std::transform(parentSizes.begin(), parentSizes.end(), ofChildren.begin(),
-      std::back_inserter(factors),
-      [](double size, double sum)
-      { return sum > 0 && std::abs(sum - size) > rounding * size ? size / sum : 1; });
+    for (std::size_t c = 0; c < sizes.size(); ++c)
+    {
+      ofChildren[parents[c]] += sizes[c];
+    }
+    for (std::size_t c = 0; c < sizes.size(); ++c)
+    {
+      const double sum = ofChildren[parents[c]];
+      const double size = parentSizes[parents[c]];
+      const bool isSame = sum <= 0 || std::abs(sum - size) <= rounding * size;
+      sizes[c] *= isSame ? 1 : size / sum;
+    }
   }
-  return rowsOf(mesh, before, parents, firstParent, factors);
+  return rowsOf(mesh, sizes, parents, firstParent);
 }
 
 } // namespace cadrefine

@@ -17,8 +17,9 @@ namespace cadrefine
 /// flat now keep their densities; what inverted ones held counts as if they were not.
 WeightedRows densitiesOfMoved(const Mesh& mesh, const std::vector<Point3>& before);
 
-/// Volumes (in 2D, areas) of the cells of the mesh's own dimension.
-std::vector<double> sizesOfCells(const Mesh& mesh);
+/// Volumes (in 2D, areas) of the cells of the mesh's own dimension, with its vertices at these
+/// points.
+std::vector<double> sizesOfCells(const Mesh& mesh, const std::vector<Point3>& points);
 
 /// The same as densitiesOfMoved for the cells of a refined mesh, from their parents: these were cut
 /// straight, then vertices moved. `before`: the places of the vertices that there were before the

@@ -184,7 +184,7 @@ std::int64_t cut(const PipelineContext& context, MeshState& state, const Refinem
   const bool keepsDensities = !state.mapping.needs().densities.empty();
   std::vector<Point3> before = pointsToKeep(state);
   const std::vector<double> sizes = keepsDensities && state.mesh.mesh().hasNonSimplices()
-                                      ? sizesOfCells(state.mesh.mesh())
+                                      ? sizesOfCells(state.mesh.mesh(), before)
                                       : std::vector<double>{};
   RefinementTrace trace =
     state.classification
