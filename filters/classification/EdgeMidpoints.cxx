@@ -276,23 +276,15 @@ std::vector<MidpointOnCAD> projectMidpoints(RankExchange& exchange, const Mesh& 
     midpoints[asking[i]].where = answers.values[i];
   }
   const bool staysOffCreases = edges.withOperations || exchange.any(mesh.hasNonSimplices());
-  for (std::size_t i = 0; staysOffCreases && i < midpoints.size(); ++i)
+  const std::vector<Vector3> walls = findWalls(exchange, edges, classified);
+  for (std::size_t i = 0; (staysOffCreases || !walls.empty()) && i < midpoints.size(); ++i)
   {
     const Index e = edgesOf[i];
     const BoundaryEdge edge =
       edgeOf(classOfCode(codes[e]), edges.table.edges[e], mesh, classification);
-    midpoints[i].where = offCrease(classified.projector, edge, midpoints[i].where);
-  }
-  const std::vector<Vector3> walls = findWalls(exchange, edges, classified);
-  for (std::size_t i = 0; !walls.empty() && i < midpoints.size(); ++i)
-  {
-    const Index e = edgesOf[i];
-    if (walls[e] != Vector3{})
-    {
-      const BoundaryEdge edge =
-        edgeOf(classOfCode(codes[e]), edges.table.edges[e], mesh, classification);
-      midpoints[i].where = inPlane(classified.projector, edge, midpoints[i].where, walls[e]);
-    }
+    ClosestPoint& where = midpoints[i].where;
+    where = staysOffCreases ? offCrease(classified.projector, edge, where) : where;
+    where = walls.empty() ? where : inPlane(classified.projector, edge, where, walls[e]);
   }
   midpoints.erase(std::remove_if(midpoints.begin(), midpoints.end(),
                     [](const MidpointOnCAD& midpoint) { return !midpoint.where.entity; }),

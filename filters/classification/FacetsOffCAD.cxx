@@ -1,10 +1,8 @@
 #include "classification/FacetsOffCAD.h"
 
-#include <cadrefine/base/IndicesWhere.h>
 #include <cadrefine/classification/CADAdjacency.h>
 #include <cadrefine/classification/ClassificationTolerances.h>
 #include <cadrefine/classification/FaceFinder.h>
-#include <cadrefine/mesh/Quality.h>
 
 #include <algorithm>
 #include <array>
@@ -42,29 +40,28 @@ bool liesOnCAD(const ProjectionTask& task, const std::vector<ClosestPoint>& hits
   return hits[vertex].distance <= roundedDistance(task.model(), task.boundary.shortestEdge[vertex]);
 }
 
-/// Cosine between the normals of a facet and of a face (of a planar mesh, between the directions of
-/// a segment and of an edge) where this is nearest to its middle; 0 where an edge ends there.
-double cosineOn(const ProjectionTask& task, const Facet& facet, std::int32_t entity)
+bool liesOnCAD(
+  const ProjectionTask& task, const std::vector<ClosestPoint>& hits, const Facet& facet)
 {
-  const std::array<Point3, 4> p = pointsOf(task.mesh.mesh(), facet);
-  if (task.ofFaces())
-  {
-    const Vector3 normal = normalized(twofoldAreaVector(p, facet.corners()));
-    return dot(task.model().normalNear(entity, centroidOf(p, facet.corners())), normal);
-  }
-  const ClosestPoint where = task.model().nearestOn({ 1, entity }, 0.5 * (p[0] + p[1]));
-  return where.entity.dimension == 1
-           ? dot(task.model().tangent(entity, where.parameters[0]), normalized(p[1] - p[0]))
-           : 0;
+  return std::all_of(
+    facet.begin(), facet.end(), [&](Index vertex) { return liesOnCAD(task, hits, vertex); });
 }
 
-/// An outer facet on the CAD, not all of whose corners are there.
-bool isInexact(const ProjectionTask& task, const std::vector<ClosestPoint>& hits,
-  const FacetRecord& record, const Facet& facet)
+/// Cosine between the normals of a facet and of a face (of a planar mesh, between the directions of
+/// a segment and of an edge) where this is nearest to its middle; 0 where an edge ends there.
+double cosineOn(
+  const ProjectionTask& task, const Facet& facet, const FacetRecord& record, std::int32_t entity)
 {
-  return record.onCAD && !facet.isInside &&
-         !std::all_of(
-           facet.begin(), facet.end(), [&](Index vertex) { return liesOnCAD(task, hits, vertex); });
+  const Point3 middle = centroidOf(task.mesh.mesh(), facet);
+  if (task.ofFaces())
+  {
+    return dot(task.model().normalNear(entity, middle), record.normal);
+  }
+  const Vector3 way = task.points()[facet.vertices[1]] - task.points()[facet.vertices[0]];
+  const ClosestPoint where = task.model().nearestOn({ 1, entity }, middle);
+  return where.entity.dimension == 1
+           ? dot(task.model().tangent(entity, where.parameters[0]), normalized(way))
+           : 0;
 }
 
 /// For each face (of a planar mesh, edge) of the CAD the way that facets on it face, 1 as it does,
@@ -80,26 +77,27 @@ FaceSides findExactSides(const ProjectionTask& task, const std::vector<ClosestPo
     {
       if (records[f].onCAD && !facets[f].isInside)
       {
-        const bool isExact = !isInexact(task, hits, records[f], facets[f]);
+        const bool isExact = liesOnCAD(task, hits, facets[f]);
         for (const std::int32_t entity : findCovered(task, hits, facets[f]))
         {
-          use(facets[f], entity, isExact);
+          use(f, entity, isExact);
         }
       }
     }
   };
   std::vector<std::int64_t> has(2 * count, 0); // exact facets; others
-  forAllCovered([&](const Facet&, std::int32_t entity, bool isExact)
+  forAllCovered([&](std::size_t, std::int32_t entity, bool isExact)
     { has[entity + (isExact ? 0 : count)] = 1; });
   has = task.exchange.max(has);
   std::vector<std::int64_t> exact(2 * count, 0); // the CAD's way, and the other
   std::vector<std::int64_t> others(2 * count, 0);
   forAllCovered(
-    [&](const Facet& facet, std::int32_t entity, bool isExact)
+    [&](std::size_t f, std::int32_t entity, bool isExact)
     {
       if (has[entity] && has[entity + count])
       {
-        ++(isExact ? exact : others)[entity + (cosineOn(task, facet, entity) < 0 ? count : 0)];
+        const bool isOther = cosineOn(task, facets[f], records[f], entity) < 0;
+        ++(isExact ? exact : others)[entity + (isOther ? count : 0)];
       }
     });
   exact = task.exchange.sum(exact);
@@ -130,8 +128,7 @@ void leaveEndsOfLayers(const ProjectionTask& task, const std::vector<ClosestPoin
   std::vector<std::int64_t> covers(task.model().count(dimension), 0);
   for (std::size_t f = 0; f < facets.size(); ++f)
   {
-    if (records[f].onCAD &&
-        (!facets[f].isInside || std::all_of(facets[f].begin(), facets[f].end(), isThere)))
+    if (records[f].onCAD && (!facets[f].isInside || liesOnCAD(task, hits, facets[f])))
     {
       for (const std::int32_t entity : findCovered(task, hits, facets[f]))
       {
@@ -170,26 +167,32 @@ void leaveWalls(const ProjectionTask& task, const std::vector<ClosestPoint>& hit
   using T = ClassificationTolerances;
   const DistributedBoundary& boundary = task.boundary;
   const FaceSides sides = findExactSides(task, hits, records);
-  const auto turnsBy = [&](std::size_t f, double cosine)
+  // With the way that its faces have; 1 where it has none, or exact facets are few on one of them.
+  const auto largestCosine = [&](std::size_t f)
   {
     const auto covered = findCovered(task, hits, boundary.facets[f]);
-    return !covered.empty() &&
-           std::all_of(covered.begin(), covered.end(),
-             [&](std::int32_t entity)
-             {
-               return sides[entity] != 0 &&
-                      sides[entity] * cosineOn(task, boundary.facets[f], entity) < cosine;
-             });
-  };
-  const auto inexact = indicesWhere(records.size(),
-    [&](std::size_t f) { return isInexact(task, hits, records[f], boundary.facets[f]); });
-  std::vector<Index> suspects;
-  for (const Index f : inexact)
-  {
-    records[f].onCAD = turnsBy(f, T::followingCosine) ? 0 : 1;
-    if (records[f].onCAD && task.ofFaces() && turnsBy(f, T::flatCosine))
+    double largest = covered.empty() ? 1 : -1;
+    for (const std::int32_t entity : covered)
     {
-      suspects.push_back(f);
+      const double cosine =
+        sides[entity] == 0 ? 1
+                           : sides[entity] * cosineOn(task, boundary.facets[f], records[f], entity);
+      largest = std::max(largest, cosine);
+    }
+    return largest;
+  };
+  std::vector<Index> suspects;
+  for (std::size_t f = 0; f < records.size(); ++f)
+  {
+    const Facet& facet = boundary.facets[f];
+    if (records[f].onCAD && !facet.isInside && !liesOnCAD(task, hits, facet))
+    {
+      const double cosine = largestCosine(f);
+      records[f].onCAD = cosine < T::followingCosine ? 0 : 1;
+      if (records[f].onCAD && task.ofFaces() && cosine < T::flatCosine)
+      {
+        suspects.push_back(static_cast<Index>(f));
+      }
     }
   }
   const auto continues = [](const FacetRecord& facet, const FacetRecord& other)

@@ -34,9 +34,9 @@ ClosestPoint offCrease(
 /// A place on the CAD for the midpoint of a smooth edge that is projected to `where`, in the plane
 /// of this unit normal through the edge: a plane of symmetry, or another plane wall that is not in
 /// the CAD, stays plane where the CAD cuts it at a slant. By Newton's method, from tangent plane to
-/// tangent plane. `where`, if it is in the plane already, if the CAD turns from the plane by less
-/// than 10 degrees, or if that finds no place. Work: none if `where` is in the plane; else three
-/// or four projections.
+/// tangent plane. `where`, if it is in the plane already, or the normal is zero, if the CAD turns
+/// from the plane by less than 10 degrees, or if that finds no place. Work: none if `where` is in
+/// the plane; else three or four projections.
 ClosestPoint inPlane(const BoundaryProjector& projector, const BoundaryEdge& edge,
   const ClosestPoint& where, const Vector3& normal);
 
