@@ -175,7 +175,12 @@ std::string warningOfMisfit(const Fit& fit, const std::string& cadUnit, bool isW
   constexpr double most = 0.65; // half a ball on a plane of symmetry, of chords; of a box a corner
   constexpr double little = 0.2;
   constexpr double nearlyAll = 0.9; // a box in another unit may share half of its sides
+  constexpr double piece = 0.02;    // of the CAD; a cone fits one in any unit, but then less
   const std::string shift = describeShift(fit);
+  if (fit.wasOnCurved >= half && fit.cadCovered.value_or(0) >= piece)
+  {
+    return shift;
+  }
   const bool fits = (fit.boundaryOnCAD >= half && fit.cadCovered.value_or(0) >= most) ||
                     fit.boundaryOnCAD * fit.boundaryInBox >= nearlyAll;
   std::string cause = fits || !shift.empty() ? shift : describeUnits(ratioOf(fit), cadUnit);

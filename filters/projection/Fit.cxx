@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace cadrefine
 {
@@ -66,6 +67,41 @@ double measureOf(const Mesh& mesh, const Facet& facet)
                               : 0.5 * norm(twofoldAreaVector(p, facet.corners()));
 }
 
+/// Whether the direction of a face's normal, or of an edge, changes over it.
+bool isCurved(const CADModel& model, EntityId entity)
+{
+  constexpr double alike = 1e-6;
+  constexpr std::array<double, 3> places{ 0.2, 0.5, 0.8 };
+  std::vector<Vector3> directions;
+  if (entity.dimension == 2)
+  {
+    for (const BezierPatch& patch : model.nurbs().faces[entity.index].patches)
+    {
+      for (const double u : places)
+      {
+        for (const double v : places)
+        {
+          directions.push_back(model.normal(entity.index,
+            { patch.u0 + u * (patch.u1 - patch.u0), patch.v0 + v * (patch.v1 - patch.v0) }));
+        }
+      }
+    }
+  }
+  else if (entity.dimension == 1)
+  {
+    for (const BezierCurve& segment : model.nurbs().edges[entity.index].segments)
+    {
+      for (const double t : places)
+      {
+        directions.push_back(
+          model.tangent(entity.index, segment.t0 + t * (segment.t1 - segment.t0)));
+      }
+    }
+  }
+  return std::any_of(directions.begin(), directions.end(),
+    [&](const Vector3& other) { return norm(cross(directions.front(), other)) > alike; });
+}
+
 class FitSearch
 {
 public:
@@ -109,6 +145,32 @@ public:
     fit_.boundaryOnCAD = counted > 0 ? covering / counted : 0;
     fit_.boundaryInBox = total > 0 ? counted / total : 0;
     fit_.cadCovered = coveredShare(task_.exchange.sum(parts));
+  }
+
+  void countVerticesOnCurved()
+  {
+    const auto& entities = result_.classification.entities;
+    const auto owned = task_.mesh.shared.ownedHere(static_cast<Index>(entities.size()));
+    std::map<EntityId, bool> curved;
+    std::int64_t all = 0;
+    std::int64_t before = 0;
+    for (std::size_t v = 0; v < entities.size(); ++v)
+    {
+      if (!owned[v] || !entities[v])
+      {
+        continue;
+      }
+      const auto [place, isNew] = curved.try_emplace(entities[v], false);
+      if (isNew)
+      {
+        place->second = isCurved(task_.model(), entities[v]);
+      }
+      all += place->second;
+      before += place->second && result_.wasOnCAD[v];
+    }
+    all = task_.exchange.sum(all);
+    before = task_.exchange.sum(before);
+    fit_.wasOnCurved = all > 0 ? static_cast<double>(before) / static_cast<double>(all) : 0;
   }
 
   void findVerticesOff()
@@ -244,6 +306,7 @@ Fit findFit(const ProjectionTask& task, const ProjectionResult& result)
   fit.cadBox = task.model().box();
   FitSearch search(task, result, fit);
   search.measureBoundary();
+  search.countVerticesOnCurved();
   search.findVerticesOff();
   findConflicts(task.exchange, task.mesh, result, fit);
   return fit;

@@ -36,6 +36,9 @@ struct Fit
   /// most its own. Facets are chords, so somewhat less than 1 for a coarse mesh all over a curved
   /// CAD. None for points alone.
   std::optional<double> cadCovered;
+  /// Of the vertices on curved faces and edges, the part that were there before the projection, but
+  /// for rounding: a mesh in another place or unit has none. 0 where there are no such vertices.
+  double wasOnCurved = 0;
   /// Vertices of the boundary in the region and in the CAD's box that are off the CAD, or that
   /// could not reach it.
   std::int64_t verticesOffCAD = 0;

@@ -10,6 +10,7 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <cmath>
+#include <numeric>
 
 namespace cadrefine
 {
@@ -210,6 +211,44 @@ TEST_F(Fit, ofOneBodyTellsNoUnit)
     two.attempt<vtkProjectOntoCAD>(pieceOf(cadtest::toGrid(mesh)), [](vtkProjectOntoCAD*) {});
   expectWarning(outcome, "");
   EXPECT_NEAR(value(outcome, "CADCovered"), 0.5, 1e-12);
+}
+
+/// A segment cut off a disc, whose chord is not in the CAD: a third of the size, and a quarter of
+/// the circle at most, but its arc lies there.
+TEST_F(Fit, ofAPartTellsNoUnit)
+{
+  const cadtest::FilterRun disc(
+    cadtest::writeInto(folder, cadtest::discOfTwoArcs(1, 0), ".brep"), worldController());
+  constexpr Index last = 16;
+  Mesh segment;
+  segment.dimension = 2;
+  for (Index i = 0; i <= last; ++i)
+  {
+    const double angle = 0.45 * (2.0 * i / last - 1);
+    segment.points.push_back({ std::cos(angle), std::sin(angle), 0 });
+  }
+  for (Index i = 1; i < last; ++i)
+  {
+    segment.points.push_back({ std::cos(0.45), segment.points[i][1], 0 });
+    segment.triangles.push_back({ i - 1, i, last + i });
+    if (i > 1)
+    {
+      segment.triangles.push_back({ i - 1, last + i, last + i - 1 });
+    }
+  }
+  segment.triangles.push_back({ last - 1, last, 2 * last - 1 });
+  segment.ids.resize(segment.points.size());
+  std::iota(segment.ids.begin(), segment.ids.end(), 0);
+  const auto projected = [&](const Mesh& of)
+  {
+    return disc.attempt<vtkProjectOntoCAD>(pieceOf(cadtest::toGrid(of)), [](vtkProjectOntoCAD*) {});
+  };
+  expectWarning(projected(segment), "");
+  for (Point3& p : segment.points)
+  {
+    p = 1.01 * p;
+  }
+  expectWarning(projected(segment), "as if the mesh were in metres and the CAD in feet");
 }
 
 TEST_F(Fit, tellsAShift)
