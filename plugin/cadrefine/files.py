@@ -11,7 +11,7 @@ from cadrefine import messages
 from cadrefine.exchange import carry_out, exchange
 from cadrefine.formats import BadFile, library
 from cadrefine.formats.grid import check, from_grid, to_grid
-from cadrefine.formats.sides import once, turned_alike
+from cadrefine.formats.sides import check_pyramids, once, turned_alike
 from cadrefine.merge import merged_grid
 
 EXODUS = (".e", ".ex2", ".exo", ".exii", ".g")
@@ -102,6 +102,7 @@ def reader_of(path):
         def read_mesh():
             mesh = formats("." + module).read(path, *arguments)
             check(mesh)
+            check_pyramids(mesh)
             return to_grid(turned_alike(once(mesh)))
         return read_mesh
 

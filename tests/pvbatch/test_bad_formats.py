@@ -17,6 +17,12 @@ $Nodes\n8\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0 0 1\n6 1 0 1\n7 1 1 1\n8 0 1 
 $Elements\n1\n1 5 2 1 1 1 2 3 4 5 6 7 8\n$EndElements
 """
 TETRAHEDRON = """*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n*ELEMENT, type=C3D4\n1, 1, 2, 3, 4\n"""
+# A cube, over whose upper side a pyramid is missing between four tetrahedra.
+CAVITY = """*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 1, 1, 0\n4, 0, 1, 0\n5, 0, 0, 1\n6, 1, 0, 1\n7, 1, 1, 1\n8, 0, 1, 1
+9, 0.5, 0.5, 1.5\n10, 0.5, -1, 1.5\n11, 2, 0.5, 1.5\n12, 0.5, 2, 1.5\n13, -1, 0.5, 1.5
+*ELEMENT, type=C3D8\n1, 1, 2, 3, 4, 5, 6, 7, 8
+*ELEMENT, type=C3D4\n2, 5, 6, 9, 10\n3, 6, 7, 9, 11\n4, 7, 8, 9, 12\n5, 8, 5, 9, 13
+"""
 OLD = "$MeshFormat\n4.0 0 8\n$EndMeshFormat\n"
 PARTS = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PartitionedEntities\n0\n"
 NO_NODE = HEXAHEDRON.replace("1 5 2 1 1 1 2 3 4 5 6 7 8", "1 4 2 1 1 1 2 3 9")
@@ -64,6 +70,8 @@ class BadFormats(driver.Case):
              "the section Elements contains something other than numbers"),
             ("cut.mesh", part("gmsh.mesh", 3000), "meshio cannot read it as medit: "),
             ("cut.inp", TETRAHEDRON[:-4], "holds elements C3D4 of 3 nodes"),
+            ("cavity.inp", CAVITY, "no pyramids, but cavities where they should be, between quadrilaterals and "
+             "tetrahedra: 1"),
             ("type.inp", TETRAHEDRON.replace("C3D4", "U4"), "holds elements of the type U4"),
             ("cut.meshb", part("meshio.meshb", 1500), "meshio cannot read it as medit: "),
             ("cut.su2", part("gmsh.su2", 3000), "it is cut short"),

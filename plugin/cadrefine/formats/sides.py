@@ -4,11 +4,13 @@ import dataclasses
 
 import numpy as np
 
+from cadrefine.formats import BadFile
 from cadrefine.formats.cells import CORNERS, SIDES, TYPES, facet_of, mirrored
 from cadrefine.formats.grid import PHYSICAL, tag_array
 from cadrefine.formats.groups import BOUNDARY, is_list, set_groups, unused
 
 WIDTH = 4  # Most corners of a side.
+TETRAHEDRA, PYRAMIDS, WITH_QUADS = {10, 24}, {14, 27}, {12, 13, 25, 26}  # VTK's types of cells.
 IN_PLANE = 2e-7  # A planar mesh leaves its plane by less, in parts of its extent: the filters take it for one, too.
 
 
@@ -106,6 +108,32 @@ def cells_of(mesh, dimension):
             cells.append(np.arange(first, first + len(points)))
         first += len(points)
     return np.concatenate(corners), np.concatenate(cells)
+
+
+def check_pyramids(mesh):
+    """Throws BadFile where pyramids are missing between quadrilaterals and tetrahedra."""
+    kinds = {kind for kind, nodes in mesh.blocks if len(nodes)}
+    if not kinds & TETRAHEDRA or not kinds & WITH_QUADS or kinds & PYRAMIDS:
+        return
+    corners = all_sides(mesh, 3)[0]
+    classes, count = same_corners(corners)
+    corners = corners[np.bincount(classes, minlength=count)[classes] == 1]
+    quads, triangles = corners[corners[:, 3] >= 0], corners[corners[:, 3] < 0]
+    bases = np.concatenate([quads[:, [k, (k + 1) % 4]] for k in range(4)])
+    edges = np.concatenate([triangles[:, [k, (k + 1) % 3]] for k in range(3)])
+    apexes = np.concatenate([triangles[:, (k + 2) % 3] for k in range(3)])
+    classes, _ = same_corners(np.concatenate([bases, edges]))
+    of_base, of_edge = classes[:len(bases)], classes[len(bases):]
+    order = np.argsort(of_edge)
+    first, last = (np.searchsorted(of_edge[order], of_base, side) for side in ("left", "right"))
+    beside = np.concatenate([np.zeros(0, int), *(order[a:b] for a, b in zip(first, last))])
+    quad = np.repeat(np.tile(np.arange(len(quads)), 4), last - first)
+    _, sides = np.unique(np.column_stack([quad, apexes[beside]]), axis=0, return_counts=True)
+    cavities = np.count_nonzero(sides == 4)
+    if cavities:
+        raise BadFile(f"the mesh has no pyramids, but cavities where they should be, between quadrilaterals and "
+                      f"tetrahedra: {cavities}; gmsh writes pyramids only to some formats, .msh and .su2 among them: "
+                      "save the mesh in one of these")
 
 
 def once(mesh):
