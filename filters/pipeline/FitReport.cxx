@@ -198,6 +198,19 @@ std::string warningOfMisfit(const Fit& fit, const std::string& cadUnit, bool isW
              : cause);
 }
 
+std::string warningOfStrays(const Fit& fit)
+{
+  if (fit.strays == 0)
+  {
+    return {};
+  }
+  std::ostringstream text;
+  text << "vertices moved onto the CAD where nearly all others lay on it already: " << fit.strays
+       << ", the farthest by " << fit.farthestStray.distance << " to " << fit.farthestStray.point
+       << "; if a wall that is not in the CAD meets it there, leave that out by Region or Faces";
+  return text.str();
+}
+
 void removeFit(vtkFieldData* from)
 {
   for (const char* name : { "CADCovered", "FarthestVertices", "ConflictPoints" })

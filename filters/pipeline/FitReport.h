@@ -17,6 +17,10 @@ namespace cadrefine
 /// to do. Empty: nothing.
 std::string warningOfMisfit(const Fit& fit, const std::string& cadUnit, bool isWhole);
 
+/// What is to be said of vertices that were moved onto the CAD among others that lay on it: they
+/// may be those of a wall that is not in the CAD, and meets it at a small angle. Empty: nothing.
+std::string warningOfStrays(const Fit& fit);
+
 /// All of it, for a person: several lines.
 std::string describeFit(const Fit& fit, const std::string& cadUnit);
 

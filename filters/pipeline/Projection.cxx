@@ -187,6 +187,11 @@ void judge(const PipelineContext& context, const Projection& projection,
   {
     context.warn(warning);
   }
+  const std::string strays = warningOfStrays(projection.fit);
+  if (!strays.empty())
+  {
+    context.warn(strays);
+  }
 }
 
 } // namespace

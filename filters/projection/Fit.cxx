@@ -2,6 +2,7 @@
 
 #include "comm/LoadBalancedMap.h"
 
+#include <cadrefine/classification/ClassificationTolerances.h>
 #include <cadrefine/mesh/Quality.h>
 
 #include <algorithm>
@@ -118,6 +119,7 @@ public:
     std::vector<double> onCADToo;
     // Parts of the entities' own measures in units of 2^-40, which sum up the same on any ranks.
     std::vector<std::int64_t> parts(entities_, 0);
+    places_.assign(task_.boundary.facets.size(), -1);
     const auto& facets = task_.boundary.facets;
     for (std::size_t f = 0; f < facets.size(); ++f)
     {
@@ -126,7 +128,8 @@ public:
       if (record.onCAD)
       {
         onCADToo.push_back(measure);
-        addPart(parts, facets[f], record, measure);
+        places_[f] = task_.ofFaces() ? record.face : edgeOf(facets[f]);
+        addPart(parts, places_[f], measure);
       }
       // Listed ones inside the mesh need not be of the CAD.
       const bool isAsked = !record.free && !facets[f].isInside;
@@ -166,11 +169,57 @@ public:
         place->second = isCurved(task_.model(), entities[v]);
       }
       all += place->second;
-      before += place->second && result_.wasOnCAD[v];
+      before += place->second && wasOnCAD(v);
     }
     all = task_.exchange.sum(all);
     before = task_.exchange.sum(before);
     fit_.wasOnCurved = all > 0 ? static_cast<double>(before) / static_cast<double>(all) : 0;
+  }
+
+  void findStrays()
+  {
+    std::vector<std::int64_t> counts(2 * entities_, 0); // exact facets; others
+    const auto& facets = task_.boundary.facets;
+    for (std::size_t f = 0; f < facets.size(); ++f)
+    {
+      if (places_[f] >= 0)
+      {
+        const bool isExact = std::all_of(
+          facets[f].begin(), facets[f].end(), [&](Index vertex) { return wasOnCAD(vertex); });
+        ++counts[places_[f] + (isExact ? 0 : entities_)];
+      }
+    }
+    counts = task_.exchange.sum(counts);
+    std::vector<unsigned char> isStray(task_.points().size(), 0);
+    for (std::size_t f = 0; f < facets.size(); ++f)
+    {
+      const std::int32_t place = places_[f];
+      const bool isMostlyExact =
+        place >= 0 && static_cast<double>(counts[place]) >=
+                        ClassificationTolerances::sideMajority *
+                          static_cast<double>(counts[place] + counts[place + entities_]);
+      for (const Index vertex : facets[f])
+      {
+        isStray[vertex] = isStray[vertex] || (isMostlyExact && !wasOnCAD(vertex));
+      }
+    }
+    combineFlags(task_.exchange, task_.mesh.shared, isStray);
+    const auto owned = task_.mesh.shared.ownedHere(static_cast<Index>(isStray.size()));
+    std::vector<Entry> strays;
+    for (std::size_t v = 0; v < isStray.size(); ++v)
+    {
+      if (owned[v] && isStray[v])
+      {
+        const auto& mesh = task_.mesh.mesh();
+        strays.push_back(
+          { result_.distancesBefore[v], static_cast<double>(mesh.ids[v]), mesh.points[v] });
+      }
+    }
+    fit_.strays = task_.exchange.sum(strays.size());
+    for (const Entry& entry : firstOf(task_.exchange, std::move(strays), 1))
+    {
+      fit_.farthestStray = { entry.point, entry.distance };
+    }
   }
 
   void findVerticesOff()
@@ -213,6 +262,12 @@ public:
   }
 
 private:
+  bool wasOnCAD(std::size_t vertex) const
+  {
+    return result_.distancesBefore[vertex] <=
+           roundedDistance(task_.model(), task_.boundary.shortestEdge[vertex]);
+  }
+
   bool isInBox(const Point3& p) const
   {
     return fit_.cadBox.contains(p, boxMargin * task_.model().size());
@@ -243,10 +298,8 @@ private:
     return middle.entity.dimension == 1 ? middle.entity.index : -1;
   }
 
-  void addPart(std::vector<std::int64_t>& parts, const Facet& facet, const FacetRecord& record,
-    double measure) const
+  void addPart(std::vector<std::int64_t>& parts, std::int32_t index, double measure) const
   {
-    const std::int32_t index = task_.ofFaces() ? record.face : edgeOf(facet);
     const double whole = index < 0 ? 0 : task_.model().measure({ dimension_, index });
     if (whole > 0)
     {
@@ -273,6 +326,7 @@ private:
   Fit& fit_;
   std::int8_t dimension_;
   std::size_t entities_;
+  std::vector<std::int32_t> places_; ///< Of each facet its face (in the plane, edge), -1: none.
 };
 
 /// Collective.
@@ -307,6 +361,7 @@ Fit findFit(const ProjectionTask& task, const ProjectionResult& result)
   FitSearch search(task, result, fit);
   search.measureBoundary();
   search.countVerticesOnCurved();
+  search.findStrays();
   search.findVerticesOff();
   findConflicts(task.exchange, task.mesh, result, fit);
   return fit;

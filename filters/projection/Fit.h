@@ -43,6 +43,10 @@ struct Fit
   /// could not reach it.
   std::int64_t verticesOffCAD = 0;
   std::vector<OffPoint> farthest; ///< Of these the ten farthest, in order.
+  /// Vertices that were put onto faces (of a planar mesh, edges) on which three quarters of the
+  /// facets lay already, and were not there themselves, but for rounding.
+  std::int64_t strays = 0;
+  OffPoint farthestStray;         ///< Where it is now, and how far it was from there.
   std::int64_t conflictCount = 0; ///< Vertices in conflict.
   std::vector<Point3> conflicts;  ///< Of these those with the lowest ids, up to 100.
 };

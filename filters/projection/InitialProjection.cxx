@@ -151,15 +151,14 @@ ProjectionResult projectBoundary(RankExchange& exchange, DistributedMesh& mesh,
     onCAD = findVerticesOnCAD(task, facets.records);
   }
   result.classification.resize(hits.size());
-  result.wasOnCAD.assign(hits.size(), 0);
+  result.distancesBefore.assign(hits.size(), 0);
   Moves moves(mesh.mesh().points);
   for (std::size_t v = 0; v < hits.size(); ++v)
   {
     if (onCAD[v] && hits[v].entity)
     {
       result.classification.set(static_cast<Index>(v), hits[v]);
-      result.wasOnCAD[v] = distance(mesh.mesh().points[v], hits[v].point) <=
-                           roundedDistance(task.model(), boundary.shortestEdge[v]);
+      result.distancesBefore[v] = distance(mesh.mesh().points[v], hits[v].point);
       moves.add(static_cast<Index>(v), hits[v].point);
     }
   }

@@ -23,8 +23,9 @@ struct ProjectionResult
   WorkBalance balance;         ///< Of these look-ups over the ranks.
   /// 1 for vertices whose CAD entity could not be decided (see findConflicts).
   std::vector<unsigned char> conflicts;
-  std::vector<unsigned char> wasOnCAD; ///< 1 for vertices that were on the CAD, but for rounding.
-  std::vector<FacetRecord> facets;     ///< Of this rank's boundary.
+  /// Of each vertex on the CAD, how far it was from its place there.
+  std::vector<double> distancesBefore;
+  std::vector<FacetRecord> facets; ///< Of this rank's boundary.
 };
 
 /// Moves the boundary vertices of the mesh onto the CAD (S. Strunk, KTH 2013, Algorithm 4.1):

@@ -251,6 +251,26 @@ TEST_F(Fit, ofAPartTellsNoUnit)
   expectWarning(projected(segment), "as if the mesh were in metres and the CAD in feet");
 }
 
+TEST_F(Fit, tellsAVertexOffAmongOthersOnTheCAD)
+{
+  const cadtest::FilterRun disc(
+    cadtest::writeInto(folder, cadtest::discOfTwoArcs(1, 0), ".brep"), worldController());
+  Mesh polygon = cadtest::discMesh(1, 0, 48);
+  polygon.points[6] = 0.98 * polygon.points[6];
+  const auto project = [&]
+  {
+    return disc.attempt<vtkProjectOntoCAD>(
+      pieceOf(cadtest::toGrid(polygon)), [](vtkProjectOntoCAD*) {});
+  };
+  expectWarning(project(), "moved onto the CAD where nearly all others lay on it already: 1, the "
+                           "farthest by 0.02 to (0.707107, 0.707107, 0)");
+  for (int corner = 0; corner < 48; corner += 2) // now the mesh is no exact one
+  {
+    polygon.points[corner] = 0.98 * polygon.points[corner];
+  }
+  expectWarning(project(), "");
+}
+
 TEST_F(Fit, tellsAShift)
 {
   expectWarning(project(placed(1, { 0.003, 0.003, 0.003 })), "shifted by (0.003, 0.003, 0.003)");
