@@ -11,7 +11,6 @@
 #include <cadrefine/cad/import/CADFile.h>
 
 #include <vtkCompositeDataSet.h>
-#include <vtkDataAssembly.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkInformation.h>

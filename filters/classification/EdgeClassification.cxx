@@ -13,20 +13,6 @@ namespace cadrefine
 namespace
 {
 
-/// One number for each query, and the queries.
-template<class Query>
-struct Asked
-{
-  std::vector<std::size_t> of;
-  std::vector<Query> queries;
-
-  void add(std::size_t number, const Query& query)
-  {
-    of.push_back(number);
-    queries.push_back(query);
-  }
-};
-
 /// Faces with a seam: mesh edges inside of them may run along it.
 std::vector<unsigned char> findSeamedFaces(const NurbsModel& nurbs)
 {
@@ -48,7 +34,7 @@ std::vector<EdgeMatch> matchMeshEdges(const ProjectionTask& task,
   const auto ofEdges = gatherFacetRecords(task.exchange, task.boundary, records);
   const auto seamed = findSeamedFaces(task.model().nurbs());
   const auto& edges = task.boundary.edges.edges();
-  Asked<MeshEdge> asked;
+  NumberedQueries<MeshEdge> asked;
   for (std::size_t e = 0; e < edges.size(); ++e)
   {
     const auto [a, b] = edges[e];
@@ -68,14 +54,11 @@ std::vector<EdgeMatch> matchMeshEdges(const ProjectionTask& task,
     }
   }
   const EdgeFinder finder(task.model());
-  const auto answers = mapBalanced<EdgeMatch>(task.exchange, std::move(asked.queries),
-    [&](const MeshEdge& edge) { return finder.find(edge); },
-    { "finding the CAD edges of", "mesh edges" });
   std::vector<EdgeMatch> best(edges.size());
-  for (std::size_t i = 0; i < asked.of.size(); ++i)
-  {
-    best[asked.of[i]] = std::min(best[asked.of[i]], answers.values[i]);
-  }
+  answerBalanced<EdgeMatch>(
+    task.exchange, std::move(asked), [&](const MeshEdge& edge) { return finder.find(edge); },
+    [&](std::size_t e, const EdgeMatch& match) { best[e] = std::min(best[e], match); },
+    { "finding the CAD edges of", "mesh edges" });
   return best;
 }
 
@@ -197,7 +180,7 @@ std::vector<std::int32_t> edgesOfSegments(
   const ProjectionTask& task, const std::vector<FacetRecord>& records)
 {
   std::vector<std::int32_t> result(task.boundary.edges.edges().size(), -1);
-  Asked<Point3> asked;
+  NumberedQueries<Point3> asked;
   for (std::size_t f = 0; f < records.size(); ++f)
   {
     if (records[f].onCAD && !records[f].free)
@@ -207,14 +190,12 @@ std::vector<std::int32_t> edgesOfSegments(
         task.boundary.facetEdges[f][0], 0.5 * (task.points()[ends[0]] + task.points()[ends[1]]));
     }
   }
-  const auto answers = mapBalanced<ClosestPoint>(task.exchange, std::move(asked.queries),
+  answerBalanced<ClosestPoint>(
+    task.exchange, std::move(asked),
     [&](const Point3& middle)
-    { return task.projector.nearest(middle, std::numeric_limits<double>::infinity()); });
-  for (std::size_t i = 0; i < asked.of.size(); ++i)
-  {
-    const EntityId entity = answers.values[i].entity;
-    result[asked.of[i]] = entity.dimension == 1 ? entity.index : -1;
-  }
+    { return task.projector.nearest(middle, std::numeric_limits<double>::infinity()); },
+    [&](std::size_t e, const ClosestPoint& where)
+    { result[e] = where.entity.dimension == 1 ? where.entity.index : -1; });
   return result;
 }
 

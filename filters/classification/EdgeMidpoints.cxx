@@ -198,14 +198,6 @@ std::vector<std::int64_t> edgeCodes(
   return codes;
 }
 
-Answers<ClosestPoint> projectEdges(RankExchange& exchange, const BoundaryProjector& projector,
-  std::vector<BoundaryEdge> edges, const CountedWork& work)
-{
-  return mapBalanced<ClosestPoint>(
-    exchange, std::move(edges),
-    [&](const BoundaryEdge& edge) { return projectMidpoint(projector, edge); }, work);
-}
-
 WorkBalance findMidpoints(RankExchange& exchange, const Mesh& mesh,
   const Classification& classification, const BoundaryCache& cache, ClassifiedBoundary& classified)
 {
@@ -213,29 +205,24 @@ WorkBalance findMidpoints(RankExchange& exchange, const Mesh& mesh,
   const std::vector<Index> quads = quadsOnCAD(classified);
   auto& midpoints = classified.midpoints.emplace(ends.size() + quads.size());
   const auto isKnown = rememberMidpoints(cache, classified);
-  std::vector<std::size_t> asking;
-  std::vector<BoundaryEdge> queries;
+  NumberedQueries<BoundaryEdge> asked;
   for (std::size_t e = 0; e < ends.size(); ++e)
   {
     const EdgeClass& edgeClass = classified.classes.ofEdges[e];
     if (edgeClass.kind != EdgeClass::Straight && !isKnown[e])
     {
-      asking.push_back(e);
-      queries.push_back(edgeOf(edgeClass, ends[e], mesh, classification));
+      asked.add(e, edgeOf(edgeClass, ends[e], mesh, classification));
     }
   }
   for (std::size_t q = 0; q < quads.size(); ++q)
   {
-    asking.push_back(ends.size() + q);
-    queries.push_back(middleOfFacet(mesh, classification, classified, quads[q]));
+    asked.add(ends.size() + q, middleOfFacet(mesh, classification, classified, quads[q]));
   }
-  const auto answers = projectEdges(
-    exchange, classified.projector, std::move(queries), { "projecting", "boundary edges" });
-  for (std::size_t i = 0; i < asking.size(); ++i)
-  {
-    midpoints[asking[i]] = answers.values[i];
-  }
-  return answers.balance;
+  return answerBalanced<ClosestPoint>(
+    exchange, std::move(asked),
+    [&](const BoundaryEdge& edge) { return projectMidpoint(classified.projector, edge); },
+    [&](std::size_t place, const ClosestPoint& where) { midpoints[place] = where; },
+    { "projecting", "boundary edges" });
 }
 
 std::vector<MidpointOnCAD> projectMidpoints(RankExchange& exchange, const Mesh& mesh,
@@ -247,8 +234,7 @@ std::vector<MidpointOnCAD> projectMidpoints(RankExchange& exchange, const Mesh& 
   auto next = known.begin();
   std::vector<MidpointOnCAD> midpoints;
   std::vector<Index> edgesOf;
-  std::vector<std::size_t> asking; // among these
-  std::vector<BoundaryEdge> queries;
+  NumberedQueries<BoundaryEdge> asked; // by their place among these
   std::size_t place = 0;
   for (std::size_t e = 0; e < codes.size(); ++e)
   {
@@ -259,8 +245,7 @@ std::vector<MidpointOnCAD> projectMidpoints(RankExchange& exchange, const Mesh& 
     {
       if (!isKnown)
       {
-        asking.push_back(midpoints.size());
-        queries.push_back(edgeOf(edgeClass, edges.table.edges[e], mesh, classification));
+        asked.add(midpoints.size(), edgeOf(edgeClass, edges.table.edges[e], mesh, classification));
       }
       midpoints.push_back(
         { place, isKnown ? (*classified.midpoints)[boundaryEdge] : ClosestPoint{} });
@@ -268,13 +253,12 @@ std::vector<MidpointOnCAD> projectMidpoints(RankExchange& exchange, const Mesh& 
     }
     place += edges.marks[e];
   }
-  const auto answers = projectEdges(
-    exchange, classified.projector, std::move(queries), { "projecting", "new vertices" });
-  recordBalance(statistics, "new points", answers.balance);
-  for (std::size_t i = 0; i < asking.size(); ++i)
-  {
-    midpoints[asking[i]].where = answers.values[i];
-  }
+  const WorkBalance balance = answerBalanced<ClosestPoint>(
+    exchange, std::move(asked),
+    [&](const BoundaryEdge& edge) { return projectMidpoint(classified.projector, edge); },
+    [&](std::size_t i, const ClosestPoint& where) { midpoints[i].where = where; },
+    { "projecting", "new vertices" });
+  recordBalance(statistics, "new points", balance);
   const bool staysOffCreases = edges.withOperations || exchange.any(mesh.hasNonSimplices());
   const std::vector<Vector3> walls = findWalls(exchange, edges, classified);
   for (std::size_t i = 0; (staysOffCreases || !walls.empty()) && i < midpoints.size(); ++i)
@@ -324,8 +308,7 @@ void projectQuads(RankExchange& exchange, const Mesh& mesh, const MarkedQuads& q
   {
     return;
   }
-  std::vector<std::size_t> asking;
-  std::vector<BoundaryEdge> queries;
+  NumberedQueries<BoundaryEdge> asked;
   for (std::size_t i = 0; i < quads.marked.size(); ++i)
   {
     const auto& corners = quads.all.corners[quads.marked[i]];
@@ -339,19 +322,24 @@ void projectQuads(RankExchange& exchange, const Mesh& mesh, const MarkedQuads& q
         points[k] = mesh.points[corners[k]];
         entities[k] = classification.entities[corners[k]];
       }
-      asking.push_back(quads.firstPlace + i);
-      queries.push_back(middleOfQuad(points, entities, code - 3));
+      asked.add(quads.firstPlace + i, middleOfQuad(points, entities, code - 3));
     }
   }
-  const auto answers =
-    projectEdges(exchange, classified.projector, queries, { "projecting", "new vertices" });
-  for (std::size_t i = 0; i < asking.size(); ++i)
-  {
-    if (answers.values[i].entity)
+  answerBalanced<ClosestPoint>(
+    exchange, std::move(asked),
+    [&](const BoundaryEdge& middle)
     {
-      hits.push_back({ asking[i], offCrease(classified.projector, queries[i], answers.values[i]) });
-    }
-  }
+      const ClosestPoint where = projectMidpoint(classified.projector, middle);
+      return where.entity ? offCrease(classified.projector, middle, where) : where;
+    },
+    [&](std::size_t place, const ClosestPoint& where)
+    {
+      if (where.entity)
+      {
+        hits.push_back({ place, where });
+      }
+    },
+    { "projecting", "new vertices" });
 }
 
 void classifyMidpoints(

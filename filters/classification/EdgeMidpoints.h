@@ -12,7 +12,6 @@
 #include <cadrefine/mesh/EdgeTable.h>
 #include <cadrefine/mesh/QuadTable.h>
 #include <cadrefine/refinement/LongestEdgeMarking.h>
-#include <cadrefine/refinement/Split.h>
 
 #include <array>
 #include <vector>
@@ -61,11 +60,6 @@ std::vector<std::int64_t> edgeCodes(
 
 /// The class in such a number.
 EdgeClass classOfCode(std::int64_t code);
-
-/// Where the midpoints of these edges belong. Collective; shared out evenly over ranks and threads,
-/// and counted as `work` in the progress (see mapBalanced).
-Answers<ClosestPoint> projectEdges(RankExchange& exchange, const BoundaryProjector& projector,
-  std::vector<BoundaryEdge> edges, const CountedWork& work);
 
 /// A midpoint that belongs onto the CAD.
 struct MidpointOnCAD

@@ -141,8 +141,7 @@ std::vector<FaceMatch> findFaces(
   const auto& records = classes.records;
   const auto amongTheirOwn = findThoseAmongTheirOwn(task, hits);
   const FaceFinder finder(task.model(), classes.sides);
-  std::vector<CornerHits> queries;
-  std::vector<std::size_t> facets;
+  NumberedQueries<CornerHits> asked;
   for (std::size_t f = 0; f < records.size(); ++f)
   {
     if (!records[f].onCAD)
@@ -161,17 +160,13 @@ std::vector<FaceMatch> findFaces(
       query.amongItsOwn[k] = amongTheirOwn[vertex];
       query.exact = query.exact && hits[vertex].distance <= task.exact(vertex);
     }
-    queries.push_back(query);
-    facets.push_back(f);
+    asked.add(f, query);
   }
-  const auto answers = mapBalanced<FaceMatch>(task.exchange, std::move(queries),
-    [&](const CornerHits& query) { return finder.find(query); },
-    { "finding the CAD faces of", "facets" });
   std::vector<FaceMatch> matches(records.size());
-  for (std::size_t i = 0; i < facets.size(); ++i)
-  {
-    matches[facets[i]] = answers.values[i];
-  }
+  answerBalanced<FaceMatch>(
+    task.exchange, std::move(asked), [&](const CornerHits& query) { return finder.find(query); },
+    [&](std::size_t f, const FaceMatch& match) { matches[f] = match; },
+    { "finding the CAD faces of", "facets" });
   return matches;
 }
 

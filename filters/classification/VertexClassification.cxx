@@ -171,25 +171,21 @@ void placeVertices(
   {
     return;
   }
-  std::vector<std::size_t> vertices;
-  std::vector<VertexQuery> queries;
+  NumberedQueries<VertexQuery> asked;
   for (std::size_t v = 0; v < hits.size(); ++v)
   {
     if (hits[v].entity &&
         (!meeting.edges[v].empty() || (meeting.wrongSide[v] && !meeting.faces[v].empty())))
     {
-      vertices.push_back(v);
-      queries.push_back({ task.points()[v], task.limit(v), meeting.settled[v] != 0, hits[v],
-        meeting.faces[v], meeting.edges[v] });
+      asked.add(v, { task.points()[v], task.limit(v), meeting.settled[v] != 0, hits[v],
+                     meeting.faces[v], meeting.edges[v] });
     }
   }
-  const auto answers = mapBalanced<ClosestPoint>(task.exchange, std::move(queries),
+  answerBalanced<ClosestPoint>(
+    task.exchange, std::move(asked),
     [&](const VertexQuery& query) { return placeOf(task.projector, query); },
+    [&](std::size_t v, const ClosestPoint& where) { hits[v] = where; },
     { "classifying", "vertices" });
-  for (std::size_t i = 0; i < vertices.size(); ++i)
-  {
-    hits[vertices[i]] = answers.values[i];
-  }
 }
 
 } // namespace cadrefine

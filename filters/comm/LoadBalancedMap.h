@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace cadrefine
@@ -101,6 +102,33 @@ Answers<Answer> mapBalanced(RankExchange& exchange, std::vector<Query> queries,
     });
   exchangeTail(exchange, plan.ranks, plan.received, plan.kept, result.values);
   return result;
+}
+
+/// Queries, each with a number by which the caller knows what it is about.
+template<class Query>
+struct NumberedQueries
+{
+  std::vector<std::size_t> numbers;
+  std::vector<Query> queries;
+
+  void add(std::size_t number, const Query& query)
+  {
+    numbers.push_back(number);
+    queries.push_back(query);
+  }
+};
+
+/// mapBalanced; then use(number, answer) for each query in order.
+template<class Answer, class Query, class Function, class Use>
+WorkBalance answerBalanced(RankExchange& exchange, NumberedQueries<Query> asked,
+  const Function& function, const Use& use, const CountedWork& work = {})
+{
+  const auto answers = mapBalanced<Answer>(exchange, std::move(asked.queries), function, work);
+  for (std::size_t i = 0; i < asked.numbers.size(); ++i)
+  {
+    use(asked.numbers[i], answers.values[i]);
+  }
+  return answers.balance;
 }
 
 } // namespace cadrefine

@@ -6,6 +6,7 @@
 #include "comm/Threads.h"
 #include "error/BoundaryAngles.h"
 
+#include <cadrefine/classification/MidpointProjection.h>
 #include <cadrefine/error/CurvedError.h>
 #include <cadrefine/error/GeometricError.h>
 
@@ -164,7 +165,9 @@ std::vector<FacetError> measureStraight(RankExchange& exchange, const Mesh& mesh
     const double begin = std::min(1.0, done / expected);
     done += static_cast<double>(edges.size());
     const Progress::Part part(exchange.progress(), begin, std::min(1.0, done / expected));
-    return projectEdges(exchange, classified.projector, std::move(edges), { "measuring", "edges" })
+    return mapBalanced<ClosestPoint>(exchange, std::move(edges),
+      [&](const BoundaryEdge& edge) { return projectMidpoint(classified.projector, edge); },
+      { "measuring", "edges" })
       .values;
   };
   return geometricErrors(surfaceOf(exchange, mesh, classified, classification, facets),

@@ -228,8 +228,7 @@ public:
     const auto& classes = result_.classification;
     const auto owned = task_.mesh.shared.ownedHere(static_cast<Index>(points.size()));
     std::vector<Entry> off;
-    std::vector<Point3> queries;
-    std::vector<std::size_t> asking;
+    NumberedQueries<Point3> asked;
     for (std::size_t v = 0; v < points.size(); ++v)
     {
       if (!owned[v] || !task_.boundary.onBoundary[v] || !task_.options.inRegion(points[v]))
@@ -242,18 +241,15 @@ public:
       }
       else if (isInBox(points[v]))
       {
-        queries.push_back(points[v]);
-        asking.push_back(v);
+        asked.add(v, points[v]);
       }
     }
-    const auto answers = mapBalanced<double>(task_.exchange, std::move(queries),
+    answerBalanced<double>(
+      task_.exchange, std::move(asked),
       [&](const Point3& point)
       { return task_.projector.nearest(point, std::numeric_limits<double>::infinity()).distance; },
+      [&](std::size_t v, double distance) { addIfOff(off, v, distance); },
       { "measuring the fit at", "vertices" });
-    for (std::size_t i = 0; i < asking.size(); ++i)
-    {
-      addIfOff(off, asking[i], answers.values[i]);
-    }
     fit_.verticesOffCAD = task_.exchange.sum(off.size());
     for (const Entry& entry : firstOf(task_.exchange, std::move(off), mostFarthest))
     {

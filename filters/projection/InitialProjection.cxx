@@ -43,33 +43,31 @@ NearestPoints findNearest(const ProjectionTask& task)
   const auto& points = task.points();
   const auto owned = task.mesh.shared.ownedHere(static_cast<Index>(points.size()));
   NearestPoints result;
-  std::vector<Index> vertices;
-  std::vector<PointQuestion> queries;
+  NumberedQueries<PointQuestion> asked;
   for (std::size_t v = 0; v < points.size(); ++v)
   {
     if (task.boundary.onBoundary[v] && task.options.inRegion(points[v]))
     {
-      vertices.push_back(static_cast<Index>(v));
-      queries.push_back({ points[v], task.limit(v), task.exact(v) });
+      asked.add(v, { points[v], task.limit(v), task.exact(v) });
       result.asked += owned[v];
     }
   }
-  const auto answers = mapBalanced<ClosestPoint>(task.exchange, std::move(queries),
+  result.hits.resize(points.size());
+  result.balance = answerBalanced<ClosestPoint>(
+    task.exchange, std::move(asked),
     [&](const PointQuestion& query)
     {
       const ClosestPoint nearest = task.projector.nearest(query.point, query.limit);
       return task.projector.onSmallest(query.point, query.exact, nearest);
     },
+    [&](std::size_t v, const ClosestPoint& hit)
+    {
+      result.hits[v] = hit;
+      result.slow += owned[v] && !hit.converged;
+    },
     { "projecting", "vertices" });
-  result.hits.resize(points.size());
-  for (std::size_t i = 0; i < vertices.size(); ++i)
-  {
-    result.hits[vertices[i]] = answers.values[i];
-    result.slow += owned[vertices[i]] && !answers.values[i].converged;
-  }
   result.asked = task.exchange.sum(result.asked);
   result.slow = task.exchange.sum(result.slow);
-  result.balance = answers.balance;
   return result;
 }
 
@@ -186,32 +184,29 @@ ProjectionResult projectPoints(RankExchange& exchange, DistributedMesh& mesh, co
   }
   SearchScope scope;
   scope.maximumDistance = options.maximumDistance.value_or(scope.maximumDistance);
-  std::vector<Index> vertices;
-  std::vector<Point3> queries;
+  NumberedQueries<Point3> asked;
   for (std::size_t v = 0; v < points.size(); ++v)
   {
     if (options.inRegion(points[v]))
     {
-      vertices.push_back(static_cast<Index>(v));
-      queries.push_back(points[v]);
+      asked.add(v, points[v]);
       result.projectedPoints += owned[v];
     }
   }
-  const auto answers = mapBalanced<ClosestPoint>(exchange, std::move(queries),
-    [&](const Point3& point) { return model.nearest(point, scope); }, { "projecting", "points" });
-  for (std::size_t i = 0; i < vertices.size(); ++i)
-  {
-    const ClosestPoint& hit = answers.values[i];
-    result.slowPoints += owned[vertices[i]] && !hit.converged;
-    if (hit.entity && (!chosen || chosen->contains(model.nurbs(), hit.entity)))
+  result.balance = answerBalanced<ClosestPoint>(
+    exchange, std::move(asked), [&](const Point3& point) { return model.nearest(point, scope); },
+    [&](std::size_t v, const ClosestPoint& hit)
     {
-      result.classification.set(vertices[i], hit);
-      points[vertices[i]] = hit.point;
-    }
-  }
+      result.slowPoints += owned[v] && !hit.converged;
+      if (hit.entity && (!chosen || chosen->contains(model.nurbs(), hit.entity)))
+      {
+        result.classification.set(static_cast<Index>(v), hit);
+        points[v] = hit.point;
+      }
+    },
+    { "projecting", "points" });
   result.projectedPoints = exchange.sum(result.projectedPoints);
   result.slowPoints = exchange.sum(result.slowPoints);
-  result.balance = answers.balance;
   return result;
 }
 
