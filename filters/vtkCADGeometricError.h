@@ -2,14 +2,17 @@
  * @class vtkCADGeometricError
  * @brief area or volume between the boundary of a mesh and the CAD
  *
- * Input port 0: the output of vtkProjectOntoCAD or vtkRefineWithCAD. Port 1: that of a
- * vtkCADReader.
+ * Input port 0: the output of vtkProjectOntoCAD, vtkRefineWithCAD, vtkCoarsenWithCAD or
+ * vtkAdaptToCAD. Port 1: that of a vtkCADReader.
  *
- * Output: the mesh with cell arrays GeometricError (area in 2D, volume in 3D, in powers of the
- * mesh's unit; 0 away from the CAD) and GeometricDistance (largest distance found from the cell's
- * CAD facets to the CAD), and field data GlobalGeometricError and MaximumGeometricDistance over all
- * ranks, no facet twice. The global sum does not depend on the partition. Vertices that have not
- * reached the CAD count with their CADDistance in GeometricDistance.
+ * Output: the mesh with cell arrays of what its facets on the CAD miss, 0 for cells without any:
+ * GeometricError (area in 2D, volume in 3D, in powers of the mesh's unit of length),
+ * GeometricDistance (length: largest distance found from the facets to the CAD; vertices that have
+ * not reached the CAD count with their CADDistance), ChordError (length: largest distance from the
+ * middle of a facet's edge, or of a quadrilateral, to the CAD) and NormalAngle (degrees: largest
+ * angle between neighbouring facets, across no crease). Field data over all ranks, the same for
+ * any partition: GlobalGeometricError (the sum, no facet twice), GeometricErrorDimension (2: an
+ * area, 3: a volume), MaximumGeometricDistance, MaximumChordError and MaximumNormalAngle.
  *
  * Cost: for each facet on the CAD 3 (1 + 4 + ... + 4^(depth - 1)) projections in 3D, and
  * 1 + 2 + ... + 2^(depth - 1) in 2D.

@@ -30,6 +30,19 @@ constexpr const char* chordError = "ChordError";
 constexpr const char* normalAngle = "NormalAngle";
 constexpr const char* validity = "CellValidity";
 constexpr const char* quality = "CellQuality";
+// Field data.
+constexpr const char* globalError = "GlobalGeometricError";
+constexpr const char* errorDimension = "GeometricErrorDimension";
+constexpr const char* largestErrorDistance = "MaximumGeometricDistance";
+constexpr const char* largestChordError = "MaximumChordError";
+constexpr const char* largestNormalAngle = "MaximumNormalAngle";
+constexpr const char* leastQuality = "MinimumQuality";
+constexpr const char* vertexCount = "GlobalVertices";
+constexpr const char* cellCount = "GlobalCells";
+constexpr const char* invalidCells = "InvalidCells";
+constexpr const char* verticesOnCAD = "CADVertices";
+constexpr const char* projectedPoints = "ProjectedPoints";
+constexpr const char* unprojectedVertices = "UnprojectedVertices";
 } // namespace arrays
 
 /// Whether a cell array of this name is what CAD Geometric Error or Mesh Validity found, and so

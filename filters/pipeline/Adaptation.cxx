@@ -173,7 +173,7 @@ private:
   /// Why there must be no further step, before it is known what it would be; empty if it may.
   std::string reasonToStop() const
   {
-    const double error = state_.arrays.ofMesh->GetArray("GlobalGeometricError")->GetComponent(0, 0);
+    const double error = state_.arrays.ofMesh->GetArray(arrays::globalError)->GetComponent(0, 0);
     const bool mayStop = steps_ > 0 || options_.coarseningFraction == 0;
     if (options_.targetError > 0 && error <= options_.targetError && mayStop)
     {

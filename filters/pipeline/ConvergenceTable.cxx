@@ -1,5 +1,7 @@
 #include "pipeline/ConvergenceTable.h"
 
+#include "fields/CADArrays.h"
+
 #include <vtkDataArray.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
@@ -14,10 +16,10 @@ namespace
 {
 
 constexpr const char* ownCounts[] = { "Step", "MarkedCells" };
-constexpr const char* counts[] = { "GlobalVertices", "GlobalCells", "CADVertices",
-  "ProjectedPoints", "InvalidCells", "UnprojectedVertices" };
-constexpr const char* measures[] = { "GlobalGeometricError", "MaximumGeometricDistance",
-  "MaximumChordError", "MaximumNormalAngle", "MinimumQuality" };
+constexpr const char* counts[] = { arrays::vertexCount, arrays::cellCount, arrays::verticesOnCAD,
+  arrays::projectedPoints, arrays::invalidCells, arrays::unprojectedVertices };
+constexpr const char* measures[] = { arrays::globalError, arrays::largestErrorDistance,
+  arrays::largestChordError, arrays::largestNormalAngle, arrays::leastQuality };
 
 template<class Array, class Names>
 void addColumns(vtkTable* table, const Names& names)

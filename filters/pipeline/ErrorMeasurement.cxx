@@ -1,6 +1,7 @@
 #include "pipeline/ErrorMeasurement.h"
 
 #include "error/DistributedError.h"
+#include "fields/CADArrays.h"
 #include "pipeline/MeshSummary.h"
 
 #include <cadrefine/base/Error.h>
@@ -41,11 +42,11 @@ void addErrors(MeshState& state, const MeshError& error)
   add(arrays::normalAngle, [](const CellError& cell) { return cell.largest.angle; });
   state.arrays.ofCells->SetActiveScalars(arrays::error);
   vtkFieldData* ofMesh = state.arrays.ofMesh;
-  setFieldValue(ofMesh, "GlobalGeometricError", error.global);
-  setFieldValue(ofMesh, "GeometricErrorDimension", std::int64_t(error.dimension));
-  setFieldValue(ofMesh, "MaximumGeometricDistance", error.largest.distance);
-  setFieldValue(ofMesh, "MaximumChordError", error.largest.chord);
-  setFieldValue(ofMesh, "MaximumNormalAngle", error.largest.angle);
+  setFieldValue(ofMesh, arrays::globalError, error.global);
+  setFieldValue(ofMesh, arrays::errorDimension, std::int64_t(error.dimension));
+  setFieldValue(ofMesh, arrays::largestErrorDistance, error.largest.distance);
+  setFieldValue(ofMesh, arrays::largestChordError, error.largest.chord);
+  setFieldValue(ofMesh, arrays::largestNormalAngle, error.largest.angle);
 }
 
 } // namespace

@@ -116,8 +116,8 @@ void removeMeasured(vtkFieldData* ofCells, vtkFieldData* ofMesh)
   remove(
     { arrays::error, arrays::errorDistance, arrays::chordError, arrays::normalAngle }, ofCells);
   removeQualities(ofCells);
-  remove({ "GlobalGeometricError", "GeometricErrorDimension", "MaximumGeometricDistance",
-           "MaximumChordError", "MaximumNormalAngle" },
+  remove({ arrays::globalError, arrays::errorDimension, arrays::largestErrorDistance,
+           arrays::largestChordError, arrays::largestNormalAngle },
     ofMesh);
 }
 

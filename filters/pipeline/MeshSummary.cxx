@@ -1,6 +1,7 @@
 #include "pipeline/MeshSummary.h"
 
 #include "comm/Threads.h"
+#include "fields/CADArrays.h"
 #include "mesh/MeshPlane.h"
 
 #include <cadrefine/base/Error.h>
@@ -118,10 +119,10 @@ void summariseMesh(RankExchange& exchange, const DistributedMesh& mesh,
 {
   const MeshCounts counts = countMesh(exchange, mesh);
   setFieldValue(data, "MeshDimension", std::int64_t(mesh.mesh().dimension));
-  setFieldValue(data, "GlobalVertices", counts.vertices);
-  setFieldValue(data, "GlobalCells", counts.cells);
-  setFieldValue(data, "InvalidCells", quality.invalidCells);
-  setFieldValue(data, "MinimumQuality", quality.minimum());
+  setFieldValue(data, arrays::vertexCount, counts.vertices);
+  setFieldValue(data, arrays::cellCount, counts.cells);
+  setFieldValue(data, arrays::invalidCells, quality.invalidCells);
+  setFieldValue(data, arrays::leastQuality, quality.minimum());
 }
 
 std::int64_t summariseProjection(RankExchange& exchange, const DistributedMesh& mesh,
@@ -135,9 +136,9 @@ std::int64_t summariseProjection(RankExchange& exchange, const DistributedMesh& 
     counts[1] += owned[v] && classification.distances[v] > 0;
   }
   counts = exchange.sum(counts);
-  setFieldValue(data, "CADVertices", counts[0]);
-  setFieldValue(data, "UnprojectedVertices", counts[1]);
-  setFieldValue(data, "ProjectedPoints", projectedPoints);
+  setFieldValue(data, arrays::verticesOnCAD, counts[0]);
+  setFieldValue(data, arrays::unprojectedVertices, counts[1]);
+  setFieldValue(data, arrays::projectedPoints, projectedPoints);
   return counts[0];
 }
 
