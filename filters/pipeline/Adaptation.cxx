@@ -255,7 +255,7 @@ private:
     const RefinementOutcome outcome = refine(options);
     if (outcome.markedCells > 0 && outcome.limited)
     {
-      return "there would be more cells than allowed (MaximumCells)";
+      return "the next step would exceed the number of cells allowed (MaximumCells)";
     }
     const bool coarsened = !toKeep.empty() && coarsen(std::move(toKeep));
     if (outcome.markedCells == 0 && !coarsened)

@@ -62,8 +62,9 @@ std::string describeUnits(double ratio, const std::string& cadUnit)
     return {};
   }
   std::ostringstream text;
-  text << "the mesh's box is " << ratio << " times the size of the CAD's, as if the mesh were in "
-       << likely->mesh.plural << " and the CAD in " << likely->cad.plural << ": ";
+  text << "the mesh's bounding box is " << ratio
+       << " times the size of the CAD's, as if the mesh were in " << likely->mesh.plural
+       << " and the CAD in " << likely->cad.plural << ": ";
   if (cadUnit.empty() || likely->cad.name == cadUnit)
   {
     text << "set Unit of the CAD Reader to " << likely->mesh.name << " (driver: --cad-unit "
@@ -121,7 +122,7 @@ std::string describeShift(const Fit& fit)
     coordinate = std::abs(coordinate) <= rounding * norm(low) ? 0 : coordinate;
   }
   std::ostringstream text;
-  text << "the mesh's box has the size of the CAD's, but is shifted by " << low
+  text << "the mesh's bounding box has the size of the CAD's, but is shifted by " << low
        << ": move the mesh or the CAD";
   return text.str();
 }

@@ -150,7 +150,7 @@ Projection projectAlone(
 std::string reasonOfNone(
   const Projection& projection, const ProjectionOptions& options, const std::string& cadUnit)
 {
-  const std::string none = "no vertex was put onto the CAD: ";
+  const std::string none = "no vertex could be projected onto the CAD: ";
   if (projection.result.projectedPoints == 0)
   {
     return none + "the region (Region) contains no boundary vertex";
@@ -162,7 +162,7 @@ std::string reasonOfNone(
   if (options.region)
   {
     return none + "no boundary facet lies on the CAD with all of its vertices in the region " +
-           "(Region); make that larger";
+           "(Region); enlarge the region";
   }
   const std::string farther = options.maximumDistance
                                 ? "MaximumDistance"

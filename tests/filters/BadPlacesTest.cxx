@@ -147,9 +147,9 @@ TEST_F(BadPlaces, boundaryFarFromTheCAD)
   const auto whole = cadtest::toGrid(mesh);
   const auto outcome =
     filters.attempt<vtkProjectOntoCAD>(pieceOf(whole), [](vtkProjectOntoCAD*) {});
-  expectError(outcome, "no vertex was put onto the CAD");
+  expectError(outcome, "no vertex could be projected onto the CAD");
   expectError(filters.attempt<vtkAdaptToCAD>(pieceOf(whole), [](vtkAdaptToCAD*) {}),
-    "no vertex was put onto the CAD");
+    "no vertex could be projected onto the CAD");
 }
 
 /// The CAD's normals point into the body.

@@ -293,7 +293,8 @@ TEST_F(Fit, isAnErrorWhereNothingIsOnTheCAD)
 {
   for (const double factor : { 1.0, 1000.0 })
   {
-    expectError(project(placed(factor, { 5000, 0, 0 })), "no vertex was put onto the CAD");
+    expectError(
+      project(placed(factor, { 5000, 0, 0 })), "no vertex could be projected onto the CAD");
   }
 }
 

@@ -60,7 +60,7 @@ TEST(Reach, aMeshElsewhereIsToldOf)
   const Outcome outcome = filters.attempt<vtkProjectOntoCAD>(mesh, [](vtkProjectOntoCAD*) {});
   EXPECT_FALSE(outcome.succeeded);
   ASSERT_EQ(outcome.errors.size(), 1u);
-  EXPECT_NE(outcome.errors[0].find("no vertex was put onto the CAD"), std::string::npos)
+  EXPECT_NE(outcome.errors[0].find("no vertex could be projected onto the CAD"), std::string::npos)
     << outcome.errors[0];
 }
 

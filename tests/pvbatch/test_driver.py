@@ -257,7 +257,7 @@ class Options(Case):
         meshio.write(path, meshio.Mesh(1000 * mesh.points, {"tetra": mesh.cells_dict["tetra"]}))
         run = driver.Run(RANKS, path, WING[1], "--steps", "0", "--report", self.path("report.json"))
         self.assert_refused(run)
-        self.assertIn("no vertex was put onto the CAD: ", run.errors[0])
+        self.assertIn("no vertex could be projected onto the CAD: ", run.errors[0])
         self.assertIn("check that the mesh and the CAD have the same position and unit of length", run.errors[0])
         self.assertFalse(os.path.exists(self.path("report.json")))
 
