@@ -17,13 +17,6 @@ namespace cadrefine
 namespace
 {
 
-/// Class of an edge and whether it lies on the boundary, as one number that ranks can combine by
-/// the maximum: a rank without a facet at the edge has 0.
-std::int64_t encode(const EdgeClass& edgeClass)
-{
-  return 1 + edgeClass.kind + 4 * static_cast<std::int64_t>(edgeClass.entity + 1);
-}
-
 BoundaryEdge edgeOf(const EdgeClass& edgeClass, const std::array<Index, 2>& ends, const Mesh& mesh,
   const Classification& classification)
 {
@@ -178,24 +171,17 @@ std::vector<GlobalId> numberMidpoints(RankExchange& exchange, const SharedVertic
   return std::move(numbering.numbers);
 }
 
-EdgeClass classOfCode(std::int64_t code)
-{
-  return code == 0 ? EdgeClass{}
-                   : EdgeClass{ static_cast<EdgeClass::Kind>((code - 1) % 4),
-                       static_cast<std::int32_t>((code - 1) / 4 - 1) };
-}
-
-std::vector<std::int64_t> edgeCodes(
+std::vector<SharedClass> classesOfEdges(
   RankExchange& exchange, const MarkedEdges& edges, const ClassifiedBoundary& classified)
 {
-  std::vector<std::int64_t> codes(edges.table.edges.size(), 0);
+  std::vector<SharedClass> classes(edges.table.edges.size());
   const auto& ends = classified.boundary.edges.edges();
   for (std::size_t e = 0; e < ends.size(); ++e)
   {
-    codes[edges.table.find(ends[e][0], ends[e][1])] = encode(classified.classes.ofEdges[e]);
+    classes[edges.table.find(ends[e][0], ends[e][1])] = { 1, classified.classes.ofEdges[e] };
   }
-  combineLargest(exchange, edges.sharedEdges, codes);
-  return codes;
+  combineLargest(exchange, edges.sharedEdges, classes);
+  return classes;
 }
 
 WorkBalance findMidpoints(RankExchange& exchange, const Mesh& mesh,
@@ -226,7 +212,7 @@ WorkBalance findMidpoints(RankExchange& exchange, const Mesh& mesh,
 }
 
 std::vector<MidpointOnCAD> projectMidpoints(RankExchange& exchange, const Mesh& mesh,
-  const MarkedEdges& edges, const std::vector<std::int64_t>& codes,
+  const MarkedEdges& edges, const std::vector<SharedClass>& classes,
   const ClassifiedBoundary& classified, const Classification& classification,
   RunStatistics& statistics)
 {
@@ -236,11 +222,11 @@ std::vector<MidpointOnCAD> projectMidpoints(RankExchange& exchange, const Mesh& 
   std::vector<Index> edgesOf;
   NumberedQueries<BoundaryEdge> asked; // by their place among these
   std::size_t place = 0;
-  for (std::size_t e = 0; e < codes.size(); ++e)
+  for (std::size_t e = 0; e < classes.size(); ++e)
   {
     const bool isKnown = next != known.end() && next->edge == static_cast<Index>(e);
     const Index boundaryEdge = isKnown ? (next++)->boundaryEdge : -1;
-    const EdgeClass edgeClass = classOfCode(codes[e]);
+    const EdgeClass& edgeClass = classes[e].edgeClass;
     if (edges.marks[e] && edgeClass.kind != EdgeClass::Straight)
     {
       if (!isKnown)
@@ -265,7 +251,7 @@ std::vector<MidpointOnCAD> projectMidpoints(RankExchange& exchange, const Mesh& 
   {
     const Index e = edgesOf[i];
     const BoundaryEdge edge =
-      edgeOf(classOfCode(codes[e]), edges.table.edges[e], mesh, classification);
+      edgeOf(classes[e].edgeClass, edges.table.edges[e], mesh, classification);
     ClosestPoint& where = midpoints[i].where;
     where = staysOffCreases ? offCrease(classified.projector, edge, where) : where;
     where = walls.empty() ? where : inPlane(classified.projector, edge, where, walls[e]);
@@ -276,10 +262,10 @@ std::vector<MidpointOnCAD> projectMidpoints(RankExchange& exchange, const Mesh& 
   return midpoints;
 }
 
-std::vector<std::int32_t> quadCodes(RankExchange& exchange, const EdgeTable& table,
+std::vector<SharedClass> classesOfQuads(RankExchange& exchange, const EdgeTable& table,
   const SharedQuads& quads, const ClassifiedBoundary& classified)
 {
-  std::vector<std::int32_t> codes(quads.corners.size(), 0);
+  std::vector<SharedClass> classes(quads.corners.size());
   const DistributedBoundary& boundary = classified.boundary;
   for (std::size_t f = 0; f < boundary.facets.size(); ++f)
   {
@@ -293,11 +279,12 @@ std::vector<std::int32_t> quadCodes(RankExchange& exchange, const EdgeTable& tab
           return table.find(a, b);
         });
       const FacetRecord& record = classified.classes.facets[f];
-      codes[quads.table.find(edges)] = record.onCAD ? 3 + record.face : 1;
+      classes[quads.table.find(edges)] = { 1,
+        record.onCAD ? EdgeClass{ EdgeClass::Smooth, record.face } : EdgeClass{} };
     }
   }
-  combineLargest(exchange, quads.shared, codes);
-  return codes;
+  combineLargest(exchange, quads.shared, classes);
+  return classes;
 }
 
 void projectQuads(RankExchange& exchange, const Mesh& mesh, const MarkedQuads& quads,
@@ -312,8 +299,8 @@ void projectQuads(RankExchange& exchange, const Mesh& mesh, const MarkedQuads& q
   for (std::size_t i = 0; i < quads.marked.size(); ++i)
   {
     const auto& corners = quads.all.corners[quads.marked[i]];
-    const std::int32_t code = quads.codes[quads.marked[i]];
-    if (code > 1)
+    const EdgeClass& facetClass = quads.classes[quads.marked[i]].edgeClass;
+    if (facetClass.kind != EdgeClass::Straight)
     {
       std::array<Point3, 4> points;
       std::array<EntityId, 4> entities;
@@ -322,7 +309,7 @@ void projectQuads(RankExchange& exchange, const Mesh& mesh, const MarkedQuads& q
         points[k] = mesh.points[corners[k]];
         entities[k] = classification.entities[corners[k]];
       }
-      asked.add(quads.firstPlace + i, middleOfQuad(points, entities, code - 3));
+      asked.add(quads.firstPlace + i, middleOfQuad(points, entities, facetClass.entity));
     }
   }
   answerBalanced<ClosestPoint>(

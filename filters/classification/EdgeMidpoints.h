@@ -14,6 +14,7 @@
 #include <cadrefine/refinement/LongestEdgeMarking.h>
 
 #include <array>
+#include <tuple>
 #include <vector>
 
 namespace cadrefine
@@ -53,13 +54,26 @@ std::vector<GlobalId> numberMidpoints(RankExchange& exchange, const SharedVertic
 /// The facets that are quadrilaterals on the CAD, ascending.
 std::vector<Index> quadsOnCAD(const ClassifiedBoundary& classified);
 
-/// The classes of all edges of a piece (see classifyBoundary), also of those whose boundary facets
-/// are on other ranks, as numbers: 0 for an edge inside the mesh. Collective.
-std::vector<std::int64_t> edgeCodes(
-  RankExchange& exchange, const MarkedEdges& edges, const ClassifiedBoundary& classified);
+/// Where an edge or a quadrilateral of a piece is, as all ranks together know: that of a rank
+/// without a facet there is the smallest.
+struct SharedClass
+{
+  std::int32_t onBoundary = 0; ///< 1: of the mesh.
+  EdgeClass edgeClass;         ///< A quadrilateral on the CAD is Smooth.
 
-/// The class in such a number.
-EdgeClass classOfCode(std::int64_t code);
+  friend bool operator<(const SharedClass& a, const SharedClass& b)
+  {
+    return std::tie(a.onBoundary, a.edgeClass.entity, a.edgeClass.kind) <
+           std::tie(b.onBoundary, b.edgeClass.entity, b.edgeClass.kind);
+  }
+};
+
+/// Of all edges of a piece (see classifyBoundary), and of all quadrilaterals, also of those whose
+/// boundary facets are on other ranks. Collective.
+std::vector<SharedClass> classesOfEdges(
+  RankExchange& exchange, const MarkedEdges& edges, const ClassifiedBoundary& classified);
+std::vector<SharedClass> classesOfQuads(RankExchange& exchange, const EdgeTable& table,
+  const SharedQuads& quads, const ClassifiedBoundary& classified);
 
 /// A midpoint that belongs onto the CAD.
 struct MidpointOnCAD
@@ -78,21 +92,16 @@ WorkBalance findMidpoints(RankExchange& exchange, const Mesh& mesh,
 /// Where the midpoints of marked edges belong, by the class of their edge (S. Strunk, KTH 2013,
 /// Algorithm 4.3). Collective; one projection for each that is not known yet, shared out likewise.
 std::vector<MidpointOnCAD> projectMidpoints(RankExchange& exchange, const Mesh& mesh,
-  const MarkedEdges& edges, const std::vector<std::int64_t>& codes,
+  const MarkedEdges& edges, const std::vector<SharedClass>& classes,
   const ClassifiedBoundary& classified, const Classification& classification,
   RunStatistics& statistics);
 
-/// For each quadrilateral 0 inside the mesh, 1 on its boundary off the CAD, and otherwise 3 and its
-/// CAD face (2: not known), also where its facet is on another rank. Collective.
-std::vector<std::int32_t> quadCodes(RankExchange& exchange, const EdgeTable& table,
-  const SharedQuads& quads, const ClassifiedBoundary& classified);
-
-/// Quadrilaterals of a piece that have a point in their middle, and the codes of all.
+/// Quadrilaterals of a piece that have a point in their middle, and the classes of all.
 struct MarkedQuads
 {
   const SharedQuads& all;
   const std::vector<Index>& marked;
-  const std::vector<std::int32_t>& codes;
+  const std::vector<SharedClass>& classes;
   std::size_t firstPlace; ///< Of their midpoints.
 };
 

@@ -179,8 +179,8 @@ PlacedMidNodes placeMidNodes(RankExchange& exchange, DistributedMesh& mesh,
 {
   const RunStatistics::Stopwatch watch(statistics, "seconds mid nodes");
   MarkedEdges edges = findEdges(exchange, mesh, 1);
-  auto hits = projectMidpoints(exchange, mesh.mesh(), edges, edgeCodes(exchange, edges, classified),
-    classified, classification, statistics);
+  auto hits = projectMidpoints(exchange, mesh.mesh(), edges,
+    classesOfEdges(exchange, edges, classified), classified, classification, statistics);
   makeMidNodes(exchange, mesh, edges);
   std::vector<Point3>& nodes = mesh.converted.midNodes->points;
   PlacedMidNodes placed;

@@ -40,20 +40,20 @@ std::vector<Index> combineMarks(RankExchange& exchange, RefinementPlan& plan)
 /// `onBoundary` of the vertices that were, and of the new ones on edges and in these
 /// quadrilaterals.
 std::vector<unsigned char> onRefinedBoundary(const RefinementPlan& plan,
-  const std::vector<std::int64_t>& codes, const std::vector<Index>& quads,
-  const std::vector<std::int32_t>& codesOfQuads, const std::vector<unsigned char>& onBoundary)
+  const std::vector<SharedClass>& ofEdges, const std::vector<Index>& quads,
+  const std::vector<SharedClass>& ofQuads, const std::vector<unsigned char>& onBoundary)
 {
   auto result = onBoundary;
-  result.reserve(onBoundary.size() + codes.size());
-  for (std::size_t e = 0; e < codes.size(); ++e)
+  result.reserve(onBoundary.size() + ofEdges.size());
+  for (std::size_t e = 0; e < ofEdges.size(); ++e)
   {
     if (plan.marks[e])
     {
-      result.push_back(codes[e] != 0);
+      result.push_back(ofEdges[e].onBoundary != 0);
     }
   }
   std::transform(quads.begin(), quads.end(), std::back_inserter(result),
-    [&](Index quad) { return codesOfQuads[quad] != 0; });
+    [&](Index quad) { return ofQuads[quad].onBoundary != 0; });
   return result;
 }
 
@@ -345,16 +345,16 @@ RefinementTrace refineOntoCAD(RankExchange& exchange, DistributedMesh& mesh,
   WorkSteps steps(exchange.progress(), statistics);
   steps.begin(0.2, 0.5, "seconds projection");
   const BoundaryProjector& projector = classified.projector;
-  const auto codes = edgeCodes(exchange, plan, classified);
+  const auto ofEdges = classesOfEdges(exchange, plan, classified);
   auto hits =
-    projectMidpoints(exchange, mesh.mesh(), plan, codes, classified, classification, statistics);
-  const auto codesOfQuads = quadCodes(exchange, plan.table, plan.quads, classified);
+    projectMidpoints(exchange, mesh.mesh(), plan, ofEdges, classified, classification, statistics);
+  const auto ofQuads = classesOfQuads(exchange, plan.table, plan.quads, classified);
   const std::vector<Index> quads = quadsCutInFour(plan.quads.table, plan.marks);
   const auto edges = static_cast<std::size_t>(std::count(plan.marks.begin(), plan.marks.end(), 1));
-  projectQuads(exchange, mesh.mesh(), { plan.quads, quads, codesOfQuads, edges }, classified,
-    classification, hits);
+  projectQuads(
+    exchange, mesh.mesh(), { plan.quads, quads, ofQuads, edges }, classified, classification, hits);
   auto onBoundary =
-    onRefinedBoundary(plan, codes, quads, codesOfQuads, classified.boundary.onBoundary);
+    onRefinedBoundary(plan, ofEdges, quads, ofQuads, classified.boundary.onBoundary);
   const std::size_t oldCount = mesh.mesh().points.size();
   steps.end();
   RefinementTrace trace = refine(exchange, mesh, plan, statistics);
