@@ -47,7 +47,7 @@ public:
     AUTOMATIC
   };
 
-  /// Invoked after each step; see above.
+  /// The event that is invoked after each step; see above.
   enum
   {
     StepEvent = vtkCommand::UserEvent + 1
@@ -170,7 +170,7 @@ protected:
   int RequestDataObject(
     vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   cadrefine::MarkingCriterion GetOwnCriterion() const override;
-  /// The indicator alone: the others are measured here.
+  /// Only the array of the indicator: the others are measured here.
   std::vector<std::string> GetCellArraysRead() const override;
   cadrefine::PipelineResult Execute(cadrefine::RankExchange& exchange, vtkPointSet* input,
     const cadrefine::CADModel* model) override;

@@ -42,7 +42,8 @@ constexpr const char* OwnUnit = "File's own";
 
 using Lines = std::vector<std::string>;
 
-/// Of findThreads, for the program that reads, which has no vtkSMPTools.
+/// The number of threads, from that of findThreads, for the program that reads, which has no
+/// vtkSMPTools.
 int RunThreads(int threads)
 {
   return threads > 0 ? threads : vtkSMPTools::GetEstimatedNumberOfThreads();
@@ -105,7 +106,7 @@ void AddStrings(vtkDataObject* output, const char* name, const std::vector<std::
   output->GetFieldData()->AddArray(array);
 }
 
-/// For example: #15: STEP ADVANCED_FACE "wing": its trim curves enclose no area
+/// A line for each entity, such as: #15: STEP ADVANCED_FACE "wing": its trim curves enclose no area
 Lines EntityLines(const std::vector<cadrefine::UnreadEntity>& entities)
 {
   Lines lines;

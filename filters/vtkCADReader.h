@@ -120,7 +120,8 @@ private:
   char* Unit = nullptr;
   bool Drawing = true;
   double TessellationTolerance = 0.001;
-  std::string StampRead; ///< Of the file when it was read last, in a single process; empty: never.
+  /// Stamp of the file when it was read last, in a single process; empty: never.
+  std::string StampRead;
   vtkMultiProcessController* Controller = nullptr;
 };
 

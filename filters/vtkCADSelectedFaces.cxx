@@ -102,7 +102,7 @@ int FindDimension(
   return cadrefine::isPlanar(exchange, points, model) ? 1 : 2;
 }
 
-/// Of all ranks, on rank 0. Collective.
+/// The numbers of all ranks, on rank 0. Collective.
 Numbers GatherNumbers(cadrefine::RankExchange& exchange, const Numbers& mine)
 {
   std::vector<std::vector<std::int32_t>> toRank(exchange.size());

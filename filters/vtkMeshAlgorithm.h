@@ -173,11 +173,12 @@ protected:
     const cadrefine::FieldMapping& mapping, const cadrefine::ArraySelection& selection,
     vtkTable* table, const std::string& fitReport);
 
-  /// Whether it may exchange cells: whole numbers of cells are then tags, which keep them apart.
+  /// Whether the filter may exchange cells: whole numbers of cells are then tags, which keep them
+  /// apart.
   virtual bool ChangesCells() const { return false; }
 
-  /// Of a filter that may: MinimumQuality; none: CUT_ONLY. Throws Error where these are out of
-  /// range.
+  /// MinimumQuality of a filter that may exchange cells; none with CUT_ONLY. Throws Error where
+  /// these are out of range.
   std::optional<double> FindMinimumQuality() const;
 
   /// What the fields of this run need of their mapping, with ConservedArrays.
@@ -192,7 +193,7 @@ protected:
   cadrefine::PipelineResult MakeResult(
     const cadrefine::PipelineContext& context, cadrefine::MeshState state) const;
 
-  std::unique_ptr<cadrefine::RunStatistics> Statistics; ///< Of this run, by this rank.
+  std::unique_ptr<cadrefine::RunStatistics> Statistics; ///< Statistics of this run, by this rank.
 
 private:
   vtkMeshAlgorithm(const vtkMeshAlgorithm&) = delete;
@@ -211,7 +212,7 @@ private:
     vtkTable* table, const std::string& fitReport);
 
   std::unique_ptr<cadrefine::GeometryCache> Cache;
-  Outputs* Filled = nullptr; ///< While a run is at work.
+  Outputs* Filled = nullptr; ///< The outputs while a run is at work, else null.
   vtkMultiProcessController* Controller = nullptr;
   std::vector<std::string> Faces;
   std::vector<std::string> ConservedArrays;

@@ -133,7 +133,7 @@ protected:
   std::vector<std::string> GetCellArraysRead() const override;
   bool ChangesCells() const override { return true; }
 
-  /// Empty: none.
+  /// The criterion of the indicator; empty: none.
   cadrefine::MarkingCriterion GetIndicator() const;
 
   /// Criterion on an array ("" and "None", the panel's entry for no array: none).

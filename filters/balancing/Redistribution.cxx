@@ -27,8 +27,8 @@ public:
   {
   }
 
-  /// With the places of its vertices in the piece. `cells` are in the order of makePointSet, and
-  /// ascend. Work: linear in their number.
+  /// Makes a part of these cells, with the places of its vertices in the piece. `cells` are in the
+  /// order of makePointSet, and ascend. Work: linear in their number.
   ConvertedMesh make(const std::vector<vtkIdType>& cells)
   {
     part_ = {};
@@ -85,7 +85,7 @@ private:
   }
 
   const DistributedMesh& mesh_;
-  std::vector<Index> vertexOf_; ///< Vertex of the part, or -1.
+  std::vector<Index> vertexOf_; ///< The part's vertex for each of the piece's, or -1.
   ConvertedMesh part_;
   std::vector<vtkIdType>::const_iterator next_;
   std::vector<vtkIdType>::const_iterator end_;
@@ -179,7 +179,8 @@ ConvertedMesh unpack(const std::vector<PlacedVertex>& vertices,
   return part;
 }
 
-/// Takes out the cells that go to other ranks. The vertices that are left, as they were numbered.
+/// Takes out the cells that go to other ranks. Returns the vertices that are left, by their old
+/// numbers.
 std::vector<Index> takeOut(const std::vector<int>& ranks, int here, ConvertedMesh& piece)
 {
   auto rank = ranks.begin();
@@ -216,9 +217,9 @@ class PartJoiner
 public:
   PartJoiner(std::vector<ConvertedMesh>& parts, std::size_t own) : parts_(parts), own_(own) {}
 
-  /// What becomes of the own part. Of a vertex that it has already, which is one of `candidates`,
-  /// or that several parts have, the first one is kept. Work: linear in the cells, and beside that
-  /// in the other parts and the candidates.
+  /// Returns what becomes of this rank's own part. Of a vertex that it has already, which is one of
+  /// `candidates`, or that several parts have, the first one is kept. Work: linear in the cells,
+  /// and beside that in the other parts and the candidates.
   ConvertedMesh join(const std::vector<Index>& candidates, Delivery& delivery)
   {
     for (const ConvertedMesh& part : parts_)
@@ -251,7 +252,7 @@ private:
     }
   }
 
-  /// `firsts`: where what came from each rank begins; likewise of cells.
+  /// Adds the vertices of the other parts. `firsts`: where those that came from each rank begin.
   void addVertices(const std::vector<Index>& candidates, const std::vector<vtkIdType>& firsts,
     std::vector<vtkIdType>& places)
   {
@@ -326,7 +327,7 @@ private:
 
   std::vector<ConvertedMesh>& parts_;
   const std::size_t own_;
-  std::vector<Index> vertexOf_; ///< Of the vertices of the other parts.
+  std::vector<Index> vertexOf_; ///< The own part's vertex for each vertex of the other parts.
 };
 
 } // namespace

@@ -16,14 +16,15 @@ struct Redistribution
   DistributedMesh mesh;
   Delivery delivery; ///< What went where.
 
-  /// What the vertices of the mesh as it was have, as this rank's vertices have it now. Collective;
-  /// every value is sent once.
+  /// The values of this rank's vertices, given those of its vertices before. Collective; every
+  /// value is sent once.
   template<class T>
   std::vector<T> ofVertices(RankExchange& exchange, const std::vector<T>& values) const
   {
     return send(exchange, values, &ArraySelection::points, delivery.points);
   }
-  /// The same of cells, in the order of makePointSet.
+  /// The values of this rank's cells, given those of its cells before, both in the order of
+  /// makePointSet. Collective; every value is sent once.
   template<class T>
   std::vector<T> ofCells(RankExchange& exchange, const std::vector<T>& values) const
   {
@@ -36,11 +37,11 @@ private:
     Places ArraySelection::*places, const std::vector<std::size_t>& counts) const;
 };
 
-/// Sends the cells to these ranks, given in the order of makePointSet: every cell is sent once. Of
-/// first order. Collective. Messages: three to each rank that gets cells, of 32 bytes a vertex and
-/// of 8 bytes and 4 a corner a cell, and those of findSharedVertices of the vertices that were
-/// shared or are of cells that went. Work: linear in the piece, which stays in its memory but for
-/// what comes.
+/// Sends the cells to these ranks, given in the order of makePointSet: every cell is sent once. The
+/// mesh has to be of first order. Collective. Messages: three to each rank that gets cells, of 32
+/// bytes a vertex and of 8 bytes and 4 a corner a cell, and those of findSharedVertices of the
+/// vertices that were shared or are of cells that went. Work: linear in the piece, which stays in
+/// its memory but for what comes.
 ///
 /// vtkRedistributeDataSetFilter knows no weights, and loses cells in silence where libexpat has the
 /// corrections of 2024 (Debian 12: 2.5.0-1+deb12u2): VTK 9.2 sends data sets as XML that this

@@ -15,7 +15,7 @@ namespace cadrefine
 namespace
 {
 
-/// With the normal that its first edge has there.
+/// Draws a vertex, with the normal that its first edge has there.
 Tessellation drawVertex(const NurbsModel& model, int entity, const std::vector<Tessellation>& edges)
 {
   const NurbsVertex& vertex = model.vertices[entity];
@@ -89,7 +89,7 @@ public:
   }
 
 private:
-  /// The same arrays on every rank, whatever it draws.
+  /// Adds the attribute arrays: the same ones on every rank, whatever it draws.
   void addAttributes(int dimension, vtkCellData& data) const
   {
     bool named = false;
@@ -131,7 +131,7 @@ private:
   const CADModel& model_;
   vtkNew<vtkPoints> points_;
   vtkNew<vtkCellArray> cells_;
-  std::vector<EntityId> entities_; ///< Of the cells.
+  std::vector<EntityId> entities_; ///< CAD entities of the cells.
   vtkNew<vtkFloatArray> normals_;
 };
 

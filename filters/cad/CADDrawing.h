@@ -17,7 +17,7 @@ namespace cadrefine
 vtkSmartPointer<vtkPolyData> draw(
   const CADModel& model, const ModelDrawing& drawing, int dimension, const DrawingShare& share);
 
-/// The same without any entity.
+/// The drawing of a dimension without any entity.
 vtkSmartPointer<vtkPolyData> drawNothing(const CADModel& model, int dimension);
 
 } // namespace cadrefine

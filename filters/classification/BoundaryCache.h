@@ -12,24 +12,26 @@
 namespace cadrefine
 {
 
-/// Of a mesh that is adapted step by step, most facets stay. All that is found of a facet is a
+/// Most facets of a mesh that is adapted step by step stay. All that is found of a facet is a
 /// function of its corners and their CAD entities, and of the classes of its edges: where these are
 /// the same to the last bit, so is the answer. Memory: some 350 bytes a facet on the CAD.
 class BoundaryCache
 {
 public:
   BoundaryCache() = default;
-  /// Of the facets on the CAD of a measured boundary, with their errors at this depth, in order.
+  /// Keeps the facets on the CAD of a measured boundary, with their errors at this depth, in order.
   BoundaryCache(const Mesh& mesh, const Classification& classification,
     const ClassifiedBoundary& classified, const std::vector<FacetError>& errors, int depth);
 
-  /// The facet with these corners, as it lies on the CAD; -1: none.
+  /// The number here of a facet, if it is known with the same corners and CAD entities; -1: it is
+  /// not.
   Index find(const Mesh& mesh, const Facet& facet, const ClassifiedFacet& corners) const;
 
   const FacetRecord& record(Index facet) const { return facets_[facet].record; }
-  /// The place of the midpoint of its edge k if it is of this class, else null.
+  /// The place of the midpoint of edge k of a facet if that edge is of this class, else null.
   const ClosestPoint* midpoint(Index facet, int k, const EdgeClass& edgeClass) const;
-  /// Its error if its edges are of these classes, and these corners are off the CAD; else null.
+  /// The error of a facet at this depth, if the classes of its edges and its corners off the CAD
+  /// are those of `now`; else null.
   const FacetError* error(Index facet, const ErrorFacet& now, int depth) const;
 
 private:

@@ -61,8 +61,8 @@ private:
     return known;
   }
 
-  /// For each face the smallest of those it is joined to by smooth edges that the mesh does not
-  /// follow.
+  /// The patch of each face: the smallest of the faces it is joined to by smooth edges that the
+  /// mesh does not follow.
   std::vector<std::int32_t> findPatches() const
   {
     DisjointSets patches(nurbs_.faces.size());
@@ -108,8 +108,9 @@ private:
     return touches(entity, one) && touches(entity, other);
   }
 
-  /// Of mesh edges along no CAD edge between faces of two patches: those that run between CAD edges
-  /// of both continue rows, as at CAD vertices that the mesh does not know of; others contradict.
+  /// Looks at mesh edges along no CAD edge between faces of two patches: those that run between CAD
+  /// edges of both continue rows, as at CAD vertices that the mesh does not know of; others
+  /// contradict.
   void lookAtEdges()
   {
     const auto ofEdges = gatherFacetRecords(task_.exchange, task_.boundary, records_);
@@ -192,7 +193,7 @@ private:
     return rows;
   }
 
-  /// How many should meet.
+  /// How many such mesh edges should meet at a vertex on this entity.
   std::int32_t rowsAt(EntityId entity) const
   {
     if (entity.dimension == 1)
@@ -226,7 +227,8 @@ private:
     return isNear(edge.firstVertex) || isNear(edge.lastVertex);
   }
 
-  /// Rows that end or branch, and where they end, the vertices that may belong to what is missing.
+  /// Looks for rows that end or branch, and where they end, for the vertices that may belong to
+  /// what is missing.
   void lookAtRows()
   {
     const auto inside = findInside();
@@ -319,9 +321,9 @@ private:
   const std::vector<unsigned char>& taken_;
   const std::vector<ClosestPoint>& hits_;
   std::vector<unsigned char> conflicts_;
-  std::vector<unsigned char> known_;  ///< Of each CAD edge.
-  std::vector<std::int32_t> patches_; ///< Of each face.
-  std::vector<unsigned char> joins_;  ///< Of each mesh edge: see lookAtEdges.
+  std::vector<unsigned char> known_;  ///< 1 for CAD edges along which mesh edges run.
+  std::vector<std::int32_t> patches_; ///< The patch of each face.
+  std::vector<unsigned char> joins_;  ///< 1 for mesh edges that continue rows: see lookAtEdges.
 };
 
 } // namespace

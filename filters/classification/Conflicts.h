@@ -10,7 +10,8 @@
 namespace cadrefine
 {
 
-/// 1 for vertices whose class contradicts that of what meets there, so that it may be wrong:
+/// Returns 1 for vertices whose class contradicts that of what meets there, so that it may be
+/// wrong:
 ///   - the face of a facet at it is not known, or its entity does not bound that face;
 ///   - two facets at an edge of it are on different faces, and the edge runs along no CAD edge nor
 ///     from one that both faces have to another;
@@ -20,11 +21,10 @@ namespace cadrefine
 ///     of its longest boundary edge;
 ///   - its CAD edges are of several lines (see findCreaseLines) that do not all meet in the CAD
 ///     vertex it has taken, or, if it has none, in one that is no corner;
-///   - it lies on a corner which another vertex has taken.
-/// Faces that meet in a smooth edge which the mesh does not follow count as one; near an end of a
-/// smooth CAD edge a row may end, as the mesh need not know of that. Of segments, the last two are
-/// looked at alone. Only vertices with `onCAD` take part. `taken`: those that have taken a CAD
-/// vertex.
+///   - it lies on a corner which another vertex has taken. Faces that meet in a smooth edge which
+///     the mesh does not follow count as one; near an end of a smooth CAD edge a row may end, as
+///     the mesh need not know of that. For segments, only the last two are looked at. Only vertices
+///     with `onCAD` take part. `taken`: those that have taken a CAD vertex.
 ///
 /// Collective. Work: linear in the boundary, and a query of the creases for each vertex beside the
 /// end of a row. Messages: an exchange of the facets beside shared edges, 7 bytes a shared vertex,

@@ -51,7 +51,8 @@ public:
   }
 
 private:
-  /// Corners at which no crease ends: they are not found by way of mesh edges along creases.
+  /// Finds the corners of each face at which no crease ends: they are not found by way of mesh
+  /// edges along creases.
   void findApexes()
   {
     apexes_.resize(nurbs_.faces.size());
@@ -179,7 +180,7 @@ private:
   std::vector<unsigned char> takesPart_;
   std::vector<unsigned char> taken_;
   std::vector<Candidate> candidates_;
-  std::vector<std::vector<std::int32_t>> apexes_; ///< Of each face.
+  std::vector<std::vector<std::int32_t>> apexes_; ///< The apexes of each face.
 };
 
 } // namespace

@@ -25,9 +25,9 @@ struct DistributedBoundary
   /// The facets are the cells of a mesh of area in space.
   bool ofSurface = false;
   std::vector<Facet> facets;
-  /// Edges of facets; edge k joins corners k and k + 1, a segment is its own edge 0. Where a facet
-  /// has fewer than four, -1 follows.
   EdgeList edges;
+  /// The edges of each facet: edge k joins corners k and k + 1, a segment is its own edge 0. Where
+  /// a facet has fewer than four, -1 follows.
   std::vector<std::array<Index, 4>> facetEdges;
   SharedItems sharedEdges;
   /// 1 for vertices of facets, on whatever rank these are.
@@ -45,14 +45,13 @@ struct DistributedBoundary
 /// whole model. Collective.
 bool isPlanar(RankExchange& exchange, const std::vector<Point3>& points, const CADModel& model);
 
-/// As what the boundary of a mesh is compared with the model. Collective.
+/// Whether the boundary of a mesh is compared with the faces or the edges of the model. Collective.
 BoundaryKind kindOfBoundary(
   RankExchange& exchange, const DistributedMesh& mesh, const CADModel& model);
 
-/// Boundary of the mesh: of one of volume, or a planar one, the sides met once and listed interior
-/// ones (see findBoundaryFacets); of a mesh of area in space, all cells.
-/// `among`: see findBoundaryFacets. Collective; messages in proportion to the interface between
-/// pieces.
+/// Finds the boundary of a mesh: the sides met once and listed interior ones of a mesh of volume or
+/// a planar one (see findBoundaryFacets), all cells of a mesh of area in space. `among`: see
+/// findBoundaryFacets. Collective; messages in proportion to the interface between pieces.
 DistributedBoundary findBoundary(RankExchange& exchange, const DistributedMesh& mesh,
   const CADModel& model, const std::vector<unsigned char>& among = {});
 
@@ -61,7 +60,7 @@ DistributedBoundary findBoundary(RankExchange& exchange, const DistributedMesh& 
 std::vector<std::vector<FacetRecord>> gatherFacetRecords(RankExchange& exchange,
   const DistributedBoundary& boundary, const std::vector<FacetRecord>& ofFacets);
 
-/// The facets as the projector sees them.
+/// A facet as the projector sees it: the points of its corners and their CAD entities.
 ClassifiedFacet classifiedFacet(
   const Mesh& mesh, const std::vector<EntityId>& entities, const Facet& facet);
 
@@ -81,18 +80,18 @@ EntityId edgeOf(const CADModel& model, const ClosestPoint& middle);
 /// Which corners are classified, but have not reached the CAD.
 std::array<bool, 4> cornersOff(const Classification& classification, const Facet& facet);
 
-/// Classes of all boundary edges of a classified mesh, and records of its facets. Of a mesh of area
-/// in space, every facet with classified corners is on the CAD: there is no inside that a
-/// wall could bound.
+/// Classes of all boundary edges of a classified mesh, and records of its facets. In a mesh of area
+/// in space, every facet with classified corners is on the CAD: there is no inside that a wall
+/// could bound.
 struct BoundaryClasses
 {
   std::vector<EdgeClass> ofEdges;
   std::vector<FacetRecord> facets;
-  std::vector<Index> known; ///< Of each facet on the CAD its index in the cache; -1: none.
+  std::vector<Index> known; ///< For each facet its number in the cache; -1: none.
 };
 
-/// Collective. Work: some queries a facet and an edge on the CAD, but for facets that are in the
-/// cache.
+/// Classifies a boundary, given the CAD entities of the mesh's vertices. Collective. Work: some
+/// queries a facet and an edge on the CAD, but for facets that are in the cache.
 BoundaryClasses classifyBoundary(RankExchange& exchange, const Mesh& mesh,
   const DistributedBoundary& boundary, const std::vector<EntityId>& entities,
   const BoundaryProjector& projector, const BoundaryCache& cache);
@@ -104,12 +103,13 @@ struct ClassifiedBoundary
   BoundaryProjector projector;
   DistributedBoundary boundary;
   BoundaryClasses classes;
-  /// Of each boundary edge, and after these of each of quadsOnCAD, the place of its midpoint,
-  /// where they were looked for.
+  /// The place of the midpoint of each boundary edge, and after these of each of quadsOnCAD; none:
+  /// they were not looked for.
   std::optional<std::vector<ClosestPoint>> midpoints = std::nullopt;
 };
 
-/// findBoundary and classifyBoundary. Collective.
+/// Finds the boundary of a mesh and classifies it: see findBoundary and classifyBoundary.
+/// Collective.
 ClassifiedBoundary findClassifiedBoundary(RankExchange& exchange, const DistributedMesh& mesh,
   const CADModel& model, const Classification& classification, const BoundaryCache& cache,
   const std::vector<unsigned char>& among = {});

@@ -25,7 +25,7 @@ BoundaryEdge edgeOf(const EdgeClass& edgeClass, const std::array<Index, 2>& ends
     { classification.entities[a], classification.entities[b] } };
 }
 
-/// What places the middle of a facet that is a quadrilateral on the CAD.
+/// The edge whose midpoint is the middle of a facet that is a quadrilateral on the CAD.
 BoundaryEdge middleOfFacet(const Mesh& mesh, const Classification& classification,
   const ClassifiedBoundary& classified, Index f)
 {
@@ -43,7 +43,7 @@ struct KnownMidpoint
   bool operator<(const KnownMidpoint& other) const { return edge < other.edge; }
 };
 
-/// In the order of the edges.
+/// The edges whose midpoints are known, in their order.
 std::vector<KnownMidpoint> findKnown(const EdgeTable& table, const ClassifiedBoundary& classified)
 {
   std::vector<KnownMidpoint> known;
@@ -59,9 +59,9 @@ std::vector<KnownMidpoint> findKnown(const EdgeTable& table, const ClassifiedBou
   return known;
 }
 
-/// Of the edges of a mesh of volume at which the CAD meets an outer facet that is not on it the
-/// normal of that, or its opposite, of others zero; none where there are no such edges, on any
-/// rank. Collective.
+/// For each edge at which the CAD meets an outer facet of a mesh of volume that is not on it, the
+/// normal of that facet, or its opposite; zero for other edges. Empty where there are no such edges
+/// on any rank. Collective.
 std::vector<Vector3> findWalls(
   RankExchange& exchange, const MarkedEdges& edges, const ClassifiedBoundary& classified)
 {
@@ -94,7 +94,7 @@ std::vector<Vector3> findWalls(
   return walls;
 }
 
-/// Fills in those that are in the cache: 1.
+/// Fills in the midpoints that are in the cache. Returns 1 for the boundary edges of these.
 std::vector<unsigned char> rememberMidpoints(
   const BoundaryCache& cache, ClassifiedBoundary& classified)
 {

@@ -33,20 +33,23 @@ struct MarkedEdges
 /// The quadrilaterals of a piece.
 struct SharedQuads
 {
-  bool any = false; ///< On some rank.
+  bool any = false; ///< Whether any rank has quadrilaterals.
   QuadTable table;
-  std::vector<std::array<Index, 4>> corners; ///< Of each: the ends of its two edges in the table.
+  /// Corners of each quadrilateral: the ends of its first and third edge in the table.
+  std::vector<std::array<Index, 4>> corners;
   SharedItems shared;
 };
 
-/// Collective; work of buildQuadTable, messages of findSharedCells.
+/// Finds the quadrilaterals of a piece. Collective; work of buildQuadTable, messages of
+/// findSharedCells.
 SharedQuads findQuads(RankExchange& exchange, const DistributedMesh& mesh, const EdgeTable& table);
 
-/// With this mark for all edges. Collective; work of buildEdgeTable, messages of findSharedEdges.
+/// Finds the edges of a piece, all with this mark. Collective; work of buildEdgeTable, messages of
+/// findSharedEdges.
 MarkedEdges findEdges(RankExchange& exchange, const DistributedMesh& mesh, unsigned char mark);
 
-/// Ids of the midpoints of edges, given their ends, from the order of the ids of these: from
-/// `idBound` on, which is then larger. Collective (see numberAtVertices).
+/// Global ids of the midpoints of edges with these ends, in the order of the ids of the ends: from
+/// `idBound` on, which is raised above them. Collective (see numberAtVertices).
 std::vector<GlobalId> numberMidpoints(RankExchange& exchange, const SharedVertices& shared,
   const std::vector<GlobalId>& ids, GlobalId& idBound,
   const std::vector<std::array<Index, 2>>& parentEdges);
@@ -54,11 +57,11 @@ std::vector<GlobalId> numberMidpoints(RankExchange& exchange, const SharedVertic
 /// The facets that are quadrilaterals on the CAD, ascending.
 std::vector<Index> quadsOnCAD(const ClassifiedBoundary& classified);
 
-/// Where an edge or a quadrilateral of a piece is, as all ranks together know: that of a rank
-/// without a facet there is the smallest.
+/// How an edge or a quadrilateral of a piece lies on the boundary, as all ranks together know. Of
+/// what ranks have, the largest counts: a rank without a facet there has the smallest.
 struct SharedClass
 {
-  std::int32_t onBoundary = 0; ///< 1: of the mesh.
+  std::int32_t onBoundary = 0; ///< 1: it is on the boundary of the mesh.
   EdgeClass edgeClass;         ///< A quadrilateral on the CAD is Smooth.
 
   friend bool operator<(const SharedClass& a, const SharedClass& b)
@@ -68,8 +71,8 @@ struct SharedClass
   }
 };
 
-/// Of all edges of a piece (see classifyBoundary), and of all quadrilaterals, also of those whose
-/// boundary facets are on other ranks. Collective.
+/// The classes of all edges of a piece (see classifyBoundary), and of all quadrilaterals, also of
+/// those whose boundary facets are on other ranks. Collective.
 std::vector<SharedClass> classesOfEdges(
   RankExchange& exchange, const MarkedEdges& edges, const ClassifiedBoundary& classified);
 std::vector<SharedClass> classesOfQuads(RankExchange& exchange, const EdgeTable& table,
@@ -78,7 +81,8 @@ std::vector<SharedClass> classesOfQuads(RankExchange& exchange, const EdgeTable&
 /// A midpoint that belongs onto the CAD.
 struct MidpointOnCAD
 {
-  std::size_t place; ///< Among the midpoints of marked edges.
+  /// Its place among the midpoints of marked edges, and after these of marked quadrilaterals.
+  std::size_t place;
   ClosestPoint where;
 };
 
@@ -90,7 +94,8 @@ WorkBalance findMidpoints(RankExchange& exchange, const Mesh& mesh,
   const Classification& classification, const BoundaryCache& cache, ClassifiedBoundary& classified);
 
 /// Where the midpoints of marked edges belong, by the class of their edge (S. Strunk, KTH 2013,
-/// Algorithm 4.3). Collective; one projection for each that is not known yet, shared out likewise.
+/// Algorithm 4.3). Collective; one projection for each that is not known yet, shared out as in
+/// findMidpoints.
 std::vector<MidpointOnCAD> projectMidpoints(RankExchange& exchange, const Mesh& mesh,
   const MarkedEdges& edges, const std::vector<SharedClass>& classes,
   const ClassifiedBoundary& classified, const Classification& classification,
@@ -102,16 +107,17 @@ struct MarkedQuads
   const SharedQuads& all;
   const std::vector<Index>& marked;
   const std::vector<SharedClass>& classes;
-  std::size_t firstPlace; ///< Of their midpoints.
+  std::size_t firstPlace; ///< Place of the first of their midpoints, see MidpointOnCAD.
 };
 
 /// Appends where the middles of marked quadrilaterals belong. Collective; one projection for each
-/// on the CAD, shared out likewise.
+/// on the CAD, shared out as in findMidpoints.
 void projectQuads(RankExchange& exchange, const Mesh& mesh, const MarkedQuads& quads,
   const ClassifiedBoundary& classified, const Classification& classification,
   std::vector<MidpointOnCAD>& hits);
 
-/// Appends the midpoints at their distance from the CAD, so that there are `count` entries.
+/// Appends entries for new vertices, so that there are `count`: midpoints get their places on the
+/// CAD, and their distance from it.
 void classifyMidpoints(
   const std::vector<MidpointOnCAD>& hits, std::size_t count, Classification& classification);
 

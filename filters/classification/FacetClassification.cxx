@@ -170,7 +170,8 @@ std::vector<FaceMatch> findFaces(
   return matches;
 }
 
-/// The face that most of these neighbours of `facet` have; of several its own or the first.
+/// The face that most of these neighbours of `facet` have; of several such faces its own or the
+/// first.
 std::int32_t majority(const FacetRecord& facet, const std::vector<FacetRecord>& neighbours)
 {
   const double smooth = ClassificationTolerances::smoothFacetsCosine();
@@ -190,7 +191,8 @@ std::int32_t majority(const FacetRecord& facet, const std::vector<FacetRecord>& 
   return best;
 }
 
-/// Only the sure ones are asked, so that the order of the facets does not matter.
+/// Gives facets that are not sure of their face that of most of their neighbours. Only sure ones
+/// are asked, so that the order of the facets does not matter.
 void askNeighbours(const ProjectionTask& task, const std::vector<FaceMatch>& matches,
   std::vector<FacetRecord>& records)
 {

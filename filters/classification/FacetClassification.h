@@ -10,11 +10,11 @@ namespace cadrefine
 
 struct FacetClasses
 {
-  std::vector<FacetRecord> records; ///< Of this rank's facets.
-  FaceSides sides;                  ///< Of the CAD's faces.
+  std::vector<FacetRecord> records; ///< Records of this rank's facets.
+  FaceSides sides;                  ///< Sides of the CAD's faces.
 };
 
-/// Classes of the facets, given the nearest point of each vertex:
+/// Classifies the facets, given the nearest point of each vertex:
 ///   1. a facet is on the CAD if all of its corners found a point, its normal fits there, and it
 ///      looks alike there; it is free if a corner is outside the user's region;
 ///   2. facets between two cells are not on the CAD if a corner is not there (see roundedDistance),

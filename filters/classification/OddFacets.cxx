@@ -41,7 +41,7 @@ bool endsThere(const NurbsModel& model, std::int32_t face)
   return left.empty();
 }
 
-/// What all tell: none yet, the same, or -1, different ones.
+/// What all tell: `none` yet, one value, or -1 where they tell different ones.
 struct Common
 {
   static constexpr std::int32_t none = -2;
@@ -60,15 +60,17 @@ struct Surroundings
   unsigned char isWide = 0;     ///< It is a patch of several facets, or a quadrilateral.
   unsigned char isOpen = 0;     ///< A facet off the CAD is beside it, or nothing.
   unsigned char isAtBorder = 0; ///< A CAD edge that bounds one face alone is beside it.
-  unsigned char isTied = 0;     ///< A facet from which it turns by less than 60 degrees is.
-  unsigned char isAmid = 0;     ///< A facet without a CAD edge between is.
-  /// Of CAD edges between two faces, `edge`: 1, 2: facets on the first, the second are.
+  unsigned char isTied = 0; ///< A facet from which it turns by less than 60 degrees is beside it.
+  unsigned char isAmid = 0; ///< A facet without a CAD edge between them is beside it.
+  /// Bits for facets beyond `edge`, a CAD edge between two faces: 1, one is on the first face; 2,
+  /// on the second.
   unsigned char sides = 0;
   Common edge;
-  Common face; ///< That of the patch.
+  Common face; ///< The face of the patch.
 
-  /// Not where a mesh ends at the rim of a CAD face which it leaves out: there facets of other
-  /// faces alone are round the patch, and the face goes on to another rim.
+  /// Whether the patch is on the CAD. It is not where a mesh ends at the rim of a CAD face which it
+  /// leaves out: there facets of other faces alone are round the patch, and the face goes on to
+  /// another rim.
   bool isOnCAD(const NurbsModel& model) const
   {
     const bool isEnd = face.value >= 0 && endsThere(model, face.value);

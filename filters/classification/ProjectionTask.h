@@ -19,16 +19,16 @@ namespace cadrefine
 
 struct ProjectionOptions
 {
-  /// Only vertices inside xmin xmax ymin ymax zmin zmax.
+  /// The box xmin xmax ymin ymax zmin zmax, if only vertices inside it take part.
   std::optional<std::array<double, 6>> region;
-  /// Only facets on these CAD faces (see selectEntities); none: on any.
+  /// The CAD faces (see selectEntities), if only facets on these take part; empty: on any.
   std::vector<std::string> faces;
-  /// Vertices farther from the CAD stay; without it, a vertex's longest boundary edge (points
-  /// alone: no limit).
+  /// Vertices farther than this from the CAD stay; without it, the limit is a vertex's longest
+  /// boundary edge (points alone: no limit).
   std::optional<double> maximumDistance;
   /// Cells that are inverted or flat are to be mended (see MoveSettings).
   bool mendCells = false;
-  /// See improveMesh; none: no local operations.
+  /// The minimum of improveMesh; none: no local operations.
   std::optional<double> minimumQuality;
 
   bool inRegion(const Point3& p) const
@@ -55,15 +55,15 @@ struct ProjectionTask
   {
     return options.maximumDistance.value_or(boundary.longestEdge[vertex]);
   }
-  /// Up to which distance a vertex lies on the CAD already.
+  /// The distance from the CAD up to which a vertex lies on it already.
   double exact(std::size_t vertex) const
   {
     return exactDistance(model(), boundary.shortestEdge[vertex]);
   }
 };
 
-/// A few CAD entities of one dimension: the smallest indices, ascending. The union of two
-/// does not depend on their order.
+/// A few CAD entities of one dimension: the smallest indices of those that were added, ascending.
+/// The union of two does not depend on their order.
 class SmallEntitySet
 {
 public:

@@ -41,7 +41,8 @@ ClosestPoint nearestOf(const BoundaryProjector& projector, const SmallEntitySet&
   return best;
 }
 
-/// On the nearest of its CAD edges, or where that ends, on those that continue it.
+/// The place of a vertex on the nearest of its CAD edges, or where that ends, on those that
+/// continue it.
 ClosestPoint placeOnEdges(const BoundaryProjector& projector, const VertexQuery& query)
 {
   const ClosestPoint place = nearestOf(projector, query.edges, 1, query.point);

@@ -13,30 +13,30 @@ namespace cadrefine
 /// mesh edges run along.
 struct VertexClassification
 {
-  /// Of each boundary edge the CAD edge that it runs along, or -1.
+  /// For each boundary edge the CAD edge that it runs along, or -1.
   std::vector<std::int32_t> ofMeshEdges;
   std::vector<SmallEntitySet> faces;
   std::vector<SmallEntitySet> edges;
-  /// The vertex lies on the CAD already.
+  /// 1: the vertex lies on the CAD already.
   std::vector<unsigned char> settled;
-  /// A facet on the CAD whose face is not known has the vertex.
+  /// 1: a facet on the CAD whose face is not known has the vertex.
   std::vector<unsigned char> undecided;
-  /// The normal of the model at the vertex's nearest point fits none of its facets.
+  /// 1: the normal of the model at the vertex's nearest point fits none of its facets.
   std::vector<unsigned char> wrongSide;
 };
 
-/// Finds them, given the nearest point of each vertex and the classes of the facets. Collective.
-/// Work: that of findCADEdges, a look at each corner of a facet and each end of a boundary edge,
-/// and the normals of the CAD faces at a vertex for each of its facets until one fits. Messages:
-/// those of findCADEdges, and four to and from each neighbour, of 66 bytes together for each shared
-/// vertex.
+/// Finds what meets at each vertex, given its nearest point and the classes of the facets.
+/// Collective. Work: that of findCADEdges, a look at each corner of a facet and each end of a
+/// boundary edge, and the normals of the CAD faces at a vertex for each of its facets until one
+/// fits. Messages: those of findCADEdges, and four to and from each neighbour, of 66 bytes together
+/// for each shared vertex.
 VertexClassification classifyVertices(
   const ProjectionTask& task, const std::vector<ClosestPoint>& hits, const FacetClasses& facets);
 
 /// Puts vertices of boundaries of triangles onto what meets there: the nearest of their CAD edges,
 /// and of those that continue it (see findCreaseLines); of vertices without these, those whose
 /// nearest point is on the wrong side of something thin onto the nearest of their faces. A point
-/// beyond a vertex's limit is not taken. Of segments, nothing is moved.
+/// beyond a vertex's limit is not taken. For segments, nothing is moved.
 ///
 /// Collective. Work: for each such vertex one query of each of its entities, and one more of all
 /// creases where its nearest edge ends; shared out evenly over ranks and threads (see mapBalanced,

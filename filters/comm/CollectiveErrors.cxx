@@ -14,7 +14,7 @@ namespace cadrefine
 namespace
 {
 
-/// Of the exception that is being handled, as it is written in a program.
+/// The type of the exception that is being handled, as it is written in a program.
 std::string caughtType()
 {
   int status = 0;

@@ -11,7 +11,7 @@ class vtkObject;
 namespace cadrefine
 {
 
-/// Of the exception, of whatever type, that is being handled; for the user; never empty.
+/// The reason of the exception, of whatever type, that is being handled; for the user; never empty.
 std::string caughtReason();
 
 /// Runs `work`, which must not communicate, and throws an AgreedError with the first failing rank's
@@ -32,9 +32,9 @@ void agreeOnFailure(RankExchange& exchange, const Work& work)
 }
 
 /// Runs `work`, which may communicate, and throws on all ranks where it throws on any, at any
-/// place: the others throw where they wait next, at the end of `work` at the latest. An Error on
-/// all ranks. `exchange` is of no use afterwards, unless the Error was an AgreedError. Collective;
-/// one reduction, or one message to each rank from one that fails.
+/// place: the others throw where they wait next, at the end of `work` at the latest. What is thrown
+/// is an Error on all ranks. `exchange` is of no use afterwards, unless the Error was an
+/// AgreedError. Collective; one reduction, or one message to each rank from one that fails.
 template<class Work>
 void runCollectively(RankExchange& exchange, const Work& work)
 {
@@ -55,8 +55,8 @@ void runCollectively(RankExchange& exchange, const Work& work)
   }
 }
 
-/// Of the exception that is being handled, on all ranks: rank 0 reports its reason as an error of
-/// the object.
+/// Reports an exception that is being handled on all ranks: rank 0 reports its reason as an error
+/// of the object.
 void reportOnce(vtkObject* object, vtkMultiProcessController* controller);
 
 } // namespace cadrefine

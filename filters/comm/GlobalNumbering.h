@@ -20,9 +20,9 @@ using Key = std::array<std::int64_t, K>;
 
 struct Numbering
 {
-  /// One for each local key.
+  /// The number of each local key.
   std::vector<GlobalId> numbers;
-  /// Over all ranks: how many distinct keys there are, or what all weights sum up to.
+  /// How many distinct keys there are over all ranks, or what all weights sum up to.
   GlobalId count = 0;
 };
 
@@ -46,11 +46,12 @@ template<std::size_t K>
 Numbering offsets(RankExchange& exchange, const std::vector<Key<K>>& keys,
   const std::vector<std::int64_t>& weights);
 
-/// offsets of whole numbers. Where these lie dense (over all ranks at most four times as many
-/// numbers in their range as are given) each rank keeps a stretch of the range, and the sums of
-/// weights come to where their numbers lie. Numbers of a rank that follow each other, and lie in
-/// one stretch, go as one: 16 bytes for each such run, and 8 back. So where ranks hold few runs, it
-/// is the runs that cost, not the numbers; sums take the place of numbers that are moved here.
+/// The result of `offsets` for keys that are whole numbers. Where these lie dense (over all ranks
+/// at most four times as many numbers in their range as are given) each rank keeps a stretch of the
+/// range, and the sums of weights come to where their numbers lie. Numbers of a rank that follow
+/// each other, and lie in one stretch, go as one: 16 bytes for each such run, and 8 back. So where
+/// ranks hold few runs, it is the runs that cost, not the numbers; sums take the place of numbers
+/// that are moved here.
 Numbering denseOffsets(
   RankExchange& exchange, std::vector<GlobalId> numbers, const std::vector<Index>& weights);
 

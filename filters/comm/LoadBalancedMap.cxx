@@ -8,7 +8,7 @@ namespace cadrefine
 namespace
 {
 
-/// What rank r of `ranks` answers of `total`: the first ones take what is left over.
+/// How many of `total` queries rank r of `ranks` answers: the first ranks take what is left over.
 std::int64_t quotaOf(std::int64_t total, int ranks, int r)
 {
   return total / ranks + (r < total % ranks ? 1 : 0);

@@ -19,8 +19,8 @@ namespace cadrefine
 struct WorkBalance
 {
   std::int64_t total = 0;
-  double before = 1; ///< Largest over mean of the queries that ranks have.
-  double after = 1;  ///< The same of those that they answer.
+  double before = 1; ///< Largest over mean of the numbers of queries that ranks have.
+  double after = 1;  ///< Largest over mean of the numbers of queries that ranks answer.
 };
 
 /// Adds the figures "<work> imbalance before" and "<work> imbalance after".
@@ -36,18 +36,18 @@ struct WorkPlan
 {
   WorkBalance balance;
   std::size_t kept = 0;
-  std::vector<int> ranks;            ///< Those that queries go to, or come from.
+  std::vector<int> ranks;            ///< Ranks that queries go to, or come from.
   std::vector<std::size_t> sent;     ///< Number of queries for each of them.
-  std::vector<std::size_t> received; ///< Number from each of them.
+  std::vector<std::size_t> received; ///< Number of queries from each of them.
 };
 
-/// What each rank answers: total / ranks queries, up to one more. Ranks with too many send their
-/// last ones; fewer than 2 x ranks transfers in all. Collective; one number is gathered from every
-/// rank.
+/// Plans which queries each rank answers: total / ranks queries, up to one more. Ranks with too
+/// many send their last ones; fewer than 2 x ranks transfers in all. Collective; one number is
+/// gathered from every rank.
 WorkPlan planLoadBalance(RankExchange& exchange, std::size_t queries);
 
-/// Sends what comes after the first `kept` items, in runs of these lengths, to these ranks, and
-/// puts what they send in its place. Collective.
+/// Sends the items after the first `kept`, in runs of these lengths, to these ranks, and puts what
+/// they send in place of them. Collective.
 template<class Item>
 void exchangeTail(RankExchange& exchange, const std::vector<int>& ranks,
   const std::vector<std::size_t>& lengths, std::size_t kept, std::vector<Item>& items)
@@ -74,8 +74,8 @@ struct Answers
   WorkBalance balance;
 };
 
-/// function(query) for every query of every rank, wherever there is time for it: the answers
-/// do not depend on where. Queries and answers are plain values; `function` is called from
+/// Computes function(query) for every query of every rank, wherever there is time for it: the
+/// answers do not depend on where. Queries and answers are plain values; `function` is called from
 /// several threads and must not communicate; the progress of the run counts them as `work`. Where
 /// it throws, all ranks throw an Error with the reason of the lowest rank. Collective. Messages:
 /// one number gathered from every rank, and what a rank has above the mean goes to one of those
@@ -118,7 +118,7 @@ struct NumberedQueries
   }
 };
 
-/// mapBalanced; then use(number, answer) for each query in order.
+/// Answers the queries by mapBalanced, then calls use(number, answer) for each of them in order.
 template<class Answer, class Query, class Function, class Use>
 WorkBalance answerBalanced(RankExchange& exchange, NumberedQueries<Query> asked,
   const Function& function, const Use& use, const CountedWork& work = {})

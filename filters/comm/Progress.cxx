@@ -10,7 +10,7 @@ namespace cadrefine
 namespace
 {
 
-/// 12345 as "12,345".
+/// The number with separators, such as "12,345".
 std::string grouped(std::int64_t number)
 {
   std::string text = std::to_string(number);

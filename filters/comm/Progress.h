@@ -29,10 +29,10 @@ public:
   void tell(Listener listener) { listener_ = std::move(listener); }
   bool isHeard() const { return static_cast<bool>(listener_); }
 
-  /// `fraction` of the part that is at work.
+  /// Tells a text, and that `fraction` of the part that is at work is done.
   void say(double fraction, const std::string& text) const;
 
-  /// So many of all.
+  /// Tells that `done` of `total` things are done.
   void count(const CountedWork& work, std::int64_t done, std::int64_t total) const;
 
   /// As long as it exists, fractions are those of a part of what they were, and texts begin with

@@ -106,7 +106,8 @@ public:
   /// What each rank gives, in the order of the ranks: 8 bytes x P.
   std::vector<std::int64_t> gather(std::int64_t mine);
 
-  /// The same for a few numbers each (all ranks give the same count of them): in a row.
+  /// The few numbers that each rank gives (all ranks give the same count of them), in a row, in the
+  /// order of the ranks.
   std::vector<double> gather(const std::vector<double>& mine);
 
   /// The sum of `mine` over the ranks below this one.
@@ -125,7 +126,7 @@ public:
     return unpacked<T>(allToAllMessages(packed(toRank)));
   }
 
-  /// The same with a few ranks only: toNeighbour[k] goes to neighbours[k], and result[k] comes from
+  /// allToAll with a few ranks only: toNeighbour[k] goes to neighbours[k], and result[k] comes from
   /// there. Ranks must name each other (if a is among b's neighbours, then b among a's) and none
   /// twice, or they wait for ever.
   template<class T>
@@ -138,13 +139,13 @@ public:
   /// The bytes that rank `root` gives; what the others give is ignored.
   std::vector<char> broadcast(const std::vector<char>& bytes, int root);
 
-  /// Since construction, by this rank: bytes and number of messages to single other ranks. MPI
-  /// collectives are not counted.
+  /// Bytes and number of messages that this rank has sent to single other ranks since construction.
+  /// MPI collectives are not counted.
   std::int64_t bytesSent() const { return bytesSent_; }
   std::int64_t messagesSent() const { return messagesSent_; }
 
-  /// Since construction, the seconds that this rank spent sending, receiving and waiting for
-  /// others.
+  /// The seconds that this rank has spent sending, receiving and waiting for others since
+  /// construction.
   double seconds() const { return seconds_; }
 
   struct Link;

@@ -40,7 +40,7 @@ public:
     return *kept;
   }
 
-  /// Of a message that is to be started: give it to MPI at once.
+  /// The request of a message that is to be started: give it to MPI at once.
   MPI_Request* addRequest()
   {
     state_->requests.push_back(MPI_REQUEST_NULL);
@@ -67,7 +67,7 @@ private:
 /// block, and for the one message that a rank which fails sends to all others.
 struct RankExchange::Link
 {
-  /// With a communicator of its own, like `parent`. Collective.
+  /// Makes a link with a communicator of its own, like `parent`. Collective.
   static std::unique_ptr<Link> make(MPI_Comm parent);
 
   explicit Link(MPI_Comm own) : ranks(own) {}
@@ -85,7 +85,8 @@ struct RankExchange::Link
   /// The next message from `source`. Throws as `finish` does.
   std::vector<char> receive(int source);
 
-  /// Tells all other ranks. Nothing can be sent through this link afterwards.
+  /// Tells all other ranks that this one has failed. Nothing can be sent through this link
+  /// afterwards.
   void fail(const char* reason) noexcept;
 
   bool hasFailed() const { return failed_; }

@@ -42,7 +42,7 @@ public:
   /// What this rank has sent up to now.
   struct Sent
   {
-    double seconds = 0; ///< Of sending, receiving and waiting.
+    double seconds = 0; ///< Time of sending, receiving and waiting.
     std::int64_t bytes = 0;
     std::int64_t messages = 0;
   };
@@ -55,7 +55,7 @@ public:
   void gather(RankExchange& exchange, const Sent& before);
   void gather(RankExchange& exchange) { gather(exchange, Sent{}); }
 
-  /// As a JSON object.
+  /// The figures as a JSON object.
   std::string json() const;
 
 private:

@@ -60,7 +60,7 @@ struct SharedItems
   std::vector<char> ownedHere(Index itemCount) const;
 };
 
-/// Fills in the rest, given the neighbours (ascending) and their items. No communication.
+/// Makes SharedItems of the neighbours (ascending) and their items. No communication.
 SharedItems makeSharedItems(
   int rank, std::vector<int> neighbours, std::vector<std::vector<Index>> items);
 

@@ -45,7 +45,7 @@ Cores ownCores()
   return { static_cast<std::int64_t>(std::hash<std::string>()(name)), count };
 }
 
-/// At most as many as the user allows each process.
+/// This number of threads, but at most as many as the user allows each process.
 int limited(int threads)
 {
   const char* limit = vtksys::SystemTools::GetEnv("VTK_SMP_MAX_THREADS");
@@ -53,7 +53,7 @@ int limited(int threads)
   return most > 0 ? std::min(most, threads) : threads;
 }
 
-/// Threads are started anew for every loop.
+/// Runs a loop on threads, which are started anew for every loop.
 void forRanges(int threads, std::size_t count, std::size_t grain, const RangeBody& body)
 {
   if (threads == 1 || count <= grain)

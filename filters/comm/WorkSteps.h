@@ -1,4 +1,4 @@
-// The steps of some work, as they are told and timed.
+// Steps of work, with their progress and their times.
 #pragma once
 
 #include "comm/Progress.h"

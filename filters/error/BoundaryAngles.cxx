@@ -15,7 +15,7 @@ namespace
 /// The facets on the CAD that meet at an edge or (segments) at a vertex.
 struct Meeting
 {
-  Vector3 sum{}; ///< Of the unit vectors from there into each facet.
+  Vector3 sum{}; ///< Sum of the unit vectors from there into each facet.
   int facets = 0;
 };
 
@@ -33,7 +33,7 @@ double angleAt(const Meeting& meeting)
            : 0;
 }
 
-/// A degenerate facet has no direction, and does not count.
+/// A meeting with one facet. A degenerate facet has no direction, and does not count.
 Meeting meetingWith(const Vector3& intoFacet)
 {
   const Vector3 direction = normalized(intoFacet);

@@ -50,11 +50,11 @@ CurvedErrorFacet makeCurvedFacet(const DistributedMesh& mesh, const DistributedB
   return facet;
 }
 
-/// Its extrapolation is nearer to the exact measure than depth 3, which costs four times as much
-/// (see docs/methods.md).
+/// The automatic depth: its extrapolation is nearer to the exact measure than depth 3, which costs
+/// four times as much (see docs/methods.md).
 constexpr int automaticDepth = 2;
 
-/// Of second order.
+/// Errors of these facets of cells of second order, in their order.
 Answers<FacetError> measureCurved(RankExchange& exchange, const DistributedMesh& mesh,
   const ClassifiedBoundary& classified, const Classification& classification,
   const std::vector<std::size_t>& facets, int depth)
@@ -125,7 +125,8 @@ ClassifiedSurface surfaceOf(RankExchange& exchange, const Mesh& mesh,
   return surface;
 }
 
-/// Those of all edges of the boundary, and of those of these facets that are quadrilaterals.
+/// The midpoints of all edges of the boundary, and the middles of those of these facets that are
+/// quadrilaterals.
 std::vector<ClosestPoint> midpointsOf(
   const ClassifiedBoundary& classified, const std::vector<std::size_t>& facets)
 {
@@ -174,7 +175,7 @@ std::vector<FacetError> measureStraight(RankExchange& exchange, const Mesh& mesh
     midpointsOf(classified, facets), depth, runsFor(exchange, facets.size(), depth), project);
 }
 
-/// The same, of facets that are in the cache.
+/// Errors of these facets, in their order; those that are in the cache are taken from there.
 std::vector<FacetError> measureOrRemember(RankExchange& exchange, const DistributedMesh& mesh,
   const ClassifiedBoundary& classified, const Classification& classification,
   const std::vector<std::size_t>& facets, int depth, const BoundaryCache& cache)

@@ -16,9 +16,9 @@ namespace cadrefine
 /// How far facets are from the CAD: the largest of each.
 struct Deviation
 {
-  double distance = 0; ///< Found from the facets to the CAD.
-  double chord = 0;    ///< From the middle of an edge of the facets to the CAD.
-  double angle = 0;    ///< Between neighbouring facets, in degrees (see neighbourAngles).
+  double distance = 0; ///< Distance found from the facets to the CAD.
+  double chord = 0;    ///< Distance from the middle of an edge of the facets to the CAD.
+  double angle = 0;    ///< Angle between neighbouring facets, in degrees (see neighbourAngles).
 
   void add(const Deviation& other);
 };
@@ -31,11 +31,12 @@ struct CellError
 
 struct MeshError
 {
-  std::vector<CellError> ofCells; ///< Of the mesh's own dimension.
-  int dimension = 0;              ///< Of what the error measures: 2 area, 3 volume.
+  std::vector<CellError> ofCells; ///< Errors of the cells of the mesh's own dimension.
+  int dimension = 0;              ///< Dimension of what the error measures: 2 area, 3 volume.
   double global = 0;              ///< Measure of all facets of all ranks.
-  Deviation largest;              ///< Of all ranks.
-  WorkBalance balance; ///< Of the boundary edges over the ranks; of second order of the facets.
+  Deviation largest;              ///< The largest of all ranks.
+  /// Balance of the boundary edges over the ranks; of cells of second order, that of the facets.
+  WorkBalance balance;
 };
 
 /// What of the boundary is measured, and how.
@@ -45,11 +46,11 @@ struct ErrorScope
   std::vector<unsigned char> counted; ///< A flag for each facet that is added up; empty: all are.
 };
 
-/// Error of every facet on the CAD, added up for its cell (see geometricErrors; of a mesh of second
-/// order curvedError, and the classification has entries for mid nodes after those of vertices).
-/// Automatic depth: the extrapolation (see extrapolatedMeasure) of a small one. The global sum is
-/// bit for bit the same for every partition. Fills classified.midpoints. `cache` is that of the
-/// boundary before; with `remember` it becomes that of this one (not of second order).
+/// Measures the error of every facet on the CAD, added up for its cell (see geometricErrors; for a
+/// mesh of second order curvedError, and the classification has entries for mid nodes after those
+/// of vertices). Automatic depth: the extrapolation (see extrapolatedMeasure) of a small one. The
+/// global sum is bit for bit the same for every partition. Fills classified.midpoints. `cache` is
+/// that of the boundary before; with `remember` it becomes that of this one (not of second order).
 ///
 /// Collective. Work: the projections of geometricErrors, or of curvedError, shared out evenly over
 /// ranks and threads. Messages: those of mapBalanced for each level of depth, and a few reductions

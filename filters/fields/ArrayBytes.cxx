@@ -25,7 +25,7 @@ class Writer
 {
 public:
   void number(std::int64_t value) { raw(&value, sizeof(value)); }
-  /// Null is kept apart from an empty text.
+  /// Appends a text; null is kept apart from an empty one.
   void text(const char* value)
   {
     number(value ? static_cast<std::int64_t>(std::strlen(value)) : -1);
@@ -36,7 +36,7 @@ public:
     const char* first = static_cast<const char*>(data);
     bytes_.insert(bytes_.end(), first, first + size);
   }
-  /// Room for so many bytes more, to be written to.
+  /// Makes room for so many bytes more, to be written to.
   char* room(std::size_t size)
   {
     bytes_.resize(bytes_.size() + size);
@@ -138,7 +138,7 @@ void read(Reader& reader, vtkDataSetAttributes* attributes)
   addAs(attribute, array, attributes);
 }
 
-/// Throws Error where it cannot be done.
+/// The data object as bytes. Throws Error where it cannot be sent.
 std::vector<char> marshal(vtkDataObject* data)
 {
   vtkNew<vtkCharArray> bytes;
@@ -149,7 +149,7 @@ std::vector<char> marshal(vtkDataObject* data)
   return { bytes->GetPointer(0), bytes->GetPointer(0) + bytes->GetNumberOfValues() };
 }
 
-/// Throws Error where the bytes are no table.
+/// The table of these bytes. Throws Error where they are no table.
 vtkSmartPointer<vtkTable> unmarshal(const std::vector<char>& bytes)
 {
   vtkNew<vtkCharArray> array;

@@ -24,7 +24,7 @@ Bytes pack(vtkDataSetAttributes* attributes)
   return attributes->GetNumberOfTuples() == 0 ? Bytes() : bytesOf(attributes);
 }
 
-/// The array of that name, type and number of components; null where there is none.
+/// The array of the same name, type and number of components; null where there is none.
 vtkAbstractArray* arrayLike(vtkAbstractArray* array, vtkDataSetAttributes* attributes)
 {
   vtkAbstractArray* other =
@@ -38,7 +38,7 @@ vtkAbstractArray* arrayLike(vtkAbstractArray* array, vtkDataSetAttributes* attri
 /// What came from a rank: all of these arrays, or their tuples at these places.
 struct Part
 {
-  vtkDataSetAttributes* attributes = nullptr; ///< None: it had no arrays, or nothing came.
+  vtkDataSetAttributes* attributes = nullptr; ///< Null: it had no arrays, or nothing came.
   const std::vector<vtkIdType>* places = nullptr;
 };
 
@@ -49,8 +49,8 @@ struct Run
   std::size_t begin;
 };
 
-/// The kept tuples of a row of parts, given how many each has, of the arrays that all parts have
-/// from which something came.
+/// Gathers the kept tuples of a row of parts, given how many each has, for the arrays that all
+/// parts have from which something came.
 void gatherKept(const std::vector<Part>& parts, const std::vector<std::size_t>& counts,
   const std::vector<vtkIdType>& kept, vtkDataSetAttributes* attributes)
 {
@@ -115,7 +115,8 @@ std::vector<Part> unpack(const std::vector<Bytes>& incoming, std::size_t here, c
   return parts;
 }
 
-/// A rank that had no points does not know how the arrays of ids are called elsewhere.
+/// Makes the names of the arrays of ids the same on all ranks: one that had no points does not know
+/// what they are called elsewhere.
 void agreeOnNamesOfIds(RankExchange& exchange, MeshArrays& arrays)
 {
   const auto agree = [&](std::string& name)

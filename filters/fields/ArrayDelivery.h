@@ -1,4 +1,4 @@
-// Arrays of cells that go to other ranks.
+// Arrays of vertices and cells that go to other ranks.
 #pragma once
 
 #include "comm/RankExchange.h"
@@ -10,18 +10,20 @@
 namespace cadrefine
 {
 
-/// What goes where, of what each vertex or cell has.
+/// Which tuples of vertices and cells go to which ranks, and which of those that arrive are kept.
 struct Delivery
 {
-  std::vector<ArraySelection> toRanks; ///< What each rank gets of this rank's.
-  std::vector<std::size_t> points;     ///< How many came from each rank.
+  std::vector<ArraySelection> toRanks; ///< Which of this rank's tuples each rank gets.
+  /// Number of points that came from each rank, and of cells below.
+  std::vector<std::size_t> points;
   std::vector<std::size_t> cells;
-  /// Of what came, that of the lowest rank first; a vertex that came from several ranks once.
+  /// What is kept of what came, that of the lowest rank first; a vertex that came from several
+  /// ranks once.
   ArraySelection kept;
 };
 
-/// use(rank, place in what came from it, place in what is kept), in this order, given how much came
-/// from each rank.
+/// Calls use(rank, place in what came from it, place in what is kept) for all that is kept, in its
+/// order, given how much came from each rank.
 template<class Use>
 void forKept(
   const std::vector<vtkIdType>& kept, const std::vector<std::size_t>& counts, const Use& use)

@@ -49,7 +49,7 @@ vtkNew<vtkIdTypeArray> makeIds(
   return array;
 }
 
-/// Arrays that are carried over; ids and ghosts are made anew or not at all.
+/// Whether an array is carried over; ids and ghosts are made anew or not at all.
 bool isCarried(vtkDataSetAttributes* attributes, vtkAbstractArray* array)
 {
   return array != attributes->GetGlobalIds() &&
@@ -159,7 +159,8 @@ Value middle(Value a, Value b)
   }
 }
 
-/// The tuples of the vertices that were there, then those of the middles of edges; others by rows.
+/// The tuples of the old vertices, then those of the middles of edges; of vertices with rows, by
+/// these.
 vtkSmartPointer<vtkAbstractArray> interpolate(vtkAbstractArray* array,
   const std::vector<std::array<Index, 2>>& parentEdges, const WeightedRows& rows = {})
 {

@@ -34,7 +34,7 @@ struct MeshArrays
   std::string cellIdName;
 };
 
-/// An array of the same type, name and components, with so many tuples of any value.
+/// An array of the same type, name and components as `array`, with `count` tuples of any value.
 vtkSmartPointer<vtkAbstractArray> emptyLike(vtkAbstractArray* array, vtkIdType count);
 
 /// Copies the tuples of `from` at `places`, of which those from `begin` to `end` count, to `to`, an
@@ -42,7 +42,7 @@ vtkSmartPointer<vtkAbstractArray> emptyLike(vtkAbstractArray* array, vtkIdType c
 void copyTuples(vtkAbstractArray* from, const std::vector<vtkIdType>& places, std::size_t begin,
   std::size_t end, vtkAbstractArray* to);
 
-/// Adds the array as this attribute (VTK's scalars, vectors, ...; -1: as none).
+/// Adds the array to `target` as this attribute (VTK's scalars, vectors, ...; -1: as none).
 void addAs(int attribute, vtkAbstractArray* array, vtkDataSetAttributes* target);
 
 /// The arrays of a data set, shared with it; cell arrays where it has cells.
@@ -50,7 +50,8 @@ MeshArrays arraysOf(vtkPointSet* input);
 
 /// Tuples to take, in this order; none: all of them as they are.
 using Places = std::optional<std::vector<vtkIdType>>;
-/// Place of a tuple that was not there: of zeros, or empty strings.
+/// Stands for the place of a tuple that was not there: a new one is made, of zeros or empty
+/// strings.
 constexpr vtkIdType noTuple = -1;
 
 struct ArraySelection
@@ -62,7 +63,7 @@ struct ArraySelection
 /// Where the vertices and cells of `mesh`, which was converted from `input`, have their tuples.
 ArraySelection selectionOf(vtkPointSet* input, const ConvertedMesh& mesh);
 
-/// Arrays of which all is taken are shared.
+/// The arrays with the selected tuples; arrays of which all is taken are shared.
 MeshArrays select(const MeshArrays& arrays, const ArraySelection& selection);
 
 /// The arrays of the mesh that became of `coarse`: cell arrays are inherited, point arrays
@@ -76,12 +77,13 @@ MeshArrays select(const MeshArrays& arrays, const ArraySelection& selection);
 MeshArrays refineArrays(const MeshArrays& coarse, const RefinementTrace& trace,
   const std::vector<std::string>& densities = {});
 
-/// The same arrays but for the cell arrays of these names, if they are of floating point, which get
-/// the sums of the rows.
+/// The arrays as they are, except that cell arrays of these names, if they are of floating point,
+/// get the sums of the rows.
 MeshArrays withDensities(
   const MeshArrays& arrays, const WeightedRows& rows, const std::vector<std::string>& densities);
 
-/// The same with point arrays for mid nodes after the vertices, interpolated likewise.
+/// The arrays with tuples for mid nodes after those of the vertices, interpolated as in
+/// refineArrays.
 MeshArrays withMidNodes(
   const MeshArrays& arrays, const std::vector<std::array<Index, 2>>& parentEdges);
 

@@ -49,7 +49,8 @@ std::string atPoint(vtkIdType point)
   return " (point " + std::to_string(point) + ")";
 }
 
-/// The arrays may be of any type: what is no whole number is refused like what is out of range.
+/// The entity of a point. The arrays may be of any type: what is no whole number is refused like
+/// what is out of range.
 EntityId readEntity(double dimension, double index, const CADModel& model, vtkIdType point)
 {
   if (dimension == -1)

@@ -70,7 +70,8 @@ void writeEntities(vtkFieldData* output, const std::vector<EntityId>& entities);
 void writeNames(vtkFieldData* output, const char* array, const CADModel& model,
   const std::vector<EntityId>& entities);
 
-/// The same with red, green and blue; white without a colour.
+/// Adds or replaces an array with the colours of these entities in the CAD file, as red, green and
+/// blue; white without one.
 void writeColours(vtkFieldData* output, const char* array, const CADModel& model,
   const std::vector<EntityId>& entities);
 

@@ -29,7 +29,7 @@ struct CellRange
   std::size_t count;
 };
 
-/// Those of this dimension.
+/// The range of the cells of this dimension in a mesh's arrays.
 CellRange cellsOf(const Mesh& mesh, int dimension);
 
 /// Hashes of the names, ascending, of arrays that look like tags but number the cells: over all
@@ -39,12 +39,13 @@ CellRange cellsOf(const Mesh& mesh, int dimension);
 std::vector<std::uint64_t> findNumberings(
   RankExchange& exchange, vtkCellData* data, const CellRange& cells);
 
-/// Hashes of all tags of each cell, but for the arrays that number these: of cells with the same
-/// tags the same, on whatever rank.
+/// For each cell of the range a hash of all its tags, without the arrays that number cells: the
+/// same for cells with the same tags, on whatever rank.
 std::vector<std::uint64_t> tagHashesOf(
   vtkCellData* data, const CellRange& cells, const std::vector<std::uint64_t>& numberings);
 
-/// Numbers of the different ones of these hashes on this rank.
+/// For each cell of the range a number, from 0 on, that is the same for cells of this rank with the
+/// same hash (see tagHashesOf).
 std::vector<Index> labelsOf(
   vtkCellData* data, const CellRange& cells, const std::vector<std::uint64_t>& numberings);
 

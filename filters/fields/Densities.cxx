@@ -31,11 +31,11 @@ double sizeOf(Shape, const std::array<Point3, Shape::corners>& corners)
   }
 }
 
-/// Volumes that differ by less of themselves are the same.
+/// Volumes that differ by less than this part of them are the same.
 constexpr double rounding = 1e-13;
 
-/// Rows of cells of the mesh's own dimension of which each comes from one: `sources`, without those
-/// of lower dimension, and which had these sizes before.
+/// Rows for cells of the mesh's own dimension, each of which comes from one cell (`sources`,
+/// numbered without those of lower dimension) and had the size in `before`.
 WeightedRows rowsOf(const Mesh& mesh, const std::vector<double>& before,
   const std::vector<Index>& sources, Index firstSource)
 {
@@ -60,7 +60,7 @@ double meanOf(const BezierForm<Count>& form)
   return std::accumulate(coefficients.begin(), coefficients.end(), 0.0) / Count;
 }
 
-/// Of cells with mid nodes on the way: pyramids have none.
+/// The volume, or area, of a cell with mid nodes off the middle; 0 for pyramids, which have none.
 template<class Shape>
 double sizeOfCurved(Shape, const CurvedCell<Shape>& nodes, const Vector3& plane)
 {
@@ -79,7 +79,7 @@ double sizeOfCurved(Shape, const CurvedCell<Shape>& nodes, const Vector3& plane)
   }
 }
 
-/// New vertices that are elsewhere than halfway between two others.
+/// Places the new vertices that are elsewhere than halfway between two others.
 void placeByRows(const WeightedRows& rows, std::size_t oldCount, std::vector<Point3>& points)
 {
   for (std::size_t r = 0; r < rows.size(); ++r)

@@ -11,7 +11,7 @@ namespace cadrefine
 namespace
 {
 
-/// A stage of the way.
+/// Takes arrays along one stage of a mapping.
 struct Walk
 {
   RankExchange& exchange;

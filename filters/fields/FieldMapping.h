@@ -15,7 +15,7 @@
 namespace cadrefine
 {
 
-/// What the fields are that a mapping is for.
+/// What a mapping needs to know of the fields that it is for.
 struct FieldNeeds
 {
   /// Whether there may be cell arrays of floating point, which are means where cells are exchanged;
@@ -35,19 +35,20 @@ struct FieldNeeds
 class FieldMapping
 {
 public:
-  /// First of all.
+  /// Says what the fields need. To be called first of all.
   void require(FieldNeeds needs) { needs_ = std::move(needs); }
   const FieldNeeds& needs() const { return needs_; }
 
-  /// A data set was converted to a mesh that has this part of it.
+  /// Adds a stage: a data set was converted to a mesh that has this part of it.
   void convert(ArraySelection selection);
-  /// Cells went to other ranks.
+  /// Adds a stage: cells went to other ranks.
   void redistribute(Delivery delivery);
-  /// The mesh was refined, or operated on.
+  /// Adds a stage: the mesh was refined, or operated on.
   void refine(RefinementTrace trace);
-  /// Cells changed their volumes: rows of their densities. (None: nothing happened.)
+  /// Adds a stage: cells changed their volumes, and so their densities by these rows (none: there
+  /// is no stage).
   void scale(WeightedRows densities);
-  /// The mesh became one of second order, with a mid node on each edge.
+  /// Adds a stage: the mesh became one of second order, with a mid node on each edge.
   void addMidNodes(std::vector<std::array<Index, 2>> edges);
 
   /// The arrays after all stages, given those after the first `done` of them. Collective where

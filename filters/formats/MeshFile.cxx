@@ -43,7 +43,7 @@ std::string textOf(PyObject* object)
   return bytes ? PyBytes_AsString(bytes) : "";
 }
 
-/// What Python raised last, which is forgotten.
+/// The reason of what Python raised last, which is then forgotten.
 std::string raisedReason()
 {
   PyObject *type = nullptr, *value = nullptr, *trace = nullptr;
@@ -82,8 +82,8 @@ void appendOnce(PyObject* list, const std::filesystem::path& path)
   }
 }
 
-/// The package's module that reads and writes. Of a package that has the same name, that of VTK's
-/// classes, it becomes a part, so that a program can use both.
+/// The package's module that reads and writes. The package becomes a part of the one of VTK's
+/// classes, which has the same name, so that a program can use both.
 vtkSmartPyObject filesModule()
 {
   const std::filesystem::path folder = packageFolder();
@@ -94,7 +94,7 @@ vtkSmartPyObject filesModule()
   return given(PyImport_ImportModule("cadrefine.files"));
 }
 
-/// The same, for the file `path`, which an Error names.
+/// The module of filesModule(), for the file `path`, which an Error names.
 vtkSmartPyObject filesModule(const std::string& path)
 {
   try

@@ -14,11 +14,11 @@ namespace cadrefine
 /// so.
 bool canReadMeshFile(const std::string& path);
 
-/// Throws Error, with a line that names the file and the reason.
+/// Reads a file into `grid`. Throws Error, with a line that names the file and the reason.
 void readMeshFile(const std::string& path, vtkUnstructuredGrid* grid);
 
-/// Whole, or not at all: what was there stays until the new file is complete. Of a .msh file,
-/// `version` is "2.2" or "4.1", and `ascii` chooses text. Throws Error, as above.
+/// Writes a file, whole or not at all: what was there stays until the new file is complete. For a
+/// .msh file, `version` is "2.2" or "4.1", and `ascii` chooses text. Throws Error, as above.
 void writeMeshFile(
   vtkUnstructuredGrid* grid, const std::string& path, const std::string& version, bool ascii);
 

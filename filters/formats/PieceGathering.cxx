@@ -32,7 +32,7 @@ vtkSmartPointer<vtkPointSet> withoutGhosts(vtkPointSet* piece)
   return result;
 }
 
-/// Those with cells.
+/// The pieces with cells.
 std::vector<vtkPointSet*> filled(const std::vector<vtkSmartPointer<vtkDataObject>>& pieces)
 {
   std::vector<vtkPointSet*> result;

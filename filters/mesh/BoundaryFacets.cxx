@@ -13,14 +13,14 @@ namespace cadrefine
 namespace
 {
 
-/// visit(shape, cells) of the listed cells: those of one dimension less than the mesh's own.
+/// Calls visit(shape, cells) for the listed cells: those of one dimension less than the mesh's own.
 template<class Visit>
 void visitListed(const Mesh& mesh, const Visit& visit)
 {
   visitShapes(mesh, mesh.dimension - 1, visit);
 }
 
-/// Corners of a side, and -1 where it has fewer than four; their ids likewise.
+/// Corners of a side, and their ids; -1 follows where it has fewer than four.
 using Corners = std::array<Index, 4>;
 using Ids = std::array<GlobalId, 4>;
 
@@ -30,8 +30,9 @@ struct Listed
   Ids key; ///< Ids of the corners, ascending.
   Corners corners;
   int met = 0;
-  GlobalId smallest = std::numeric_limits<GlobalId>::max(); ///< Id of a cell that meets it.
-  Index cell = -1;                                          ///< That cell.
+  /// Smallest id of the cells that meet it.
+  GlobalId smallest = std::numeric_limits<GlobalId>::max();
+  Index cell = -1; ///< The cell with that id.
 };
 
 template<std::size_t N>
@@ -78,7 +79,7 @@ std::vector<std::vector<Ids>> idsForNeighbours(const DistributedMesh& mesh)
   return outgoing;
 }
 
-/// The listed cells of this rank, and those of others whose corners it has, by keys.
+/// The listed cells of this rank, and those of others whose corners it has, ordered by their keys.
 std::vector<Listed> gatherListed(RankExchange& exchange, const DistributedMesh& distributed)
 {
   const Mesh& mesh = distributed.mesh();
@@ -122,7 +123,8 @@ std::vector<Listed> gatherListed(RankExchange& exchange, const DistributedMesh& 
   return all;
 }
 
-/// Which one has this key, of those that are by keys; none: their number.
+/// The place of the listed cell with this key, of those ordered by their keys; their number if
+/// there is none.
 std::size_t findListed(const std::vector<Listed>& all, const Ids& key)
 {
   const auto found = std::lower_bound(all.begin(), all.end(), key,

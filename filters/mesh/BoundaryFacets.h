@@ -14,8 +14,8 @@ namespace cadrefine
 /// The ids of a facet's or a cell's corners; -1 for those that it does not have.
 std::array<GlobalId, 4> idsOf(const Mesh& mesh, const std::array<Index, 4>& corners);
 
-/// The facets of this rank's cells that lie on the boundary of the whole mesh (of volume, or a
-/// planar one):
+/// Finds the facets of this rank's cells that lie on the boundary of the whole mesh (of volume, or
+/// a planar one):
 ///   - outer ones, sides that one cell alone meets, over all ranks;
 ///   - interior ones, between two cells, where a cell of one dimension less is listed in the mesh:
 ///     two materials, a baffle. They are with the cell of the smaller global id, and have the order

@@ -30,8 +30,8 @@ struct CellKind
   int shape = -1; ///< Place in the order in which visitShapes visits them.
   int dimension = -1;
   vtkIdType corners = 0;
-  vtkIdType nodes = 0; ///< Of second order the mid nodes.
-  bool inRows = false; ///< Of each four corners the last two are the other way round.
+  vtkIdType nodes = 0; ///< Number of mid nodes; 0 for cells of first order.
+  bool inRows = false; ///< The last two of each four corners are the other way round.
 };
 
 template<class Shape>
@@ -107,7 +107,7 @@ bool isGhost(vtkUnsignedCharArray* ghosts, vtkIdType cell)
   return ghosts && (ghosts->GetValue(cell) & marks);
 }
 
-/// Whether the cell names as many points as it must, and such as there are.
+/// Throws Error unless a cell names as many points as it must, and only such as there are.
 template<class Point>
 void checkPoints(
   const Point* points, vtkIdType count, vtkIdType expected, vtkIdType cell, vtkIdType pointCount)
@@ -155,8 +155,8 @@ vtkCellArray* longCells(vtkPointSet* input)
   return isLong ? grid->GetCells() : nullptr;
 }
 
-/// Calls use(cell, type, points) for the cells in [begin, end), `points` being a pointer and a
-/// count.
+/// Calls use(cell, type, points, count) for the cells in [begin, end), `points` being a pointer to
+/// the cell's first point.
 template<class Use>
 void forEachCell(vtkPointSet* input, vtkIdType begin, vtkIdType end, const Use& use)
 {
@@ -189,7 +189,7 @@ struct CellCounts
   std::array<std::size_t, shapeCount> secondOrder{};
 };
 
-/// Reads in parts, twice: what there is, then all of it to its place.
+/// Reads the cells in parts, twice: first counts what there is, then writes all of it to its place.
 class CellReader
 {
 public:
@@ -230,7 +230,8 @@ public:
   }
 
 private:
-  /// Calls use(cell, kind, points) for the cells that are taken, each point of a poly vertex.
+  /// Calls use(cell, kind, points) for the cells that are taken; for a poly vertex once for each
+  /// point.
   template<class Use>
   void forEachTaken(std::size_t begin, std::size_t end, const Use& use) const
   {
@@ -256,7 +257,7 @@ private:
       });
   }
 
-  /// Makes of the numbers of each part those of all parts before it. Returns those of all parts.
+  /// Replaces the counts of each part by those of all parts before it. Returns those of all parts.
   template<class Iterator>
   static CellCounts startsOf(Iterator part, Iterator end)
   {
@@ -329,7 +330,8 @@ private:
   Mesh& mesh_;
   std::array<std::vector<vtkIdType>, 4>& cellOf_;
   NodesOfCells nodes_;
-  std::array<std::size_t, shapeCount> firstOfShape_{}; ///< Its place in cellOf_.
+  /// Place of the first cell of each shape in cellOf_.
+  std::array<std::size_t, shapeCount> firstOfShape_{};
   ParallelFor parallelFor_;
 };
 

@@ -102,9 +102,9 @@ VertexKey<K> keyOf(const Mesh& mesh, Index* first, Index* last)
   return key;
 }
 
-/// Numbers of all cells, those of dimension 0 first, of which each has at most K + 1 corners. A
-/// cell of lower dimension has fewer, and may be listed twice: its key ends with a negative number
-/// that grows with the rank and within the piece.
+/// Numbers all cells, those of dimension 0 first, of which each has at most K + 1 corners. A cell
+/// of lower dimension has fewer, and may be listed twice: its key ends with a negative number that
+/// grows with the rank and within the piece.
 template<std::size_t K>
 std::vector<GlobalId> numbersOfCells(RankExchange& exchange, const DistributedMesh& mesh)
 {

@@ -17,14 +17,14 @@ struct DistributedMesh
 {
   ConvertedMesh converted;
   SharedVertices shared;
-  SharedVertices sharedPoints; ///< Of a mesh of second order: vertices and mid nodes.
+  SharedVertices sharedPoints; ///< Shared vertices and mid nodes of a mesh of second order.
   GlobalId vertexIdBound = 0;  ///< All ids of vertices and mid nodes are smaller.
 
   Mesh& mesh() { return converted.mesh; }
   const Mesh& mesh() const { return converted.mesh; }
-  /// Vertices, and mid nodes after them.
+  /// The number of points of this rank: vertices, and mid nodes after them.
   std::size_t pointCount() const;
-  /// For each of them 1 if this rank owns it, else 0.
+  /// For each point 1 if this rank owns it, else 0.
   std::vector<char> ownedPoints() const;
 };
 
@@ -68,11 +68,12 @@ BoundingBox findBox(RankExchange& exchange, const Mesh& mesh);
 /// Counts of the whole mesh, no vertex or cell twice.
 struct MeshCounts
 {
-  std::int64_t vertices = 0; ///< And mid nodes.
-  std::int64_t cells = 0;    ///< Of the mesh's own dimension.
+  std::int64_t vertices = 0; ///< Vertices and mid nodes.
+  std::int64_t cells = 0;    ///< Cells of the mesh's own dimension.
 };
 
-/// Collective; one reduction of two numbers, work linear in the vertices of the piece.
+/// Counts the vertices and cells of the whole mesh. Collective; one reduction of two numbers, work
+/// linear in the vertices of the piece.
 MeshCounts countMesh(RankExchange& exchange, const DistributedMesh& mesh);
 
 } // namespace cadrefine

@@ -41,7 +41,7 @@ GlobalId idOf(Value value)
   }
 }
 
-/// numberByIds for ids that ascend from point to point; none: they do not.
+/// The result of numberByIds if the ids ascend from point to point; none if they do not.
 std::optional<std::vector<Index>> numberAscending(
   const std::vector<GlobalId>& ids, const std::function<bool(std::size_t)>& isUsed)
 {

@@ -1,4 +1,4 @@
-// Global ids, as data sets bring them.
+// Reading the global ids of data sets.
 #pragma once
 
 #include <cadrefine/base/MeshTypes.h>
@@ -16,13 +16,13 @@ class vtkDataArray;
 namespace cadrefine
 {
 
-/// The values of `array`, of any type of number; -1 for those that are no ids. None without an
+/// The values of `array`, of any type of number; -1 for those that are no ids. Empty without an
 /// array. Ids are whole numbers from 0 to 2^62 - 1, so that there is room above them for the ids of
 /// new points. Work: linear.
 std::vector<GlobalId> readGlobalIds(vtkDataArray* array, const ParallelFor& parallelFor);
 
-/// Throws Error where `id`, which readGlobalIds made of the value at `place`, is none; `item` is
-/// what has it ("point", "cell").
+/// Throws Error where the value at `place` is no id: where `id`, which readGlobalIds made of it, is
+/// negative; `item` is what has it ("point", "cell").
 void checkGlobalId(GlobalId id, vtkDataArray* array, vtkIdType place, const std::string& item);
 
 /// The vertex that each point becomes, numbered in the order of the points: one for each id; -1 for

@@ -11,7 +11,7 @@ namespace cadrefine
 namespace
 {
 
-/// A planar mesh leaves its plane by less of its extent.
+/// A planar mesh leaves its plane by less than this part of its extent.
 constexpr double inPlane = 2e-7;
 
 /// The point of all ranks that has the largest measure; of several the first in order. Collective.

@@ -16,11 +16,12 @@ namespace cadrefine
 /// reduction; work linear in the points.
 Vector3 normalOfPoints(RankExchange& exchange, const std::vector<Point3>& points);
 
-/// The same of a mesh of area, turned the way most of its cells turn; zero of other meshes.
+/// A unit normal of the plane of a mesh of area (see normalOfPoints), from whose end most of its
+/// cells turn counter-clockwise; zero where there is no plane, and for other meshes.
 Vector3 planeNormal(RankExchange& exchange, const Mesh& mesh);
 
-/// The same; zero of a mesh that need not stay in its plane, as it is compared with faces of the
-/// CAD.
+/// The normal of the mesh's plane (see above) if it `staysInPlane`, else zero: a mesh that is
+/// compared with faces of the CAD need not stay in its plane.
 Vector3 planeNormal(RankExchange& exchange, const Mesh& mesh, bool staysInPlane);
 
 } // namespace cadrefine

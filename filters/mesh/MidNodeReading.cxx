@@ -10,7 +10,7 @@ namespace cadrefine
 namespace
 {
 
-/// The mid nodes of all edges, and their points after those of the vertices.
+/// Gives a mesh the mid nodes of all edges, and their points after those of the vertices.
 class MidNodeReader
 {
 public:
@@ -59,7 +59,7 @@ private:
     }
   }
 
-  /// Where the mesh has an edge of the data set's cell.
+  /// The local edge of the mesh's cell that is this edge of the data set's cell.
   template<class Shape>
   std::size_t placeOfEdge(Shape, std::size_t edge) const
   {
@@ -88,7 +88,7 @@ private:
   const std::vector<Point3>& points_;
   const std::vector<GlobalId>& ids_;
   ConvertedMesh& result_;
-  std::vector<vtkIdType> pointOf_; ///< Of each edge's node.
+  std::vector<vtkIdType> pointOf_; ///< The data set's point of each edge's mid node.
 };
 
 } // namespace

@@ -14,14 +14,14 @@
 namespace cadrefine
 {
 
-/// Of cells, in the order in which visitShapes visits them.
+/// Number of shapes of cells, in the order in which visitShapes visits them.
 constexpr int shapeCount = 8;
 
 /// The points that the data set's cells of second order name for their mid nodes, by shape, in the
 /// order of its edges.
 using NodesOfCells = std::array<std::vector<vtkIdType>, shapeCount>;
 
-/// Mid nodes of a cell of second order.
+/// Number of mid nodes of a cell of second order.
 template<class Shape>
 constexpr std::size_t nodesOf(Shape)
 {

@@ -29,8 +29,8 @@ std::string textOf(const Point3& point)
   return text.str();
 }
 
-/// Of all ranks' numbers, the smallest that occurs twice; `none` where there is none. Collective;
-/// every number is sent once.
+/// The smallest number that occurs twice among those of all ranks; `none` where there is none.
+/// Collective; every number is sent once.
 GlobalId smallestTwice(RankExchange& exchange, const std::vector<GlobalId>& numbers)
 {
   std::vector<std::vector<GlobalId>> toRank(exchange.size());
@@ -61,7 +61,7 @@ bool areDistinct(RankExchange& exchange, const std::vector<GlobalId>& numbers)
   }
 }
 
-/// Two ranks that own a vertex with this id, and where each has it. Collective.
+/// Text for an Error: two ranks that own a vertex with this id, and where each has it. Collective.
 std::string describeTwins(
   RankExchange& exchange, const Mesh& mesh, const std::vector<char>& owned, GlobalId id)
 {
@@ -129,11 +129,11 @@ void checkInterface(RankExchange& exchange, const DistributedMesh& mesh)
                        std::to_string(exchange.rank()));
 }
 
-/// A cell with its vertices ascending.
+/// The vertices of a cell, ascending, and its number.
 template<std::size_t Corners>
 using SortedCell = std::pair<std::array<Index, Corners>, Index>;
 
-/// Two cells with the same vertices, of these; none: empty.
+/// Two of these cells that have the same vertices; empty if there are none.
 template<std::size_t Corners>
 std::vector<Index> twinsAmong(std::vector<SortedCell<Corners>>& cells)
 {
@@ -144,7 +144,8 @@ std::vector<Index> twinsAmong(std::vector<SortedCell<Corners>>& cells)
                               : std::vector<Index>{ found[0].second, found[1].second };
 }
 
-/// Two cells of the piece with the same vertices, those with the smallest; none: empty.
+/// Two cells of the piece that have the same vertices, those with the smallest; empty if there are
+/// none.
 template<std::size_t Corners>
 std::vector<Index> twinsInPiece(
   std::size_t vertexCount, const Cells<Corners>& cells, const ParallelFor& parallelFor)
@@ -184,7 +185,8 @@ std::vector<Index> twinsInPiece(
   return twins;
 }
 
-/// `numbers` are those of the cells in the data set.
+/// Throws Error on all ranks where a cell is listed twice, on one rank or on two. `numbers` are
+/// those of the cells in the data set.
 template<std::size_t Corners>
 void checkCells(RankExchange& exchange, const DistributedMesh& mesh, const Cells<Corners>& cells,
   const vtkIdType* numbers)
@@ -213,7 +215,7 @@ void checkCells(RankExchange& exchange, const DistributedMesh& mesh, const Cells
   }
 }
 
-/// The corners of the cells of this dimension of this rank with this id.
+/// Text for an Error: the corners of this rank's cells of this dimension with this id.
 std::string cornersOf(
   const Mesh& mesh, int dimension, const std::vector<GlobalId>& ids, GlobalId id)
 {

@@ -26,7 +26,7 @@ namespace cadrefine
 namespace
 {
 
-/// Points alone: a cell of dimension 0 each, without a cell in the data set.
+/// Makes a cell of dimension 0 of each point of a data set of points alone, which has no cells.
 void addLonePoints(vtkPointSet* input, ConvertedMesh& result)
 {
   for (vtkIdType p = 0; p < input->GetNumberOfPoints(); ++p)
@@ -94,7 +94,7 @@ void forEachCorner(Mesh& mesh, const ParallelFor& parallelFor, const Use& use)
 /// Flags that threads may set at once.
 using Flags = std::vector<std::atomic<unsigned char>>;
 
-/// The points that cells use.
+/// 1 for the points that cells use.
 Flags findUsed(Mesh& mesh, std::size_t points, const ParallelFor& parallelFor)
 {
   Flags used(points);
@@ -103,7 +103,8 @@ Flags findUsed(Mesh& mesh, std::size_t points, const ParallelFor& parallelFor)
   return used;
 }
 
-/// `cellOf` has the numbers of these cells in the data set.
+/// Throws Error for a cell that names a vertex twice. `cellOf` has the numbers of these cells in
+/// the data set.
 template<std::size_t Corners>
 void checkCells(
   const Cells<Corners>& cells, const vtkIdType* cellOf, const ParallelFor& parallelFor)
@@ -152,7 +153,7 @@ void checkPoint(const Point3& point, const PointIds& ids, vtkIdType number)
   }
 }
 
-/// The vertices of the points that cells use.
+/// Makes vertices of the points that cells use.
 void takeVertices(const std::vector<Point3>& points, const PointIds& ids,
   const std::vector<Index>& vertexOf, ConvertedMesh& result)
 {

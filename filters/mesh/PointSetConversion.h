@@ -1,4 +1,4 @@
-// Between VTK's data sets and the core's meshes.
+// Conversion between VTK's data sets and the core's meshes.
 #pragma once
 
 #include "comm/RankExchange.h"
@@ -24,39 +24,42 @@ namespace cadrefine
 struct ConvertedMesh
 {
   Mesh mesh;
-  std::vector<vtkIdType> pointOf; ///< Of vertices, and mid nodes after them.
-  /// By the dimension of the cells, of which each shape is in the order of the data set.
+  /// The data set's point of each vertex, and after these of each mid node.
+  std::vector<vtkIdType> pointOf;
+  /// The data set's cell of each cell, by dimension; those of each shape are in the order of the
+  /// data set.
   std::array<std::vector<vtkIdType>, 4> cellOf;
-  /// Global ids of the cells, likewise; none, on all ranks, if the data set has none on one.
+  /// Global ids of the cells, by dimension, in the same order; empty on all ranks if the data set
+  /// has none on one.
   std::array<std::vector<GlobalId>, 4> cellIds;
-  /// Of a mesh of second order, on all ranks; none of one of first order.
+  /// The mid nodes of a mesh of second order, on all ranks; none for one of first order.
   std::optional<MidNodes> midNodes;
 };
 
 /// Which cells a filter takes.
 enum class CellOrder
 {
-  First,        ///< Those with corners alone.
-  FirstOrSecond ///< Also those with mid nodes, if all cells of the mesh are.
+  First,        ///< Cells with corners alone.
+  FirstOrSecond ///< Also cells with mid nodes, if all cells of the mesh have these.
 };
 
-/// A wedge that turns the other way: counter-clockwise where it was clockwise.
+/// The wedge turned the other way: counter-clockwise where it was clockwise.
 constexpr std::array<Index, 6> turned(const std::array<Index, 6>& wedge)
 {
   return { wedge[3], wedge[4], wedge[5], wedge[0], wedge[1], wedge[2] };
 }
 
-/// Its edges by their places in the other.
+/// For each edge of a turned wedge, its place in the wedge before.
 constexpr int edgesOfTurned[9] = { 3, 4, 5, 0, 1, 2, 6, 7, 8 };
 
-/// Reads cells of the shapes of Mesh.h from a vtkUnstructuredGrid or vtkPolyData on each
-/// rank. Wedges may turn either way, but all the same. Cells that are marked as ghosts or hidden
-/// and points that no cell uses are left out, marks of points do not count; points with the same
-/// global id on a rank become one vertex. Vertices come in the order of the points. Ids come from
-/// the data set's global ids if every rank has them, and otherwise from coordinates (vertices) and
-/// vertices (cells): they then do not depend on the partition, and points that coincide are one
-/// vertex. Collective. Of cells of second order the corners make the mesh; of their other points
-/// one for each edge is taken, that of the first cell that has the edge.
+/// Reads cells of the shapes of Mesh.h from a vtkUnstructuredGrid or vtkPolyData on each rank.
+/// Wedges may turn either way, but all the same. Cells that are marked as ghosts or hidden and
+/// points that no cell uses are left out, marks of points do not count; points with the same global
+/// id on a rank become one vertex. Vertices come in the order of the points. Ids come from the data
+/// set's global ids if every rank has them, and otherwise from coordinates (vertices) and vertices
+/// (cells): they then do not depend on the partition, and points that coincide are one vertex.
+/// Collective. For cells of second order, the corners make the mesh; of their other points one for
+/// each edge is taken, that of the first cell that has the edge.
 ///
 /// Without cells, every point becomes a cell of dimension 0. The mesh's dimension is that of its
 /// cells of highest dimension on any rank, and 0 for points alone.
@@ -78,7 +81,8 @@ vtkSmartPointer<vtkPointSet> makePointSet(vtkPointSet* input, const Mesh& mesh,
   const std::optional<MidNodes>& midNodes = std::nullopt,
   const ParallelFor& parallelFor = serialFor);
 
-/// Cell numbers of a data set made by makePointSet are those of dimension 0 first, then 1, 2, 3.
+/// Number of the first cell of this dimension in a data set made by makePointSet, which has the
+/// cells of dimension 0 first, then 1, 2, 3.
 vtkIdType firstCellOfDimension(const Mesh& mesh, int dimension);
 
 } // namespace cadrefine

@@ -69,7 +69,7 @@ private:
   }
 
   ParallelFor parallelFor_;
-  vtkTypeInt64* nextOffset_ = nullptr; ///< The end of a cell, each.
+  vtkTypeInt64* nextOffset_ = nullptr; ///< Where the end of the next cell is to be written.
   vtkTypeInt64* nextCorner_ = nullptr;
 };
 
@@ -104,7 +104,7 @@ std::vector<int> orderOfNodes(shapes::Wedge, const Mesh& mesh)
            : std::vector<int>{ 0, 1, 2, 3, 4, 5, 6, 7, 8 };
 }
 
-/// The cells of a shape as data sets have them.
+/// The cells of a shape, with their corners as data sets have them.
 template<class Shape>
 const auto& asWritten(Shape, const Mesh& mesh)
 {
@@ -121,7 +121,7 @@ Cells<6> asWritten(shapes::Wedge, const Mesh& mesh)
   return wedges;
 }
 
-/// Each cell with the points of its mid nodes after its corners.
+/// The cells of a shape, each with the points of its mid nodes after its corners.
 template<class Shape>
 auto withNodes(Shape shape, const Mesh& mesh, const EdgeTable& table)
 {

@@ -28,11 +28,11 @@ constexpr int roundsARing = 2;
 /// Vertices on the CAD make way only if the interior cannot.
 constexpr int roundsBeforeSliding = 2;
 constexpr int sweepsARound = 5;
-/// Cells that lost more of their mean ratio are smoothed.
+/// Cells with less than this part of their former mean ratio are smoothed.
 constexpr double worthwhile = 0.9;
 /// A mean ratio from which on cells are no matter of local operations.
 constexpr double fairQuality = 0.3;
-/// Walls that move by less of the first cell's height do so alone.
+/// A wall that moves by less than this part of the first cell's height does so alone.
 constexpr double leastMoveOfWalls = 1e-3;
 constexpr double noQuality = std::numeric_limits<double>::infinity();
 
@@ -46,7 +46,7 @@ struct Motion
   const ParallelFor parallelFor;
   const Vector3 plane;
   const std::vector<Point3> start; ///< Points of the unmoved mesh.
-  Moves moves; ///< Targets: of all vertices; of those that have none, where they are.
+  Moves moves; ///< Targets of all vertices; of those that have none, where they are.
   std::vector<unsigned char> slid; ///< Vertices on the CAD whose target has changed.
   /// 1 for vertices of wedges, hexahedra and quadrilaterals, which make no way; none: there are
   /// no other cells than simplices.
@@ -72,7 +72,7 @@ std::vector<Index> movingVertices(const Moves& moves)
     moves.fractions.size(), [&](std::size_t v) { return moves.fractions[v] > 0; });
 }
 
-/// A mesh of area in space has no invalid cells.
+/// Whether a cell is invalid; a mesh of area in space has no invalid cells.
 bool isInvalid(const Mesh& mesh, const Vector3& plane, Index cell)
 {
   bool invalid = false;
@@ -92,7 +92,7 @@ std::vector<Index> invalidCells(
     [&](std::size_t c) { return isInvalid(mesh, plane, static_cast<Index>(c)); });
 }
 
-/// Collective.
+/// 1 for vertices of cells that are not simplices (see Motion::held). Collective.
 std::vector<unsigned char> findHeld(RankExchange& exchange, const DistributedMesh& mesh)
 {
   const Mesh& piece = mesh.mesh();
@@ -178,11 +178,11 @@ void settle(Motion& motion, MoveGuard& guard, const std::vector<Index>& moving)
   }
 }
 
-/// What is not as it should be.
+/// What is not yet as it should be.
 struct Left
 {
   std::vector<Index> stuck;   ///< Vertices that are not at their targets.
-  std::vector<Index> invalid; ///< Cells of this rank.
+  std::vector<Index> invalid; ///< Invalid cells of this rank.
 };
 
 /// Drops what has come right. Returns how much is left over all ranks.
@@ -205,8 +205,9 @@ struct Region
   std::vector<VertexPlace> places;
 };
 
-/// The cells up to so many rings round the flagged vertices, which are to go to where these cells
-/// are valid and well shaped once all vertices are where they are wanted.
+/// Finds the cells up to so many rings round the flagged vertices, and the places where these
+/// vertices are to go: where the cells are valid and well shaped once all vertices are where they
+/// are wanted.
 Region untangleRound(const Motion& motion, std::vector<unsigned char> flags,
   const std::vector<Point3>& wanted, int rings, bool sliding, double fair = noQuality)
 {
@@ -292,7 +293,7 @@ void moveTo(Motion& motion, const Region& region, std::vector<Index> moving = {}
   stayThere(motion, settled);
 }
 
-/// One more round: what is left goes on, and what is round it makes way.
+/// Makes one more round: what is left goes on, and what is round it makes way.
 void tryAgain(Motion& motion, const Left& left, int round)
 {
   std::vector<Index> moving = left.stuck;
@@ -313,7 +314,7 @@ void tryAgain(Motion& motion, const Left& left, int round)
   moveTo(motion, region, std::move(moving), std::move(settled));
 }
 
-/// Vertices that slid and then stopped: to the nearest point of their entity.
+/// Sends vertices that slid and then stopped to the nearest point of their entity.
 void retarget(Motion& motion, const std::vector<Index>& stuck)
 {
   for (const Index vertex : stuck)
@@ -329,8 +330,8 @@ void retarget(Motion& motion, const std::vector<Index>& stuck)
   }
 }
 
-/// Interior vertices round cells that lost much move to where these are better. A mesh of triangles
-/// in space has none: there, vertices slide.
+/// Moves interior vertices round cells that lost much of their shape to where these are better. A
+/// mesh of triangles in space has no interior vertices: there, vertices slide.
 void smooth(Motion& motion, const MoveGuard& guard)
 {
   const auto spoilt = guard.verticesOfSpoiltCells(worthwhile);

@@ -17,9 +17,9 @@ namespace cadrefine
 struct MoveSettings
 {
   const BoundaryProjector& projector;
-  /// Over all ranks, 1 for vertices of the boundary, which do not make way unless they slide or are
-  /// of the end of a layer: of facets between two cells, off the CAD and beside it, alone. 2 for
-  /// others that do not.
+  /// Over all ranks, 1 for vertices of the boundary, which do not make way unless they slide, or
+  /// are at the end of a layer: only at facets between two cells, off the CAD and beside it. 2 for
+  /// other vertices that do not make way.
   const std::vector<unsigned char>& fixed;
   /// Cells that are inverted or flat at the start are to be mended too.
   bool mendCells = false;
@@ -28,7 +28,8 @@ struct MoveSettings
   /// At a vertex where local operations have nothing to do, smoothing improves the worst cell;
   /// elsewhere the sum over the cells, even if some get worse.
   bool smoothWorst = false;
-  /// The ends of the lines in whose middles the last vertices are; none: of no vertex.
+  /// The ends of the lines in whose middles the last vertices are; null: there are no such
+  /// vertices.
   const std::vector<std::array<Index, 2>>* parents = nullptr;
 };
 

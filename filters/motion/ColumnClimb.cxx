@@ -55,7 +55,7 @@ std::vector<ColumnVisit> ColumnClimb::run(RankExchange& exchange)
   return std::move(visited_);
 }
 
-/// Through `side.cell`, and on.
+/// Lets a column climb through `side.cell`, and on.
 void ColumnClimb::climb(Facet side, Front front)
 {
   while (side.cell >= 0)
@@ -99,7 +99,7 @@ void ColumnClimb::goBeyond(const Facet& side, const Front& front)
   next.cell >= 0 ? climb(next, front) : send(side, front);
 }
 
-/// To the ranks that have all corners of the side.
+/// Sends a column on to the ranks that have all corners of the side.
 void ColumnClimb::send(const Facet& side, Front front)
 {
   front.side = idsOf(mesh_.mesh(), side.vertices);

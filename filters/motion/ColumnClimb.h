@@ -24,15 +24,17 @@ struct ColumnNodes
   const std::vector<GlobalId>& ids;
   const SharedItems& shared;
   const std::vector<EntityId>& entities; ///< The CAD entities on which nodes are.
-  std::vector<unsigned char> held;       ///< 1: the node stays; none: none does.
-  double leastMove; ///< Of the first height: a wall that moves by less takes nothing along.
-  const EdgeTable* edges = nullptr; ///< Of mid nodes.
-  /// The ends of the lines in whose middles the last nodes are; none: of no node.
+  std::vector<unsigned char> held;       ///< 1: the node stays; empty: no node does.
+  /// A wall that moves by less than this part of the first cell's height takes nothing along.
+  double leastMove;
+  /// The edges whose mid nodes these are; null: the nodes are vertices.
+  const EdgeTable* edges = nullptr;
+  /// The ends of the lines in whose middles the last nodes are; null: there are no such nodes.
   const std::vector<std::array<Index, 2>>* parents = nullptr;
 
-  /// How many a side of a cell has.
+  /// How many nodes a side of a cell has.
   int count(const Facet& side) const { return edges ? side.edges() : side.corners(); }
-  /// At corner k of a side, or between this corner and the next.
+  /// The node at corner k of a side, or, of mid nodes, that between this corner and the next.
   Index at(const Facet& side, int k) const
   {
     const Index corner = side.vertices[k];
@@ -40,7 +42,7 @@ struct ColumnNodes
   }
 };
 
-/// A node that a column comes to, so far above the wall.
+/// A node that a column comes to, and its height above the wall.
 struct ColumnVisit
 {
   Index node;
@@ -58,14 +60,15 @@ public:
   ColumnClimb(const DistributedMesh& mesh, const CellStacks& stacks, const ColumnNodes& nodes,
     const Moves& moves, const std::vector<unsigned char>& onInnerWalls, bool onSurface);
 
-  /// A column that stands on this node of a facet (see ColumnNodes::at), on both sides of it, on a
-  /// surface in the facet's own cell, and ends at the height `reach`; none where its first cell is
-  /// higher than `highest`. On a surface, columns of two cells are told apart by the ways in which
-  /// these go round the side.
+  /// Starts columns that stand on this node of a facet (see ColumnNodes::at), on both sides of it,
+  /// on a surface in the facet's own cell, and end at the height `reach`; none where the first cell
+  /// is higher than `highest`. On a surface, columns of two cells are told apart by the ways in
+  /// which these go round the side.
   void start(const Facet& facet, int place, double highest, double reach);
 
-  /// What the columns come to on this rank: on it, and from others. Collective; messages: one to
-  /// and from each neighbour for every time that columns cross between ranks.
+  /// Lets columns climb on, also from rank to rank, and returns the nodes that they come to on this
+  /// one. Collective; messages: one to and from each neighbour for every time that columns cross
+  /// between ranks.
   std::vector<ColumnVisit> run(RankExchange& exchange);
 
 private:
@@ -75,9 +78,9 @@ private:
   {
     GlobalId column;
     std::array<GlobalId, 4> side;
-    std::int64_t place; ///< Of the node there, see ColumnNodes::at.
+    std::int64_t place; ///< Which node of the side, see ColumnNodes::at.
     double height;
-    double highest; ///< Of the first cell.
+    double highest; ///< Largest height of the first cell.
     double reach;   ///< The column ends at this height.
   };
 
@@ -93,7 +96,7 @@ private:
   const Moves& moves_;
   const std::vector<unsigned char>& onInnerWalls_;
   bool onSurface_;
-  std::vector<std::pair<GlobalId, Index>> vertexOf_; ///< Of the ids of shared vertices.
+  std::vector<std::pair<GlobalId, Index>> vertexOf_; ///< Shared vertices by their ids, ascending.
   std::vector<std::vector<Front>> outgoing_;
   std::vector<ColumnVisit> visited_;
 };

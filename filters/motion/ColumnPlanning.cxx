@@ -20,14 +20,15 @@ namespace
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// A stack that is so many moves high takes all of a move, and no cell of it loses more than 1.5
-/// over this of its height; of a lower one so much less fades out within it.
+/// over this of its height; in a lower one, so much less fades out within it.
 constexpr double heightsOfMove = 6;
-/// Of what fades out: from so much height on it does so smoothly, and the first height stays.
+/// In a column at least so many times as high as what fades out, it does so smoothly, and the first
+/// height stays.
 constexpr double smoothHeights = 2;
 /// The least cosine between a facet's normal and a move across it, not along it.
 constexpr double across = 0.5;
 
-/// Where a column ends: at a moving node, so high up.
+/// The moving node at which a column ends, and its height.
 struct Arrival
 {
   GlobalId end = -1;
@@ -61,8 +62,8 @@ private:
   struct Span
   {
     double first;  ///< Height of the first node.
-    double end;    ///< Of the last one; between walls of that before the facing wall.
-    double height; ///< Of where the column ends, or of the facing wall.
+    double end;    ///< Height of the last node; between walls, of that before the facing wall.
+    double height; ///< Height at which the column ends, or of the facing wall.
     double faded;  ///< Part of the move that has faded out there.
     double smooth; ///< Weight of the smooth way.
   };
@@ -120,7 +121,7 @@ void ColumnPlanning::run(
   }
 }
 
-/// The columns that came to nodes of this rank, and these nodes.
+/// Lists the columns that came to nodes of this rank, and these nodes.
 void ColumnPlanning::listMembers(
   RankExchange& exchange, const std::vector<ColumnVisit>& visits, const Moves& moves)
 {
@@ -155,10 +156,9 @@ void ColumnPlanning::listMembers(
   }
 }
 
-/// Nodes that are to move along their facets only, or by a rounding, and to which a column comes
-/// that moves along them too: they start none themselves. Given the cosines between the moves and
-/// the facets' normals.
-/// Collective.
+/// Finds nodes that are to move along their facets only, or by a rounding, and to which a column
+/// comes that moves along them too: they start none themselves. Given the cosines between the moves
+/// and the facets' normals. Collective.
 void ColumnPlanning::findYielding(
   RankExchange& exchange, const Moves& moves, const std::vector<double>& cosines)
 {
@@ -207,7 +207,7 @@ void ColumnPlanning::findYielding(
   }
 }
 
-/// Collective.
+/// Finds the lifts of columns, given the first edges over their walls. Collective.
 void ColumnPlanning::findLifts(
   RankExchange& exchange, const Moves& moves, const std::vector<FirstEdge>& edges)
 {
@@ -225,7 +225,7 @@ void ColumnPlanning::findLifts(
   combineShared(exchange, columns_.shared, columns_.lifts, nonZero);
 }
 
-/// Which columns have the nodes, given 1 for members that are left out. Collective.
+/// Finds which column has each node, given 1 for members that are left out. Collective.
 std::vector<ColumnPlanning::Claim> ColumnPlanning::findClaims(
   RankExchange& exchange, const Moves& moves, const std::vector<unsigned char>& isLeftOut) const
 {
@@ -243,9 +243,9 @@ std::vector<ColumnPlanning::Claim> ColumnPlanning::findClaims(
   return claims;
 }
 
-/// Pairs of columns of which each ends at the wall of the other one, so near that their moves do
-/// not fade out between them, and which share their nodes with no third column, given the heights
-/// of their tops: 1 for columns of such pairs. Collective.
+/// Finds pairs of columns of which each ends at the wall of the other one, so near that their moves
+/// do not fade out between them, and which share their nodes with no third column, given the
+/// heights of their tops. Returns 1 for columns of such pairs. Collective.
 std::vector<unsigned char> ColumnPlanning::findFacing(RankExchange& exchange, const Moves& moves,
   const std::vector<Claim>& claims, const std::vector<double>& tops)
 {
@@ -311,7 +311,7 @@ std::vector<unsigned char> ColumnPlanning::findFacing(RankExchange& exchange, co
   return faces;
 }
 
-/// Collective.
+/// Finds how the move of each column fades out. Collective.
 std::vector<ColumnPlanning::Span> ColumnPlanning::findSpans(
   RankExchange& exchange, const Moves& moves, const std::vector<Claim>& claims)
 {

@@ -12,7 +12,8 @@ namespace cadrefine
 ///
 /// 1. From each moving node of a wall a column climbs from the facet whose normal is nearest to its
 ///    move, until the stack ends or is a hundred moves high (ColumnClimb).
-/// 2. Of mid nodes, lifts where the first height halfway between two columns is to be kept.
+/// 2. Where nodes are in the middles of lines (ColumnNodes::parents), lifts that keep the first
+///    height halfway between two columns.
 /// 3. Nodes that move along their facets only, or by a rounding, and to which a column comes that
 ///    moves along them too, start none, but go along.
 /// 4. A node that several columns come to is of the one that is lowest there.

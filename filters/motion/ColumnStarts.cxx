@@ -26,7 +26,7 @@ BestFacet better(const BestFacet& a, const BestFacet& b)
   return a.cosine != b.cosine ? (a.cosine > b.cosine ? a : b) : (a.ids < b.ids ? a : b);
 }
 
-/// Of a surface in space: the sides of quadrilaterals that are on CAD edges, once for each cell.
+/// The sides of quadrilaterals of a surface in space that are on CAD edges, once for each cell.
 std::vector<Facet> findSidesOnEdges(const Columns& columns)
 {
   const ColumnNodes& nodes = columns.nodes;
@@ -79,8 +79,8 @@ std::array<GlobalId, 4> sortedIdsOf(const Mesh& mesh, const Facet& facet)
   return ids;
 }
 
-/// For each moving node the facet that its column stands on, none of one that only a rounding
-/// moves. Collective.
+/// For each moving node the facet that its column stands on; none for a node that moves only by a
+/// rounding. Collective.
 std::vector<BestFacet> findBestFacets(
   RankExchange& exchange, const Columns& columns, const Moves& moves)
 {

@@ -9,16 +9,16 @@
 namespace cadrefine
 {
 
-/// A column is so many times as high as the move of its wall, at most: over that the move may fade
+/// A column is at most so many times as high as the move of its wall: over that the move may fade
 /// out, as no height changes by more than some hundredths, and the first one not by one.
 inline constexpr double reachOfMove = 100;
 
 struct ColumnStarts
 {
-  /// Of the nodes, between the move of each and the normal of the facet that its column stands on;
-  /// -1: it has none.
+  /// For each node, the cosine between its move and the normal of the facet that its column stands
+  /// on; -1: it has no column.
   std::vector<double> cosines;
-  std::vector<ColumnVisit> visits; ///< On this rank, see ColumnClimb::run.
+  std::vector<ColumnVisit> visits; ///< What columns come to on this rank, see ColumnClimb::run.
 };
 
 /// Finds the facets of the walls, `columns.facets`, and lets columns climb from those at moving

@@ -12,9 +12,9 @@ namespace cadrefine
 namespace
 {
 
-/// Of a move: one that is in a plane leaves it by less.
+/// A move that is in a plane leaves it by less than this part of its length.
 constexpr double inPlane = 1e-9;
-/// A vertex on the CAD that goes along comes off its way by less of it.
+/// A vertex on the CAD that goes along comes off its way by no more than this part of it.
 constexpr double alongEntity = 0.1;
 
 } // namespace

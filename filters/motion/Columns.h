@@ -19,10 +19,11 @@ struct ColumnMember
   Index node;
   Index column;
   double height;
-  double part; ///< Of the move of the wall's node; the rest is of the facing one's.
+  /// Part of the move of the wall's node that it takes; the rest it takes of the facing node's.
+  double part;
 };
 
-/// Of all columns of this rank.
+/// The moves of the walls' nodes, for each column of this rank.
 struct WallMoves
 {
   std::vector<Vector3> own;
@@ -41,41 +42,45 @@ struct Columns
   ColumnNodes nodes;
   const BoundaryProjector& projector;
   Vector3 plane; ///< See planeNormal.
-  /// Of the mesh's boundary; of a surface in space the sides of quadrilaterals on CAD edges.
+  /// Facets of the mesh's boundary; on a surface in space the sides of quadrilaterals on CAD edges.
   std::vector<Facet> facets = {};
-  std::vector<GlobalId> ids = {}; ///< Ascending: twice the id of the wall's node, 1 more beyond.
-  std::vector<Index> walls = {};  ///< The node of the wall; -1: only other ranks start the column.
+  /// Ids of the columns, ascending: twice the id of the wall's node, and 1 more for that on the
+  /// other side of the wall.
+  std::vector<GlobalId> ids = {};
+  std::vector<Index> walls = {}; ///< The node of the wall; -1: only other ranks start the column.
   /// The node of the wall where a column ends, if another one comes back from there; -1: none, or
   /// only other ranks have it.
   std::vector<Index> facing = {};
-  bool anyFacing = false; ///< On any rank.
-  /// By which the nodes go farther than the wall's, for each length of way that this has to go.
+  bool anyFacing = false; ///< Whether columns face each other, on any rank.
+  /// How much farther the nodes go than the wall's, for each length of way that this has to go.
   std::vector<Vector3> lifts = {};
   SharedItems shared = {};
   std::vector<ColumnMember> members = {};
 
-  bool onSurface() const { return isSurface(mesh.mesh(), plane); } ///< In space.
+  /// Whether the mesh is a surface in space.
+  bool onSurface() const { return isSurface(mesh.mesh(), plane); }
 
-  /// Those of the walls' nodes on this rank or on others, with the lifts. Collective.
+  /// The moves of the walls' nodes, of those on other ranks too, with the lifts. Collective.
   WallMoves movesOfWalls(RankExchange& exchange, const Moves& moves) const;
 
-  /// The moves of the walls over which nodes are, of one of them where there are several, without
-  /// members that are left out (a flag for each). Collective.
+  /// For each node, the move that a column gives it, of one of them where there are several; zero
+  /// where there is none. Without members that are left out (a flag for each). Collective.
   std::vector<Vector3> movesOfNodes(RankExchange& exchange, const WallMoves& ofWalls,
     const std::vector<unsigned char>& isLeftOut) const;
 
-  /// 1 for nodes that are held, and those of a boundary off the CAD that would leave the plane of
-  /// an outer facet. Members that are lost do not count: one column at most moves a node.
+  /// 1 for nodes that cannot go along: those that are held, and those of a boundary off the CAD
+  /// that would leave the plane of an outer facet; on a surface in space, all that are off the CAD.
+  /// Members that are lost (a flag for each) do not count: one column at most moves a node.
   /// Collective.
   std::vector<unsigned char> findBlocked(RankExchange& exchange, const WallMoves& ofWalls,
     const std::vector<unsigned char>& isLost) const;
 
   /// Where a move brings a node that keeps to its entity.
   Point3 placeOf(Index node, const Vector3& move) const;
-  /// Whether that is nearly the whole move.
+  /// Whether placeOf makes nearly the whole move.
   bool keepsDirection(Index node, const Vector3& move) const;
 
-  /// use(node, facet, normal) of all facets.
+  /// Calls use(node, facet, normal) for all nodes of all facets.
   template<class Use>
   void forAllFacets(const Use& use) const
   {
@@ -89,7 +94,7 @@ struct Columns
     }
   }
 
-  /// Of unit length; on a surface in space in its cell.
+  /// The unit normal of a facet; on a surface in space, that of a side, in its cell.
   Vector3 normalOf(const Facet& facet) const;
 
 private:
@@ -97,7 +102,7 @@ private:
     RankExchange& exchange, const Moves& moves, const std::vector<Index>& ofColumns) const;
 };
 
-/// Of what ranks have of a move, of which all but one may be zero.
+/// Of two values that ranks have for a move, the one that is not zero.
 inline const Vector3& nonZero(const Vector3& a, const Vector3& b)
 {
   return a == Vector3{} ? b : a;

@@ -12,9 +12,10 @@ namespace cadrefine
 namespace
 {
 
-/// Of the length of first edges: those that differ by less were made equal.
+/// First edges whose lengths differ by less than this part of them were made equal.
 constexpr double equal = 1e-3;
-/// One that is too short by less of its length stays, as does one by more.
+/// A first edge stays if it is too short by less than `leastLift`, or by more than `mostLift`, of
+/// its wanted length.
 constexpr double leastLift = 1e-3;
 constexpr double mostLift = 0.35;
 
@@ -65,9 +66,10 @@ Vector3 normalNear(const BoundaryProjector& projector, const EntityId& wall, con
   return normalized(along(edge, tangent));
 }
 
-/// The edge over a new node of a wall once it is at `place`, given those over the ends of the line
-/// that it halves, which come to `places`: as long as wanted, and from the normal of the CAD by
-/// their mean. As it goes where there is no one normal, or the boundary holds its upper end.
+/// The edge over a new node of a wall once the node is at `place`, given those over the ends of the
+/// line that it halves, which come to `places`: as long as wanted, and inclined to the normal of
+/// the CAD by the mean of theirs. It keeps its direction where there is no single normal, or the
+/// boundary holds its upper end.
 Vector3 liftedEdge(const FirstEdge& edge, const EntityId& wall, const BoundaryProjector& projector,
   const Point3& place, const std::array<Point3, 2>& places, const std::array<Vector3, 2>& ups)
 {

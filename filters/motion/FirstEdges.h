@@ -15,20 +15,20 @@
 namespace cadrefine
 {
 
-/// From a node of a wall to the first one over it.
+/// The edge from a node of a wall to the first node over it.
 struct FirstEdge
 {
   Vector3 up{}; ///< Zero: there is none.
-  /// As long as it is, or, if it is halfway between two that are equally long, as these.
+  /// Its length, or, if it is halfway between two edges that are equally long, that of these.
   double wantedLength = 0;
-  bool onBoundary = false; ///< Its upper end, too.
-  /// What it will be, once the wall's node has moved: of that length.
+  bool onBoundary = false; ///< Whether its upper end is on the boundary, too.
+  /// The edge once the wall's node has moved, of the wanted length.
   Vector3 lifted{};
 };
 
-/// Over each node of these facets; of several the shortest. `onBoundary`: 1 for nodes there, over
-/// all ranks. Needs the parents of the nodes. Collective. Work: linear in facets and nodes, and
-/// three closest points for each edge that is too short.
+/// Finds the first edge over each node of these facets; of several the shortest. `onBoundary`: 1
+/// for nodes on the boundary, over all ranks. Needs the parents of the nodes. Collective. Work:
+/// linear in facets and nodes, and three closest points for each edge that is too short.
 std::vector<FirstEdge> findFirstEdges(RankExchange& exchange, const CellStacks& stacks,
   const ColumnNodes& nodes, const std::vector<Facet>& facets, const Moves& moves,
   const BoundaryProjector& projector, const std::vector<unsigned char>& onBoundary);

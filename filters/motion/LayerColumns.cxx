@@ -64,7 +64,7 @@ LayerColumns::Followers LayerColumns::follow(RankExchange& exchange, Moves& move
   return followers;
 }
 
-/// use(column, node) of what goes the same part of its way.
+/// Calls use(column, node) for the nodes that go the same part of their way as their column.
 template<class Use>
 void LayerColumns::forAllTied(const Use& use) const
 {

@@ -10,9 +10,9 @@ namespace cadrefine
 
 /// Columns of nodes over the moving nodes of walls, through the wedges, hexahedra or quadrilaterals
 /// that stand on a boundary facet at such a node, on whatever ranks, to where the stack ends, or
-/// another column comes closer to its wall (by height; ties by the ids of the walls' nodes),
-/// or the column is a hundred times as high as the move. Columns of vertices go up edges, those of
-/// mid nodes from edge to edge. Of several facets at the node that counts whose normal is nearest
+/// another column comes closer to its wall (by height; ties by the ids of the walls' nodes), or the
+/// column is a hundred times as high as the move. Columns of vertices go up edges, those of mid
+/// nodes from edge to edge. Of several facets at the node, the one counts whose normal is nearest
 /// to the direction of the move.
 ///
 /// A wall's node takes its column along: the first node of it all the way, so that the height
@@ -35,9 +35,9 @@ namespace cadrefine
 class LayerColumns
 {
 public:
-  /// None, unless some rank has other cells than simplices. `plane`: see planeNormal. `moves`: of
-  /// the nodes. `fixed`: 1 for vertices on the boundary, over all ranks. Keeps references to the
-  /// mesh and to what the nodes refer to. Collective.
+  /// Finds the columns: none, unless some rank has cells that are not simplices. `plane`: see
+  /// planeNormal. `moves`: of the nodes. `fixed`: 1 for vertices on the boundary, over all ranks.
+  /// Keeps references to the mesh and to what the nodes refer to. Collective.
   LayerColumns(RankExchange& exchange, const DistributedMesh& mesh, ColumnNodes nodes,
     const Moves& moves, const BoundaryProjector& projector, const std::vector<unsigned char>& fixed,
     const Vector3& plane);
@@ -48,8 +48,8 @@ public:
   /// Nodes of columns.
   struct Followers
   {
-    std::vector<Index> joining;    ///< Did not move before.
-    std::vector<Index> redirected; ///< Were to move to other places.
+    std::vector<Index> joining;    ///< Nodes that did not move before.
+    std::vector<Index> redirected; ///< Nodes that were to move to other places.
   };
 
   /// Adds the moves of the columns' nodes to those of their walls. Collective.

@@ -20,8 +20,10 @@ namespace
 struct LocalPatch
 {
   Patch patch;
-  std::vector<Index> meshVertex;  ///< Of the patch's vertices that this rank holds.
-  std::vector<Index> patchVertex; ///< Of the mesh's vertices; -1 where it is not in the patch.
+  /// Mesh vertex of each of the patch's vertices that this rank holds.
+  std::vector<Index> meshVertex;
+  /// Patch vertex of each of the mesh's vertices; -1: it is not in the patch.
+  std::vector<Index> patchVertex;
 };
 
 LocalPatch makePatch(const Mesh& mesh, const MovingVertices& vertices, const Vector3& plane)
@@ -235,7 +237,8 @@ void sweep(RankExchange& exchange, const SharedVertices& shared, Patch& patch,
   }
 }
 
-/// Also ranks that hold a vertex, but none of the cells round it, are to know where it is.
+/// The places of this rank's free vertices: also ranks that hold a vertex, but none of the cells
+/// round it, are to know where it is.
 std::vector<VertexPlace> placesOfFree(RankExchange& exchange, const SharedVertices& sharedOfMesh,
   const std::vector<unsigned char>& free, const LocalPatch& local)
 {

@@ -15,9 +15,9 @@ namespace cadrefine
 struct MovingVertices
 {
   std::vector<unsigned char> free;       ///< 1: it may move.
-  const std::vector<EntityId>& entities; ///< Free vertices keep to these.
-  const std::vector<Point3>& wanted;     ///< Where they are, or are to be.
-  const std::vector<Point3>& start;      ///< Where they were in the unmoved mesh.
+  const std::vector<EntityId>& entities; ///< CAD entities to which free vertices keep.
+  const std::vector<Point3>& wanted;     ///< Where the vertices are, or are to be.
+  const std::vector<Point3>& start;      ///< Where the vertices were in the unmoved mesh.
   const std::vector<Index>& cells;       ///< All cells at free vertices, and others.
   double fairQuality;                    ///< See Patch.
 };
@@ -34,8 +34,7 @@ struct VertexPlace
 /// which it has no cell.
 ///
 ///   1. Each rank takes its cells at free vertices, of a pyramid the tetrahedra at the corners of
-///   its
-///      base, which decide whether it is valid, and sends each neighbour those at free vertices
+///      its base, which decide whether it is valid, and sends each neighbour those at free vertices
 ///      that both hold, 232 bytes a cell.
 ///   2. The holders of the vertices of these patches are found (see findSharedVertices).
 ///   3. The sweeps: each costs a reduction, and for every time that vertices wait for other ranks

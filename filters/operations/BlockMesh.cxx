@@ -14,7 +14,7 @@ namespace cadrefine
 namespace
 {
 
-/// Of boundary off the CAD, without tags.
+/// Label of boundary off the CAD without tags.
 constexpr Index wallLabel = -2;
 
 EditableMesh::Kind kindOf(const Mesh& mesh, BoundaryKind boundary)
@@ -106,9 +106,9 @@ EditableMesh::Vertex BlockMesh::vertexOf(Index v) const
     blocksOfVertices_[v] == besideOthers };
 }
 
-/// In the order of their corners. Labels tell their tags apart, and those that are not on the CAD,
-/// whose labels are below 0. Listed ones inside the mesh have labels of their own, so that they
-/// stay.
+/// Adds the facets in the order of their corners. Labels tell their tags apart, and those that are
+/// not on the CAD, whose labels are below 0. Listed facets inside the mesh have labels of their
+/// own, so that they stay.
 void BlockMesh::addFacets(const Members& members)
 {
   std::map<std::array<Index, 3>, LabelledSimplex<3>> facets;
@@ -138,8 +138,8 @@ void BlockMesh::addFacets(const Members& members)
   }
 }
 
-/// The cells of a mesh of triangles. Those of which no surface is known, of a surface off the CAD
-/// or of a mesh in space whose CAD has no faces, have labels of their own, so that they stay.
+/// Adds the cells of a mesh of triangles. Those of which no surface is known, of a surface off the
+/// CAD or of a mesh in space whose CAD has no faces, have labels of their own, so that they stay.
 void BlockMesh::addTriangles(const Members& members, const std::vector<Index>& cells)
 {
   const bool isOfCurves = block_.kind() == EditableMesh::Kind::Plane && block_.plane() == Vector3{};
@@ -229,7 +229,7 @@ Index BlockMesh::lineOf(const std::array<Index, 2>& ends) const
   return common.size() == 1 ? common.front() : -1;
 }
 
-/// Vertices stay between segments of which one is listed, or has another tag.
+/// Makes vertices stay between segments of which only one is listed, or that have different tags.
 void BlockMesh::keepEndsOfTags()
 {
   const auto tagOf = [&](Index segment)

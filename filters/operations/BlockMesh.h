@@ -16,7 +16,8 @@
 namespace cadrefine
 {
 
-/// What must not be mixed: cells, and listed facets and segments, whose labels differ stay apart.
+/// The labels of a piece's cells, and of its listed facets and segments: those of different labels
+/// must not be mixed.
 struct CellLabels
 {
   std::vector<Index> ofTetrahedra;
@@ -24,12 +25,12 @@ struct CellLabels
   std::vector<Index> ofSegments;
 };
 
-/// Numbers of things that belong to a block.
+/// Numbers, in the piece, of what belongs to a block.
 struct Members
 {
-  std::vector<Index> cells;     ///< Of the mesh's own dimension.
-  std::vector<Index> facets;    ///< Of the boundary.
-  std::vector<Index> triangles; ///< Listed ones.
+  std::vector<Index> cells;     ///< Cells of the mesh's own dimension.
+  std::vector<Index> facets;    ///< Facets of the boundary.
+  std::vector<Index> triangles; ///< Listed triangles.
   std::vector<Index> segments;
 };
 
@@ -46,12 +47,12 @@ public:
 
   void fill(const Members& members, const std::vector<GlobalId>& cellIds);
 
-  /// As it is now; once it is filled.
+  /// The block before operations. To be called after `fill`, and before the mesh is changed.
   MeshBefore before() const;
 
   EditableMesh& mesh() { return block_; }
   const EditableMesh& mesh() const { return block_; }
-  /// Of the whole piece, by those here.
+  /// For each vertex of the block, its number in the whole piece.
   const std::vector<Index>& vertices() const { return vertices_; }
 
 private:

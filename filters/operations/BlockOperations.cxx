@@ -23,7 +23,8 @@ namespace cadrefine
 namespace
 {
 
-/// Ids of new vertices: by the order of their blocks, and in a block by that in which they came.
+/// Appends the ids of new vertices: in the order of their blocks, and within a block in the order
+/// in which they were made.
 void numberNewVertices(RankExchange& exchange, const std::vector<std::int64_t>& blocks,
   std::size_t blockCount, DistributedMesh& mesh, std::vector<GlobalId>& ids)
 {
@@ -42,8 +43,8 @@ void numberNewVertices(RankExchange& exchange, const std::vector<std::int64_t>& 
   mesh.vertexIdBound += std::accumulate(counts.begin(), counts.end(), std::int64_t{ 0 });
 }
 
-/// Which of the shared vertices are still shared: those of them that have cells here have these
-/// numbers, the others are below 0. Collective.
+/// The shared vertices that are still shared, by their new `numbers`, which are below 0 for
+/// vertices without cells here. Collective.
 SharedVertices sharedOfKept(
   RankExchange& exchange, const DistributedMesh& mesh, const std::vector<Index>& numbers)
 {
@@ -95,7 +96,7 @@ void moveParameters(const std::vector<Point3>& before, const std::vector<Point3>
   }
 }
 
-/// What each block has, and what is in none.
+/// What belongs to each block, and what belongs to none.
 std::pair<std::map<std::int64_t, Members>, Members> findMembers(const DistributedMesh& mesh,
   const std::vector<std::int64_t>& ofCells, const std::vector<std::int64_t>& ofVertices,
   const DistributedBoundary& boundary)
@@ -188,7 +189,8 @@ std::vector<int> ranksOfBlocks(
   }
   ofCells.resize(firstCellOfDimension(piece, piece.dimension), noBlock); // listed quadrilaterals
   ofCells.insert(ofCells.end(), blocks.ofCells.begin(), blocks.ofCells.end());
-  // Of each block how many cells a rank has, and the rank: the largest number is that of most.
+  // How many cells of each block a rank has, and the rank, in one number: the largest is that of
+  // the rank with most.
   const std::int64_t size = exchange.size();
   const std::int64_t here = size - 1 - exchange.rank();
   std::vector<std::int64_t> shares(blocks.sizes.size(), here);

@@ -19,55 +19,57 @@
 namespace cadrefine
 {
 
-/// Cells that may be operated on.
+/// The cells that may be operated on, in blocks.
 struct OperationBlocks
 {
-  std::vector<std::int64_t> ofCells; ///< Of each cell of the mesh's own dimension; -1: it stays.
-  std::vector<std::int64_t> sizes;   ///< Cells of each block, over all ranks.
+  /// The block of each cell of the mesh's own dimension; -1: the cell stays.
+  std::vector<std::int64_t> ofCells;
+  std::vector<std::int64_t> sizes; ///< Number of cells of each block, over all ranks.
 };
 
 /// How cells become blocks (see findBlocks).
 struct BlockSettings
 {
-  int rings = 1; ///< Of cells round the vertices where something is to be done.
+  int rings = 1; ///< Rings of cells round the vertices where something is to be done.
   int round = 0;
-  std::int64_t largest = 0;             ///< Cells of a block.
-  std::function<bool(Index)> mayChange; ///< Of a cell.
+  std::int64_t largest = 0;             ///< Largest number of cells of a block.
+  std::function<bool(Index)> mayChange; ///< Whether a cell of this number may change.
 };
 
-/// The blocks of the cells round the flagged vertices. Collective; the messages of findBlocks, and
-/// for each ring a byte a shared vertex.
+/// Finds the blocks of the cells round the flagged vertices. Collective; the messages of
+/// findBlocks, and for each ring a byte a shared vertex.
 OperationBlocks findOperationBlocks(RankExchange& exchange, const DistributedMesh& mesh,
   std::vector<unsigned char> flags, const BlockSettings& settings, const ParallelFor& parallelFor);
 
-/// Where all cells are to be so that each block, with the listed cells at its vertices, is on the
-/// rank that has most of it, in the order of makePointSet; empty where it is, on all ranks.
-/// Collective; a reduction of 8 bytes a block.
+/// The rank that each cell, in the order of makePointSet, has to be on so that each block, with the
+/// listed cells at its vertices, is on the rank that has most of it; empty on all ranks if it is
+/// already. Collective; a reduction of 8 bytes a block.
 std::vector<int> ranksOfBlocks(
   RankExchange& exchange, const DistributedMesh& mesh, const OperationBlocks& blocks);
 
-/// What is done with the cells of a block; a function of these alone, called on several threads.
+/// What is done with the cells of a block: a function of these alone, called on several threads.
 using BlockWork = std::function<OperationResult(BlockMesh&, const SurfaceRule&)>;
 
-/// What is to be done.
+/// What operateOnBlocks is to do.
 struct OperationTask
 {
-  const OperationBlocks& blocks;     ///< Each on one rank: see ranksOfBlocks.
+  const OperationBlocks& blocks;     ///< Blocks, each on one rank: see ranksOfBlocks.
   const std::vector<Point3>& wanted; ///< Where the vertices are wanted; they need not be there.
   const CellLabels& labels;
   const BlockWork& work;
   CellRowKinds rows = {};
 };
 
-/// What operations made of a mesh: it was refined (though some cells have no children), and of the
-/// vertices then these are left. Without operations the mesh is as it was, and the rest empty.
+/// What operations made of a mesh, as if it had been refined (though some cells have no children)
+/// and had then lost the vertices that are not kept. Without operations the mesh is as it was, and
+/// all but the seconds is empty.
 struct OperationTrace
 {
   RefinementTrace cells;
-  std::vector<unsigned char> onBoundary; ///< Of new vertices.
-  std::vector<Index> keptVertices;       ///< Of the old and the new ones.
-  std::int64_t operations = 0;           ///< Over all ranks.
-  double seconds = 0; ///< Of the task's work, on this rank, of all threads together.
+  std::vector<unsigned char> onBoundary; ///< 1 for each new vertex on the boundary.
+  std::vector<Index> keptVertices;       ///< Those of the old and the new vertices that are left.
+  std::int64_t operations = 0;           ///< Number of operations, over all ranks.
+  double seconds = 0; ///< Time of the task's work on this rank, of all threads together.
 };
 
 /// Works on the cells of each block (see improveCells), with the vertices that it shares with

@@ -12,7 +12,8 @@ namespace
 
 constexpr int levels = 20;
 
-/// The octant of the finest level that a point lies in: three bits a level, the coarsest first.
+/// Finds the octant of the finest level that a point lies in, as three bits a level, the coarsest
+/// first.
 class Octants
 {
 public:

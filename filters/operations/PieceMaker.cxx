@@ -11,8 +11,9 @@ namespace cadrefine
 namespace
 {
 
-/// Of these cells those that are kept, and in the places of others their descendants, those of one
-/// in the order in which they came; where those of each begin. Sorts the descendants by parents.
+/// Puts together the cells that are kept and, in place of the others, their descendants, those of
+/// one cell in the order in which they came. `firsts`: where the descendants of each cell begin.
+/// Sorts the descendants by parents.
 template<std::size_t Corners>
 void merge(const Cells<Corners>& cells, const std::vector<Index>& kept,
   std::vector<Descendant<Corners>>& descendants, Cells<Corners>& result, std::vector<Index>& firsts)
@@ -40,7 +41,7 @@ void merge(const Cells<Corners>& cells, const std::vector<Index>& kept,
   firsts.push_back(static_cast<Index>(result.size()));
 }
 
-/// Adds rows with other targets and sources.
+/// Appends rows, with targets and sources mapped by functions.
 template<class Target, class Source>
 void append(
   const WeightedRows& rows, const Target& targetOf, const Source& sourceOf, WeightedRows& into)
@@ -62,7 +63,7 @@ struct PlacedRow
   Index row;
 };
 
-/// These rows, in this order, from sources after `firstSource`; none of none.
+/// These rows in this order, with `firstSource` added to their sources; empty if there are none.
 WeightedRows inOrder(
   const WeightedRows& rows, const std::vector<PlacedRow>& order, Index firstSource)
 {
@@ -128,7 +129,8 @@ void PieceMaker::add(const BlockMesh& block, const std::vector<AddedVertex>& add
   addRows(block, vertices, rows);
 }
 
-/// Those of cells get their targets when the cells have their numbers.
+/// Adds the rows of a block. Those of cells get their targets later, when the cells have their
+/// numbers.
 void PieceMaker::addRows(
   const BlockMesh& block, const std::vector<Index>& vertices, const FieldRows& rows)
 {
@@ -175,7 +177,7 @@ Mesh PieceMaker::make(RefinementTrace& trace)
   return result;
 }
 
-/// In the order of their targets.
+/// Writes the rows into the trace, in the order of their targets.
 void PieceMaker::placeRows(const Mesh& made, RefinementTrace& trace) const
 {
   std::vector<PlacedRow> ofVertices;
@@ -209,7 +211,7 @@ void PieceMaker::placeRows(const Mesh& made, RefinementTrace& trace) const
   trace.ofDensities = inOrder(rows_.ofDensities, ofCells, firstSource);
 }
 
-/// By ids, which grow with the numbers of new vertices.
+/// Whether vertex `a` has the smaller id; the ids of new vertices grow with their numbers.
 bool PieceMaker::comesBefore(Index a, Index b) const
 {
   const auto old = static_cast<Index>(mesh_.ids.size());

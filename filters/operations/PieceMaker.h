@@ -1,4 +1,4 @@
-// A piece put together anew after operations on its blocks.
+// Puts a piece together again after operations on its blocks.
 #pragma once
 
 #include "operations/BlockMesh.h"
@@ -20,10 +20,10 @@ struct Descendant
 {
   Index parent;
   std::array<Index, Corners> corners;
-  Index row = -1; ///< Of the rows of cells; -1: it has none.
+  Index row = -1; ///< Its row among the rows of cells; -1: it has none.
 };
 
-/// Takes what is in no block, and what the blocks have become.
+/// Makes a piece of what is in no block, and of what the blocks have become.
 class PieceMaker
 {
 public:
@@ -33,18 +33,20 @@ public:
   {
   }
 
-  /// A block of this number, to which these vertices were added, and whose fields follow these
-  /// rows.
+  /// Adds the block of this number, to which these vertices were added, and whose fields follow
+  /// these rows.
   void add(const BlockMesh& block, const std::vector<AddedVertex>& added, const FieldRows& rows,
     std::int64_t number);
 
-  /// Of the new vertices, in the order of their numbers.
+  /// For each new vertex, in the order of their numbers: its place on the CAD, whether it is on the
+  /// boundary, and the block that made it.
   const std::vector<ClosestPoint>& places() const { return places_; }
   const std::vector<unsigned char>& onBoundary() const { return onBoundary_; }
   const std::vector<std::int64_t>& blocks() const { return blocks_; }
 
-  /// With all vertices, also those that no cell has any more; no ids of new ones. Writes where
-  /// cells and fields come from into the trace. Once. Work: one look at each cell.
+  /// Makes the piece, with all vertices, also those that no cell has any more, and without the ids
+  /// of new ones. Writes where cells and fields come from into the trace. To be called once. Work:
+  /// one look at each cell.
   Mesh make(RefinementTrace& trace);
 
 private:
@@ -62,7 +64,8 @@ private:
   std::vector<Descendant<4>> tetrahedra_;
   std::vector<Descendant<3>> triangles_;
   std::vector<Descendant<2>> segments_;
-  FieldRows rows_; ///< Of cells: in any order, without targets, from parents.
+  /// Rows of the blocks; those of cells are in any order, without targets, from parents.
+  FieldRows rows_;
 };
 
 } // namespace cadrefine

@@ -21,7 +21,7 @@ std::int64_t joined(std::int64_t a, std::int64_t b)
   return manyBlocks;
 }
 
-/// use(corners) of the edges, or of the triangles, of all simplices of blocks.
+/// Calls use(corners) for the edges, or the triangles, of all simplices of blocks.
 template<std::size_t Corners, class Use>
 void forSidesInBlocks(const Mesh& mesh, const std::vector<std::int64_t>& ofCells, const Use& use)
 {
@@ -58,8 +58,8 @@ void forSidesInBlocks(const Mesh& mesh, const std::vector<std::int64_t>& ofCells
     });
 }
 
-/// Makes the vertices of these `count` listed cells stay, but for those of sides of cells in
-/// blocks. Returns whether there are any.
+/// Makes the vertices of the first `count` listed cells stay, except for listed cells that are
+/// sides of cells in blocks. Returns whether there are any that stay.
 template<std::size_t Corners>
 bool holdStrays(const Mesh& mesh, const std::vector<std::int64_t>& ofCells,
   const Cells<Corners>& listed, std::size_t count, std::vector<std::int64_t>& ofVertices)

@@ -1,4 +1,4 @@
-// The block that the cells at a vertex are of.
+// The block to which the cells at a vertex belong.
 #pragma once
 
 #include "mesh/DistributedMesh.h"
@@ -11,16 +11,16 @@
 namespace cadrefine
 {
 
-/// Of a cell: it stays.
+/// In place of the block of a cell: the cell stays.
 constexpr std::int64_t noBlock = -1;
-/// Of a vertex: it stays, as its cells are not all of one block.
+/// In place of the block of a vertex: it stays, as its cells are not all of one block.
 constexpr std::int64_t manyBlocks = -2;
-/// Of a vertex: it stays, as it has cells that are not simplices.
+/// In place of the block of a vertex: it stays, as it has cells that are not simplices.
 constexpr std::int64_t besideOthers = -3;
 
-/// The block that all cells at a vertex, of all ranks, are of; negative where it stays: where some
-/// are of none or of another, or not simplices, where there are none, and where it is listed.
-/// Collective; 8 bytes a shared vertex.
+/// For each vertex, the block to which all cells at it belong, on all ranks; negative if the vertex
+/// stays: if some of these cells belong to no block, to another one or are not simplices, if there
+/// are none, and if the vertex is listed. Collective; 8 bytes a shared vertex.
 std::vector<std::int64_t> blocksOfVertices(
   RankExchange& exchange, const DistributedMesh& mesh, const std::vector<std::int64_t>& ofCells);
 
@@ -31,12 +31,12 @@ std::vector<std::int64_t> blocksOfVertices(
 void holdStrays(RankExchange& exchange, const DistributedMesh& mesh,
   const std::vector<std::int64_t>& ofCells, std::vector<std::int64_t>& ofVertices);
 
-/// Marks the vertices of cells that are not simplices, but for those where a listed segment of no
-/// block ends, on whatever rank. Collective; 16 bytes a shared vertex.
+/// Sets vertices of cells that are not simplices to `besideOthers`, except those where a listed
+/// segment of no block ends, on whatever rank. Collective; 16 bytes a shared vertex.
 void markBesideOthers(
   RankExchange& exchange, const DistributedMesh& mesh, std::vector<std::int64_t>& ofVertices);
 
-/// The block of a cell of lower dimension: that which one of its vertices is within.
+/// The block of a cell of lower dimension, that of any vertex that is within a block; else noBlock.
 template<std::size_t Corners>
 std::int64_t blockOf(
   const std::array<Index, Corners>& corners, const std::vector<std::int64_t>& ofVertices)
@@ -51,7 +51,7 @@ std::int64_t blockOf(
   return noBlock;
 }
 
-/// How many triangles are no cells of the mesh's own dimension.
+/// How many of a mesh's triangles are not cells of its own dimension.
 std::size_t listedTriangles(const Mesh& mesh);
 
 } // namespace cadrefine

@@ -19,10 +19,10 @@ using Freedom = EditableMesh::Freedom;
 enum class EdgePlace : unsigned char
 {
   Inside,
-  OnFace,  ///< Of the CAD.
-  OnEdge,  ///< Of the CAD.
-  OnWall,  ///< Of flat boundary that is not on the CAD.
-  OnCrease ///< Of boundary that is not on the CAD.
+  OnFace,  ///< On a CAD face.
+  OnEdge,  ///< On a CAD edge.
+  OnWall,  ///< In flat boundary that is not on the CAD.
+  OnCrease ///< A crease of boundary that is not on the CAD.
 };
 
 class VertexRemoval
@@ -86,7 +86,7 @@ private:
   static constexpr unsigned char remainingNeighbour = 1;
   static constexpr unsigned char openNeighbour = 2;
 
-  /// Collective.
+  /// How each edge of the piece lies in the boundary of the whole mesh. Collective.
   std::vector<EdgePlace> placesOfEdges()
   {
     const DistributedBoundary& boundary = boundary_.boundary;
@@ -114,7 +114,7 @@ private:
     return isFlat ? EdgePlace::OnWall : EdgePlace::OnCrease;
   }
 
-  /// Collective.
+  /// How freely each vertex may go; not at all without its flag in `mayGo`. Collective.
   std::vector<Freedom> freedomsOfVertices(const std::vector<unsigned char>& mayGo)
   {
     std::vector<unsigned char> has(mayGo.size(), 0); // a bit for each place of an edge at a vertex
@@ -197,7 +197,7 @@ private:
       } };
   }
 
-  /// Those that may go, in the order in which they are decided on.
+  /// The vertices that may go, in the order in which they are decided on.
   std::vector<Index> candidates() const
   {
     std::vector<Index> vertices;
@@ -223,7 +223,7 @@ private:
     return isShared;
   }
 
-  /// What of its neighbours here decides on a vertex.
+  /// Whether a vertex has neighbours on this rank that remain, and that are still open.
   unsigned char look(Index vertex) const
   {
     unsigned char seen = 0;

@@ -21,9 +21,9 @@ namespace cadrefine
 /// set is unique, the same on any number of ranks. Vertices of uniform refinement have larger ids
 /// than those before it, and go.
 ///
-/// Of a classified mesh. Collective. Work: linear in the cells but for sorts; messages: those of
-/// findSharedEdges, and a byte a shared vertex and a reduction for each time that a decision has to
-/// wait for another rank's. (D. Ibanez, "Conformal mesh adaptation on heterogeneous
+/// The mesh must be classified. Collective. Work: linear in the cells but for sorts; messages:
+/// those of findSharedEdges, and a byte a shared vertex and a reduction for each time that a
+/// decision has to wait for another rank's. (D. Ibanez, "Conformal mesh adaptation on heterogeneous
 /// supercomputers", RPI 2016, chapter on independent sets; G. Miller, D. Talmor, S.-H. Teng,
 /// "Optimal coarsening of unstructured meshes", J. Algorithms 31, 1999.)
 std::vector<unsigned char> verticesToRemove(RankExchange& exchange, const DistributedMesh& mesh,

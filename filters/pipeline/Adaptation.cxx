@@ -70,7 +70,8 @@ public:
   }
 
 private:
-  static constexpr double partOfMeasuring = 0.7; ///< Of a step, where it begins.
+  /// Part of a step's progress at which measuring begins.
+  static constexpr double partOfMeasuring = 0.7;
 
   Progress& progress() const { return exchange_.progress(); }
 
@@ -83,7 +84,7 @@ private:
 
   bool isUniform() const { return steps_ < options_.uniformSteps || options_.refinement.uniform; }
 
-  /// Says its name; the part of it in the progress.
+  /// Begins a step: says its name, and returns its part of the progress.
   Progress::Part beginStep(std::int64_t step, const std::string& name)
   {
     costs_.clear();
@@ -118,7 +119,7 @@ private:
     }
   }
 
-  /// Step 0.
+  /// Makes step 0, in which the input is projected or taken as it is.
   void begin(vtkPointSet* input)
   {
     const Progress::Part step = beginStep(0, options_.startProjected ? "Input" : "Projection");
@@ -147,7 +148,7 @@ private:
       });
   }
 
-  /// Cells of second order can be measured alone.
+  /// Reads a mesh that is projected already. Cells of second order can only be measured.
   void takeProjected(vtkPointSet* input)
   {
     const bool isMeasuredAlone = mostSteps() == 0 && !options_.quadraticCells;
@@ -158,7 +159,7 @@ private:
     summariseProjection(exchange_, state_.mesh, *state_.classification, 0, ofMesh);
   }
 
-  /// The mesh that a step has made.
+  /// Measures the mesh that a step has made.
   void measure(std::int64_t markedCells)
   {
     const Progress::Part part(progress(), partOfMeasuring, 1);
@@ -199,7 +200,7 @@ private:
     return outcome;
   }
 
-  /// What keeps cells from being coarsened, by the values of the mesh as it is.
+  /// The criteria that keep cells from being coarsened, by the values of the mesh as it is.
   std::vector<MarkingCriterion> criteriaToKeep()
   {
     std::vector<MarkingCriterion> criteria;
@@ -222,7 +223,7 @@ private:
     return criteria;
   }
 
-  /// Returns whether the mesh has changed.
+  /// Coarsens cells that none of the criteria marks. Returns whether the mesh has changed.
   bool coarsen(std::vector<MarkingCriterion> criteria)
   {
     CoarseningOptions options;
@@ -268,7 +269,7 @@ private:
     return "";
   }
 
-  /// The step after all others.
+  /// Makes the step after all others, in which cells become quadratic.
   void makeQuadratic()
   {
     const Progress::Part step = beginStep(1 + mostSteps(), "Quadratic cells");
@@ -301,7 +302,7 @@ private:
       statisticsOf(kind) });
   }
 
-  /// See AdaptationStep.
+  /// The statistics of a step, see AdaptationStep.
   std::string statisticsOf(const char* kind)
   {
     std::ostringstream text;
@@ -332,8 +333,8 @@ private:
   ConvergenceTable table_;
   std::string fitReport_;
   std::int64_t steps_ = 0;
-  std::map<std::string, RunStatistics> costs_; ///< Of the step, by phase.
-  RunStatistics seconds_;                      ///< The same, of this rank.
+  std::map<std::string, RunStatistics> costs_; ///< Costs of the step, by phase.
+  RunStatistics seconds_;                      ///< Seconds of its phases, on this rank.
   MeshWithBoundary told_;                      ///< The mesh as it is, where it was told of.
   int toldSteps_ = 0;
 };

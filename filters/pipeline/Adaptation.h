@@ -18,16 +18,16 @@ struct AdaptationOptions
 {
   bool startProjected = false; ///< The input has its places on the CAD, and keeps them.
   ProjectionOptions projection;
-  int recursionDepth = 0; ///< Of the error; 0: automatic.
+  int recursionDepth = 0; ///< Depth of the error; 0: automatic.
   /// One level a step; `maximumCells` is that of the whole adaptation.
   RefinementOptions refinement;
-  int uniformSteps = 0; ///< All cells, before those of `refinement`.
-  int maximumSteps = 0; ///< Of `refinement`.
+  int uniformSteps = 0; ///< Steps that cut all cells, before those of `refinement`.
+  int maximumSteps = 0; ///< Largest number of steps of `refinement`.
   /// Above 0: after each step of `refinement` cells are coarsened (see coarsenMesh) that have
   /// values below this part of the smallest that each criterion marks, with `targetError`; and
   /// there is at least one step.
   double coarseningFraction = 0;
-  double targetError = 0;      ///< Global; 0: none.
+  double targetError = 0;      ///< Target of the global geometric error; 0: none.
   bool quadraticCells = false; ///< In the end make the cells quadratic, in a step of its own.
   bool boundaryCells = false;  ///< See makeDataSetWithBoundary.
   FieldNeeds fieldNeeds;
@@ -36,10 +36,10 @@ struct AdaptationOptions
 /// A step that has been made.
 struct AdaptationStep
 {
-  vtkPointSet* mesh;               ///< With its error.
-  const FieldMapping& mapping;     ///< From the input.
-  const ArraySelection& selection; ///< From the end of the mapping to the mesh.
-  vtkTable* table;                 ///< Up to this step.
+  vtkPointSet* mesh;               ///< The mesh of the step, with its error.
+  const FieldMapping& mapping;     ///< The way of arrays from the input.
+  const ArraySelection& selection; ///< What leads from the end of the mapping to the mesh.
+  vtkTable* table;                 ///< With the rows up to this step.
   const std::string& fitReport;
   /// A JSON object: "step", its number from 0; "kind": "projection", "input" (of a mesh that was
   /// projected already), "uniform", "longest-edge" or "quadratic"; "seconds" and "costs" (as

@@ -90,7 +90,8 @@ std::vector<Value> taken(const std::vector<Value>& values, const std::vector<Pla
   return result;
 }
 
-/// Those on these faces, or all where none are named, as cells are numbered: triangles first.
+/// The facets of the boundary on these faces, or all where none are named, in the order in which
+/// cells are numbered: triangles first. Throws Error where there are none on these faces.
 /// Collective.
 ClassifiedFacets facetsAmong(
   const PipelineContext& context, MeshState& state, const std::vector<std::string>& faces)
@@ -138,8 +139,8 @@ struct Sides
   std::vector<unsigned char> listed; ///< 1 where this rank or another lists it as a cell.
 };
 
-/// Facets know their entities, listed cells are to have those of their facets, whichever rank these
-/// are on. Collective.
+/// Finds the entities of sides: facets know theirs, listed cells get those of their facets,
+/// whichever rank these are on. Collective.
 Sides compareWithListed(RankExchange& exchange, const DistributedMesh& mesh,
   const DistributedBoundary& boundary, const std::vector<EntityId>& ofFacets)
 {
@@ -176,7 +177,7 @@ Sides compareWithListed(RankExchange& exchange, const DistributedMesh& mesh,
   return { taken(entities, placeOf), taken(isListed, placeOf) };
 }
 
-/// Ids after those of all cells of the mesh.
+/// Global ids for facets, after those of all cells of the mesh.
 std::vector<GlobalId> newIds(
   RankExchange& exchange, const DistributedMesh& mesh, const std::vector<Facet>& facets)
 {
@@ -192,8 +193,8 @@ std::vector<GlobalId> newIds(
   return ids;
 }
 
-/// Begins at its smallest id, as VTK has the sides of cells when it draws them: both are drawn
-/// alike, then, and colours are those of the cells.
+/// The facet, turned so that it begins at its smallest id, as VTK has the sides of cells when it
+/// draws them: both are drawn alike, then, and colours are those of the cells.
 Facet fromSmallestId(Facet facet, const std::vector<GlobalId>& ids)
 {
   Index* first = facet.vertices.data();
@@ -232,7 +233,7 @@ void removeLast(Shape shape, ConvertedMesh& converted, std::size_t count)
   }
 }
 
-/// See makeDataSetWithBoundary. `Shapes` are those of facets.
+/// Does makeDataSetWithBoundary where facets are sides of cells. `Shapes` are those of facets.
 template<class... Shapes>
 MeshWithBoundary makeWithFacets(const PipelineContext& context, MeshState& state,
   const std::vector<EntityId>& ofFacets, Shapes... shapes)
@@ -308,7 +309,7 @@ MeshWithBoundary makeWithFacets(const PipelineContext& context, MeshState& state
   return result;
 }
 
-/// The same of a mesh of triangles in space.
+/// Does makeDataSetWithBoundary for a mesh of triangles in space, whose facets are its cells.
 MeshWithBoundary makeWithFaces(
   const PipelineContext& context, MeshState& state, const std::vector<EntityId>& ofFacets)
 {

@@ -30,14 +30,15 @@ constexpr int maximumRounds = 6;
 constexpr int ringsOfCells = 3;
 /// Cells below this are operated on in the neighbourhood of those below the user's limit.
 constexpr double aim = 0.3;
-/// Cells are cut so many times at most, each time in so many tries if one is not worth it, for so
-/// many new cells for each bad one that is gone, or for one new cell in so many.
+/// Cells are cut at most `maximumCuts` times, each time in up to `mostTries` tries if one is not
+/// worth it. It is worth up to `newCellsForOne` new cells for each bad one that is gone, or one new
+/// cell for each `cellsForOneNew` cells.
 constexpr int maximumCuts = 8;
 constexpr int mostTries = 4;
 constexpr std::int64_t newCellsForOne = 300;
 constexpr std::int64_t cellsForOneNew = 4;
-/// Where no vertex is off the CAD, there are so many times as many cells at most, or so many, and
-/// nothing is cut if more than one cell in so many is bad.
+/// Where no vertex is off the CAD, there may be up to `largestGrowth` times as many cells, or
+/// `fewCells`, and nothing is cut if more than one cell in `cellsForOneBad` is bad.
 constexpr std::int64_t largestGrowth = 2;
 constexpr std::int64_t fewCells = 5500;
 constexpr std::int64_t cellsForOneBad = 3;
@@ -72,21 +73,22 @@ public:
   }
 
 private:
-  /// What is not as it should be, over all ranks.
+  /// What is not yet as it should be, over all ranks.
   struct Left
   {
     std::int64_t verticesOff = 0;
     std::int64_t badCells = 0;
-    std::int64_t cells = 0; ///< All there are.
+    std::int64_t cells = 0; ///< All simplices of the mesh's own dimension.
 
     std::int64_t count() const { return verticesOff + badCells; }
     bool operator==(const Left& other) const
     {
       return verticesOff == other.verticesOff && badCells == other.badCells && cells == other.cells;
     }
-    /// Else the minimum is more than the mesh can have: cutting would go on in all of it.
+    /// Whether few cells are bad. Else the minimum is more than the mesh can have: cutting would go
+    /// on in all of it.
     bool areFewBad() const { return badCells > 0 && badCells <= cells / cellsForOneBad; }
-    /// Whether it is so much less than before that it is worth the new cells.
+    /// Whether so much less is left than before that it is worth the new cells.
     bool isWorthwhile(const Left& before, std::int64_t mostCells) const
     {
       return verticesOff < before.verticesOff ||
@@ -130,8 +132,9 @@ private:
     std::size_t stages_;
   };
 
-  /// As long as that brings something. While vertices are off, one round that brings nothing may be
-  /// followed by one that does, as it smooths in the other way.
+  /// Does rounds of operations as long as that brings something, and returns what is left. While
+  /// vertices are off, one round that brings nothing may be followed by one that does, as it
+  /// smooths in the other way.
   Left operateInRounds()
   {
     std::int64_t least = std::numeric_limits<std::int64_t>::max();
@@ -157,8 +160,9 @@ private:
     }
   }
 
-  /// Cuts until less is left, worth the new cells; where that does not come, the mesh is as it was.
-  /// Where operations take back what is cut, cells are cut once more before the next ones.
+  /// Cuts until so much less is left that it is worth the new cells, and returns true; where that
+  /// does not come, false, with the mesh as it was. Where operations take back what is cut, cells
+  /// are cut once more before the next ones.
   bool cutUntilWorthwhile(Left& left, std::int64_t mostCells)
   {
     const Backup before(state_);
@@ -213,7 +217,7 @@ private:
 
   Mesh& mesh() { return state_.mesh.mesh(); }
 
-  /// Collective.
+  /// Where the vertices are wanted (see wantedPoints). Collective.
   std::vector<Point3> wanted()
   {
     return wantedPoints(
@@ -222,11 +226,12 @@ private:
 
   struct Bad
   {
-    std::vector<unsigned char> vertices; ///< 1: of a bad cell, or not where it is wanted.
+    /// 1: a vertex of a bad cell, or one that is not where it is wanted.
+    std::vector<unsigned char> vertices;
     Left left;
   };
 
-  /// Vertices off the CAD, and cells that are badly shaped once they are on it. Collective.
+  /// Finds vertices off the CAD, and cells that are badly shaped once they are on it. Collective.
   Bad findBad()
   {
     const auto& distances = state_.classification->distances;
@@ -248,8 +253,8 @@ private:
     return { std::move(flags), { counts[0], counts[1], counts[2] } };
   }
 
-  /// Whether the mean ratio is below the minimum: with tetrahedra, of which there are most, by the
-  /// cubes of both.
+  /// Whether a cell's mean ratio is below the minimum: for tetrahedra, of which there are most, by
+  /// the cubes of both.
   bool isBad(const std::array<Index, 4>& cell, const std::vector<Point3>& points) const
   {
     const auto& [a, b, c, d] = cell;
@@ -286,7 +291,8 @@ private:
              [&](Index vertex) { return options_.inRegion(state_.mesh.mesh().points[vertex]); });
   }
 
-  /// Where a vertex is on the way to the CAD, those in flat walls beside it may go.
+  /// The limits for a block: where a vertex is on the way to the CAD, those in flat walls beside it
+  /// may go.
   ImprovementLimits limitsFor(const EditableMesh& block) const
   {
     ImprovementLimits limits{ std::max(options_.minimumQuality, aim), options_.minimumQuality,
@@ -302,7 +308,8 @@ private:
     return limits;
   }
 
-  /// Returns whether cells have changed.
+  /// Does a round of operations on the cells round flagged vertices. Returns whether cells have
+  /// changed.
   bool improve(const std::vector<unsigned char>& flags, int round)
   {
     const std::int64_t operations = operateOnMesh(context_, state_, flags,
@@ -318,8 +325,8 @@ private:
     return operations > 0;
   }
 
-  /// Vertices that stopped on the way to the CAD try again. Rounds smooth in turns for the worst
-  /// cell and for most cells: where the one leaves vertices, the other may not.
+  /// Lets vertices that stopped on the way to the CAD try again. Rounds smooth in turns for the
+  /// worst cell and for most cells: where the one leaves vertices, the other may not.
   void moveOn(bool smoothWorst)
   {
     Classification& classification = *state_.classification;

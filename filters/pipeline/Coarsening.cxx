@@ -26,7 +26,8 @@ namespace
 {
 
 /// What is to become of vertices in this level (VertexFate); it goes along where cells are sent to
-/// other ranks. The mean of two is no more than either, so that of new vertices no more go.
+/// other ranks. A new vertex gets the fate of that end of its edge with the smaller id (see
+/// refineArrays).
 constexpr const char* fatesArray = "cadrefine:fates";
 constexpr int maximumRounds = 8;
 
@@ -50,7 +51,7 @@ public:
   }
 
 private:
-  /// A level. Returns whether vertices went.
+  /// Coarsens by one level. Returns whether vertices went.
   bool coarsenOnce(int level)
   {
     const Progress::Part part(exchange_.progress(), static_cast<double>(level) / options_.levels,
@@ -75,7 +76,8 @@ private:
     return gone > 0;
   }
 
-  /// Those all of whose cells are simplices and not marked. Collective.
+  /// 1 for vertices that are not listed and all of whose cells are simplices and not marked.
+  /// Collective.
   std::vector<unsigned char> verticesThatMayGo()
   {
     const Mesh& mesh = state_.mesh.mesh();
@@ -127,7 +129,7 @@ private:
     state_.arrays.ofVertices->AddArray(array);
   }
 
-  /// Of each vertex; null where there is none.
+  /// The fate of each vertex; null where there is no such array.
   VertexFate* fates() const
   {
     auto* array =
@@ -169,7 +171,7 @@ private:
     return true;
   }
 
-  /// Over all ranks. Collective.
+  /// The number of vertices with this fate, over all ranks. Collective.
   std::int64_t countFates(VertexFate fate)
   {
     const std::vector<char> owned = state_.mesh.ownedPoints();
@@ -181,7 +183,8 @@ private:
     return exchange_.sum(count);
   }
 
-  /// In rounds, as long as the one before took out a hundredth of what was left, at least.
+  /// Takes out flagged vertices in rounds, as long as the one before took out at least a hundredth
+  /// of what was left.
   void takeOutFlagged()
   {
     std::int64_t before = std::numeric_limits<std::int64_t>::max();
@@ -197,7 +200,7 @@ private:
     }
   }
 
-  /// A round of collapses, of so many flagged vertices.
+  /// Makes a round of collapses; `left` vertices are flagged.
   void takeOut(int round, std::int64_t left)
   {
     std::vector<unsigned char> flagged(state_.mesh.mesh().points.size());
@@ -233,10 +236,10 @@ private:
   /// many.
   bool isCounted() const { return options_.criteria.empty() && options_.targetError > 0; }
 
-  /// Over all ranks. Collective.
+  /// The number of simplices of the mesh's own dimension, over all ranks. Collective.
   std::int64_t countSimplices() { return exchange_.sum(countOwnSimplices(state_.mesh.mesh())); }
 
-  /// For so many flagged vertices. Collective.
+  /// The limits of a round in which `left` vertices are flagged. Collective.
   CoarseningLimits findLimits(std::int64_t left)
   {
     constexpr double infinity = std::numeric_limits<double>::infinity();

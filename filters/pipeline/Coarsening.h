@@ -17,8 +17,8 @@ struct CoarseningOptions
   std::vector<MarkingCriterion> criteria;
   double targetError = 0;     ///< The global geometric error stays at most this large; 0: not used.
   double maximumDistance = 0; ///< New facets are no farther from the CAD; 0: not used.
-  double minimumQuality = 0.1;      ///< See improveMesh.
-  std::int64_t largestBlock = 8192; ///< Cells of a block.
+  double minimumQuality = 0.1;      ///< The minimum of improveMesh.
+  std::int64_t largestBlock = 8192; ///< Largest number of cells of a block.
 };
 
 /// Coarsens a classified mesh, level by level: of the vertices none of whose cells is marked, those

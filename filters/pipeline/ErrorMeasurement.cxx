@@ -18,8 +18,8 @@ namespace cadrefine
 namespace
 {
 
-/// Of the cube of the largest chord error: a facet that misses the CAD by its chords has a larger
-/// volume before it.
+/// An error below this part of the cube of the largest chord error is none: a facet that misses the
+/// CAD by its chords has a larger volume before it.
 constexpr double negligible = 1e-6;
 
 void addErrors(MeshState& state, const MeshError& error)

@@ -10,8 +10,8 @@ namespace cadrefine
 {
 
 /// Measures the error of a classified mesh (see measureError) on these CAD faces (see
-/// selectEntities; none: on all): cell arrays and field data. Collective. Throws Error for points
-/// alone.
+/// selectEntities; empty: on all), and adds it as cell arrays and field data. Collective. Throws
+/// Error for points alone.
 void measureMesh(const PipelineContext& context, MeshState& state, int recursionDepth,
   const std::vector<std::string>& faces);
 

@@ -18,7 +18,7 @@ namespace cadrefine
 namespace
 {
 
-constexpr std::size_t mostLines = 10; ///< Of points.
+constexpr std::size_t mostLines = 10; ///< Most lines of points in a report.
 
 struct UnitPair
 {
@@ -53,7 +53,7 @@ std::optional<UnitPair> likelyUnits(double ratio, const std::string& cadUnit)
   return found;
 }
 
-/// Empty where the boxes suggest nothing.
+/// What the boxes suggest of the units; empty where that is nothing.
 std::string describeUnits(double ratio, const std::string& cadUnit)
 {
   const auto likely = likelyUnits(ratio, cadUnit);
@@ -105,7 +105,7 @@ std::string describeShares(const Fit& fit)
          (fit.cadCovered ? ", " + percent(*fit.cadCovered) + " of the CAD is covered" : "");
 }
 
-/// The mesh has the CAD's box, but in another place; empty where it has not.
+/// Says that the mesh has the CAD's box, but in another place; empty where it has not.
 std::string describeShift(const Fit& fit)
 {
   constexpr double least = 1e-5; // of the size
@@ -127,7 +127,7 @@ std::string describeShift(const Fit& fit)
   return text.str();
 }
 
-/// A row for each item; none where there are no items.
+/// Adds an array with these rows of components; none where there are no rows.
 void addRows(vtkFieldData* data, const char* name, int components, const std::vector<double>& rows)
 {
   if (rows.empty())
@@ -144,7 +144,7 @@ void addRows(vtkFieldData* data, const char* name, int components, const std::ve
   data->AddArray(array);
 }
 
-/// As VTK orders bounds.
+/// The bounds of a box, as VTK orders them.
 std::vector<double> boundsOf(const BoundingBox& box)
 {
   const auto& [low, high] = box;

@@ -1,4 +1,4 @@
-// What is told of the fit of mesh and CAD.
+// What the user is told of the fit of mesh and CAD.
 #pragma once
 
 #include "projection/Fit.h"
@@ -21,14 +21,14 @@ std::string warningOfMisfit(const Fit& fit, const std::string& cadUnit, bool isW
 /// may be those of a wall that is not in the CAD, and meets it at a small angle. Empty: nothing.
 std::string warningOfStrays(const Fit& fit);
 
-/// All of it, for a person: several lines.
+/// All of the fit, for a person: several lines.
 std::string describeFit(const Fit& fit, const std::string& cadUnit);
 
 /// Sets field arrays: MeshBox, CADBox (xmin xmax ymin ymax zmin zmax), BoundaryOnCAD,
 /// BoundaryInBox, CADCovered, VerticesOffCAD, ClassificationConflicts, FarthestVertices (x y z
 /// distance) and ConflictPoints (x y z).
 void writeFit(vtkFieldData* data, const Fit& fit);
-/// Takes away those of them that another fit may not have.
+/// Takes away those field arrays of writeFit that another fit may not have.
 void removeFit(vtkFieldData* from);
 
 } // namespace cadrefine

@@ -36,7 +36,8 @@ public:
     XXH3_128bits_reset(state_.get());
   }
 
-  /// What stands before the data tells its length, so that no two rows of items look alike.
+  /// Adds an item. Texts have an end, and what stands before other data tells its length, so that
+  /// no two rows of items look alike.
   void add(const std::string& text)
   {
     add(reinterpret_cast<const unsigned char*>(text.c_str()), text.size() + 1);
@@ -91,7 +92,7 @@ public:
   }
 
 private:
-  /// The hashes of blocks of the data instead of it, on threads.
+  /// Adds the hashes of blocks of the data instead of the data itself, on threads.
   void addBlocks(const unsigned char* data, std::size_t bytes)
   {
     constexpr std::size_t block = std::size_t{ 1 } << 20;
@@ -128,7 +129,7 @@ void addCells(vtkPointSet* data, Hasher& hasher)
   }
 }
 
-/// Of the class, points, cells and arrays of points and cells, with their types, names and
+/// The hash of the class, points, cells and arrays of points and cells, with their types, names and
 /// attributes; field data and arrays that are no numbers are left out.
 ContentHash hashContent(vtkPointSet* data, const ParallelFor& parallelFor)
 {

@@ -15,11 +15,11 @@
 namespace cadrefine
 {
 
-/// 128 bits (XXH3 by Y. Collet) of the content: two that differ have the same with a probability of
-/// 2^-128, if nobody made them to.
+/// A hash of the content, of 128 bits (XXH3 by Y. Collet): two contents that differ have the same
+/// with a probability of 2^-128, if nobody made them to.
 using ContentHash = std::array<std::uint64_t, 2>;
 
-/// Of a time series on a mesh that stays, only the fields change: what was made of the geometry is
+/// In a time series on a mesh that stays, only the fields change: what was made of the geometry is
 /// kept, so that it is not made again. One result is kept. Memory: the mapping of the arrays (see
 /// FieldMapping); the mesh is shared with the filter's output as long as that is there.
 class GeometryCache

@@ -19,11 +19,12 @@ struct InputSplit
   /// cell arrays that the filter reads. No field data.
   vtkSmartPointer<vtkPointSet> geometry;
   MeshArrays fields; ///< All else, and the tags.
-  /// Cell arrays that the geometry has too, not as active ones.
+  /// Names of the cell arrays that the geometry has too, not as active ones.
   std::vector<std::string> tags;
 };
 
-/// `cellArrays`: those that the filter reads; with `readsTags` also all tags (see isTag).
+/// Splits a data set. `cellArrays`: those that the filter reads; with `readsTags` also all tags
+/// (see isTag).
 InputSplit splitInput(
   vtkPointSet* input, const std::vector<std::string>& cellArrays, bool readsTags = false);
 
@@ -33,10 +34,10 @@ bool hasMeans(const InputSplit& parts);
 /// Takes away what CAD Geometric Error and Mesh Validity found of a mesh that has changed since.
 /// (InvalidCells and MinimumQuality are kept up by all filters.)
 void removeMeasured(vtkFieldData* ofCells, vtkFieldData* ofMesh);
-/// The same of Mesh Validity alone.
+/// Takes away what Mesh Validity found of cells that have changed since.
 void removeQualities(vtkFieldData* ofCells);
 
-/// Takes the fields along to meshes that are made of the geometry, one of the other.
+/// Takes the fields along to meshes that are made of the geometry, one from the other.
 class OutputJoin
 {
 public:
@@ -52,7 +53,7 @@ public:
 private:
   const InputSplit& parts_;
   MeshArrays fields_;
-  std::size_t stages_ = 0; ///< Of the mapping, that the fields have behind them.
+  std::size_t stages_ = 0; ///< Stages of the mapping that the fields have behind them.
 };
 
 } // namespace cadrefine

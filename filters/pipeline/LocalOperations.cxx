@@ -14,7 +14,7 @@ namespace cadrefine
 namespace
 {
 
-/// Brings each block to one rank. The blocks after that.
+/// Brings each block to one rank. Returns the blocks after that.
 OperationBlocks gather(const PipelineContext& context, MeshState& state, OperationBlocks blocks)
 {
   const Mesh& mesh = state.mesh.mesh();
@@ -48,7 +48,7 @@ ClassifiedBoundary boundaryAt(const PipelineContext& context, const MeshState& s
     context.exchange, state.mesh, context.model, *state.classification, state.cache, flags);
 }
 
-/// Those of the vertices that are left, of old and new ones.
+/// The flags of the vertices that are left, given those of old and new ones.
 std::vector<unsigned char> flagsOfKept(const std::vector<unsigned char>& ofOld,
   const std::vector<unsigned char>& ofNew, const std::vector<Index>& kept)
 {

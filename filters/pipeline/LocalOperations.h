@@ -10,13 +10,13 @@
 namespace cadrefine
 {
 
-/// Looks which tags number the cells, if that is not known: before the first cell changes. See
-/// findNumberings of fields/CellTags.h. Collective.
+/// Finds which tags number the cells, if that is not known. To be called before the first cell
+/// changes. See findNumberings of fields/CellTags.h. Collective.
 void findNumberings(RankExchange& exchange, MeshState& state);
 
 /// Does `work` with blocks of the cells round flagged vertices (1; see findOperationBlocks), which
 /// are brought to one rank each, and takes arrays and classification along. Cells and listed
-/// triangles are told apart by their tags (see labelsOf). Of a mesh that is classified. Returns the
+/// triangles are told apart by their tags (see labelsOf). The mesh must be classified. Returns the
 /// number of operations over all ranks. Collective. Work and messages: those of findBlocks,
 /// redistribute where a block is on several ranks, findClassifiedBoundary of the facets at the
 /// blocks, and operateOnBlocks.

@@ -22,20 +22,22 @@
 namespace cadrefine
 {
 
-/// What the steps change: data sets are made of it only where it leaves the filter. It stays where
-/// it is while it has a boundary, which refers to the mesh.
+/// What the steps change: data sets are made of it only where it leaves the filter. It must stay at
+/// its place in memory while it has a boundary, which refers to the mesh.
 struct MeshState
 {
   DistributedMesh mesh;
-  MeshArrays arrays; ///< With what is found of the mesh; without ids and those of `classification`.
-  std::optional<Classification> classification; ///< With entries for mid nodes after the vertices.
-  FieldMapping mapping;                         ///< From the input.
-  vtkSmartPointer<vtkPointSet> prototype;       ///< Empty, of the class of the data set.
-  ParallelFor parallelFor = serialFor;          ///< On this rank's threads.
-  /// Of the mesh as it is, where they have been looked at.
+  /// Its arrays, with what is found of the mesh; without ids and those of `classification`.
+  MeshArrays arrays;
+  /// Places on the CAD, of mid nodes after those of the vertices.
+  std::optional<Classification> classification;
+  FieldMapping mapping;                   ///< The way of arrays from the input.
+  vtkSmartPointer<vtkPointSet> prototype; ///< An empty data set, of the class of the input.
+  ParallelFor parallelFor = serialFor;    ///< Loops on this rank's threads.
+  /// Boundary and quality of the mesh as it is, where they have been looked for.
   std::unique_ptr<ClassifiedBoundary> boundary = nullptr;
   std::optional<QualitySummary> quality = std::nullopt;
-  /// 1 for vertices on the boundary; none: not known.
+  /// 1 for vertices on the boundary; empty: not known.
   std::vector<unsigned char> onBoundary = {};
   /// Tags that do not tell kinds of cells apart, as the mesh came; none: not looked at.
   std::optional<std::vector<std::uint64_t>> numberings = std::nullopt;
@@ -56,12 +58,12 @@ void setClassification(MeshState& state, Classification classification);
 /// The boundary of the classified mesh. Collective.
 ClassifiedBoundary& boundaryOf(const PipelineContext& context, MeshState& state);
 
-/// For each vertex 1 if it is on the boundary: that of boundaryOf, which is not looked for where
-/// this is known. Collective.
+/// For each vertex 1 if it is on the boundary; found with boundaryOf, unless it is known.
+/// Collective.
 const std::vector<unsigned char>& onBoundaryOf(const PipelineContext& context, MeshState& state);
 
 /// For each facet of the boundary the CAD face, of a planar mesh the CAD edge, that it lies on;
-/// none off the CAD. Collective. Work: a query for a facet that spans several faces; of a planar
+/// none off the CAD. Collective. Work: a query for a facet that spans several faces; for a planar
 /// mesh that of findMidpoints, once for a boundary.
 std::vector<EntityId> entitiesOfFacets(const PipelineContext& context, MeshState& state);
 
@@ -69,12 +71,12 @@ std::vector<EntityId> entitiesOfFacets(const PipelineContext& context, MeshState
 EntitySelection selectFaces(
   const PipelineContext& context, MeshState& state, const std::vector<std::string>& faces);
 
-/// The facets of the boundary on these faces (see selectEntities): a flag for each. None given: no
-/// flags. Collective. Work: that of entitiesOfFacets.
+/// For each facet of the boundary 1 if it is on these faces (see selectEntities); empty if no faces
+/// are given. Collective. Work: that of entitiesOfFacets.
 std::vector<unsigned char> facetsOn(
   const PipelineContext& context, MeshState& state, const std::vector<std::string>& faces);
 
-/// Over all ranks. Collective.
+/// Validity and quality of all cells, over all ranks. Collective.
 const QualitySummary& qualityOf(RankExchange& exchange, MeshState& state);
 
 /// What to tell the user of invalid cells, which vertices that move are to mend; told on rank 0.
@@ -82,14 +84,14 @@ const QualitySummary& qualityOf(RankExchange& exchange, MeshState& state);
 /// Collective.
 bool warnOfInvalidCells(const PipelineContext& context, MeshState& state);
 
-/// Takes the arrays along what was added to the mapping after its first `done` stages.
+/// Takes the arrays along the stages of the mapping that follow its first `done` ones.
 void followMapping(RankExchange& exchange, MeshState& state, std::size_t done);
 
 /// The points, where there are densities to be kept when these move; else none.
 std::vector<Point3> pointsToKeep(const MeshState& state);
 
-/// What densities have become by a motion of vertices, which were at these points (see
-/// pointsToKeep): cells take along what they hold.
+/// Changes densities by a motion of vertices, which were at these points (see pointsToKeep): cells
+/// take along what they hold.
 void scaleDensities(
   RankExchange& exchange, MeshState& state, const std::vector<Point3>& pointsBefore);
 
@@ -101,7 +103,7 @@ void meshHasChanged(MeshState& state);
 void redistribute(const PipelineContext& context, MeshState& state, const std::vector<int>& ranks,
   std::vector<std::int64_t>* ofCells = nullptr);
 
-/// Cuts the mesh as planned (see refineOntoCAD; of a mesh that is not classified, refine), and its
+/// Cuts the mesh as planned (see refineOntoCAD; for a mesh that is not classified, refine), and its
 /// arrays with it. Returns how many points were projected. Collective.
 std::int64_t cut(const PipelineContext& context, MeshState& state, const RefinementPlan& plan,
   NewVertices newVertices);
@@ -109,7 +111,7 @@ std::int64_t cut(const PipelineContext& context, MeshState& state, const Refinem
 /// The mesh as a data set with all arrays.
 vtkSmartPointer<vtkPointSet> makeDataSet(const MeshState& state);
 
-/// The state at the end of a filter.
+/// The result of a filter that ends with this state.
 PipelineResult resultOf(MeshState state);
 
 } // namespace cadrefine

@@ -15,9 +15,9 @@ namespace cadrefine
 struct PipelineResult
 {
   vtkSmartPointer<vtkPointSet> mesh;
-  FieldMapping mapping;                 ///< From the input to the mesh.
-  vtkSmartPointer<vtkTable> table = {}; ///< For a filter that has one.
-  std::string fitReport = {};           ///< Of a projection (see describeFit).
+  FieldMapping mapping;                 ///< The way of arrays from the input to the mesh.
+  vtkSmartPointer<vtkTable> table = {}; ///< The table of a filter that has one.
+  std::string fitReport = {};           ///< Text on the fit after a projection (see describeFit).
 };
 
 } // namespace cadrefine

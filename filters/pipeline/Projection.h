@@ -10,8 +10,8 @@
 namespace cadrefine
 {
 
-/// `region`: xmin xmax ymin ymax zmin zmax, or null: everywhere. Throws Error for what is out of
-/// range (see PropertyCheck).
+/// Options of a projection. `region`: xmin xmax ymin ymax zmin zmax, or null: everywhere. Throws
+/// Error for what is out of range (see PropertyCheck).
 ProjectionOptions makeProjectionOptions(
   const double* region, double maximumDistance, std::vector<std::string> faces);
 

@@ -29,7 +29,7 @@ std::string rangeOf(double lowest, double highest)
   return text.str();
 }
 
-/// Their names, or "none".
+/// The names of the cells' arrays of numbers, or "none".
 std::string numericArraysOf(vtkCellData* cells)
 {
   std::string names;

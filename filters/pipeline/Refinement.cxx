@@ -28,8 +28,8 @@ namespace cadrefine
 namespace
 {
 
-/// For the sake of mid nodes cells are bisected so many times at most, and there are so many times
-/// as many of them at most, or so many.
+/// For the sake of mid nodes cells are bisected at most `mostRounds` times, and there are at most
+/// `largestGrowth` times as many of them, or `fewCells`.
 constexpr int mostRounds = 16;
 constexpr std::int64_t largestGrowth = 2;
 constexpr std::int64_t fewCells = 40000;
@@ -38,7 +38,7 @@ constexpr std::int64_t fewCells = 40000;
 struct Level
 {
   RefinementPlan plan;
-  std::int64_t markedCells = 0; ///< Over all ranks.
+  std::int64_t markedCells = 0; ///< Number of marked cells, over all ranks.
 };
 
 /// The refinement of one mesh, level by level.
@@ -205,7 +205,7 @@ private:
     return marks;
   }
 
-  /// Cells whose chord error is larger than the tolerance of a face that they are at.
+  /// Marks cells whose chord error is larger than the tolerance of a face that they are at.
   void markByTolerances(const EntitySelection& faces, const std::vector<EntityId>& entities,
     std::vector<unsigned char>& marks)
   {
@@ -258,7 +258,7 @@ private:
     return exchange_.sum(firsts.empty() ? 0 : firsts.back());
   }
 
-  /// Cells that the plan makes of each cell, in the order of makePointSet.
+  /// How many cells the plan makes of each cell, in the order of makePointSet.
   std::vector<std::int64_t> childCounts(const RefinementPlan& plan) const
   {
     std::vector<std::int64_t> counts;
@@ -308,8 +308,8 @@ private:
     }
   }
 
-  /// Cells that keep mid nodes from the CAD are bisected, and all nodes placed anew, until there
-  /// are none, or too many cells.
+  /// Places mid nodes. Cells that keep them from the CAD are bisected, and all nodes placed anew,
+  /// until there are no such cells, or too many cells.
   void placeNodes()
   {
     const bool mayBisect = options_.projectNewVertices && options_.minimumQuality &&
@@ -337,8 +337,9 @@ private:
     }
   }
 
-  /// None where no cell is too curved. In every third round the edges are those that get nodes to
-  /// the CAD soonest, in the others those that keep cells well shaped and few.
+  /// The plan that bisects cells that are too curved; none where there are none. In every third
+  /// round the edges are those that get nodes to the CAD soonest, in the others those that keep
+  /// cells well shaped and few.
   std::optional<RefinementPlan> planForNodes(const std::vector<unsigned char>& tooCurved, int round)
   {
     if (!exchange_.any(std::count(tooCurved.begin(), tooCurved.end(), 1) > 0))

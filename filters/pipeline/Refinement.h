@@ -15,20 +15,21 @@ namespace cadrefine
 struct RefinementOptions
 {
   bool uniform = false;                   ///< Cut all edges; else the longest of marked cells.
-  int levels = 1;                         ///< 0: the mesh as it is, for quadraticCells.
-  std::vector<MarkingCriterion> criteria; ///< None: all cells are marked.
+  int levels = 1;                         ///< 0: the mesh stays as it is, for quadraticCells.
+  std::vector<MarkingCriterion> criteria; ///< Empty: all cells are marked.
   /// CAD faces (see selectEntities): cells whose ChordError is larger than the chord tolerance of a
   /// face that they have a facet on are marked too.
   std::vector<std::string> faces;
   bool onlyAtFaces = false; ///< No cells are marked but those with a facet on these faces.
   /// Bisect further until the facets on the CAD of each marked cell are cut.
   bool cutFacets = false;
-  /// See markLongestEdges.
+  /// Whether layers are kept, see markLongestEdges.
   bool keepLayers = true;
   bool projectNewVertices = true;
-  /// See improveMesh; none: no local operations.
+  /// The minimum of improveMesh; none: no local operations.
   std::optional<double> minimumQuality;
-  bool keepsError = false; ///< See SurfaceLimits.
+  /// Whether local operations must not enlarge the geometric error, see SurfaceLimits.
+  bool keepsError = false;
   bool balance = true;
   /// Put out cells of second order (see placeMidNodes); not for vtkPolyData, which has none.
   bool quadraticCells = false;
@@ -40,9 +41,9 @@ struct RefinementOptions
 
 struct RefinementOutcome
 {
-  std::int64_t markedCells = 0; ///< In the last level, over all ranks.
+  std::int64_t markedCells = 0; ///< Cells marked in the last level, over all ranks.
   bool limited = false;         ///< The first level would have had too many cells.
-  std::string whyNone = {};     ///< Where no cell is marked: see describeLargest.
+  std::string whyNone = {};     ///< Why no cell is marked, where none is: see describeLargest.
   bool refined = true;          ///< False: the mesh is as it was.
 };
 

@@ -15,8 +15,8 @@ namespace cadrefine
 namespace
 {
 
-constexpr double boxMargin = 1e-6; ///< Of the CAD's size: its box is no more exact.
-constexpr double onCAD = 1e-7;     ///< Of the size: nearer vertices lie on it.
+constexpr double boxMargin = 1e-6; ///< Part of the CAD's size: its box is no more exact.
+constexpr double onCAD = 1e-7;     ///< Part of the CAD's size: nearer vertices lie on it.
 constexpr std::size_t mostFarthest = 10;
 constexpr std::size_t mostConflicts = 100;
 
@@ -322,10 +322,11 @@ private:
   Fit& fit_;
   std::int8_t dimension_;
   std::size_t entities_;
-  std::vector<std::int32_t> places_; ///< Of each facet its face (in the plane, edge), -1: none.
+  /// The CAD face of each facet (in the plane, its edge); -1: none.
+  std::vector<std::int32_t> places_;
 };
 
-/// Collective.
+/// Finds the vertices in conflict. Collective.
 void findConflicts(
   RankExchange& exchange, const DistributedMesh& mesh, const ProjectionResult& result, Fit& fit)
 {

@@ -21,16 +21,18 @@ struct OffPoint
   double distance = 0;
 };
 
-/// The same on every rank. Areas are those of triangles and faces; for a planar mesh they are
-/// lengths, of segments and CAD edges; for points alone they count points.
+/// How well a mesh and a model fit, the same on every rank. Areas are those of triangles and faces;
+/// for a planar mesh they are lengths, of segments and CAD edges; for points alone they count
+/// points.
 struct Fit
 {
-  BoundingBox meshBox; ///< Before the projection.
+  BoundingBox meshBox; ///< Box of the mesh before the projection.
   BoundingBox cadBox;
   /// Area of the facets on the CAD, as a part of that of all facets in the region with their
   /// centroid in the CAD's box (a far field does not count); 0 where there are none.
   double boundaryOnCAD = 0;
-  /// Area of all those facets, as a part of that of all facets in the region.
+  /// Area of all facets in the region with their centroid in the CAD's box, as a part of that of
+  /// all facets in the region.
   double boundaryInBox = 0;
   /// Area of the CAD that facets lie on, as a part of all: for each face that of its facets, at
   /// most its own. Facets are chords, so somewhat less than 1 for a coarse mesh all over a curved
@@ -42,20 +44,21 @@ struct Fit
   /// Vertices of the boundary in the region and in the CAD's box that are off the CAD, or that
   /// could not reach it.
   std::int64_t verticesOffCAD = 0;
-  std::vector<OffPoint> farthest; ///< Of these the ten farthest, in order.
+  std::vector<OffPoint> farthest; ///< The ten farthest of these, in order.
   /// Vertices that were put onto faces (of a planar mesh, edges) on which three quarters of the
   /// facets lay already, and were not there themselves, but for rounding.
   std::int64_t strays = 0;
-  OffPoint farthestStray;         ///< Where it is now, and how far it was from there.
+  /// The farthest of these: where it is now, and how far it was from there.
+  OffPoint farthestStray;
   std::int64_t conflictCount = 0; ///< Vertices in conflict.
-  std::vector<Point3> conflicts;  ///< Of these those with the lowest ids, up to 100.
+  std::vector<Point3> conflicts;  ///< Those of them with the lowest ids, up to 100.
 };
 
 /// The fit of a mesh that was projected; `meshBox` is left to the caller. Collective. Work: a
 /// whole-model query for each vertex off the CAD in its box. Messages: sums of a number for each
 /// face, up to 400 numbers gathered from every rank.
 Fit findFit(const ProjectionTask& task, const ProjectionResult& result);
-/// The same for points alone.
+/// The fit of points alone that were projected; `meshBox` is left to the caller. Collective.
 Fit findFitOfPoints(RankExchange& exchange, const DistributedMesh& mesh, const CADModel& model,
   const ProjectionResult& result);
 

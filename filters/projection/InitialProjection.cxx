@@ -32,9 +32,9 @@ struct PointQuestion
 
 struct NearestPoints
 {
-  std::vector<ClosestPoint> hits; ///< Of each vertex; none of those that did not ask.
-  std::int64_t asked = 0;         ///< Over all ranks.
-  std::int64_t slow = 0;          ///< Of those.
+  std::vector<ClosestPoint> hits; ///< Nearest point of each vertex; none of those that did not ask.
+  std::int64_t asked = 0;         ///< Vertices that asked, over all ranks.
+  std::int64_t slow = 0;          ///< Vertices that asked whose query has not converged.
   WorkBalance balance;
 };
 

@@ -19,13 +19,14 @@ struct ProjectionResult
 {
   Classification classification;
   std::int64_t projectedPoints = 0; ///< Vertices that were looked up on the CAD, over all ranks.
-  std::int64_t slowPoints = 0; ///< Those of them whose query has not converged (see ClosestPoint).
-  WorkBalance balance;         ///< Of these look-ups over the ranks.
+  /// Looked up vertices whose query has not converged (see ClosestPoint).
+  std::int64_t slowPoints = 0;
+  WorkBalance balance; ///< Balance of these look-ups over the ranks.
   /// 1 for vertices whose CAD entity could not be decided (see findConflicts).
   std::vector<unsigned char> conflicts;
-  /// Of each vertex on the CAD, how far it was from its place there.
+  /// How far each vertex on the CAD was from its place there.
   std::vector<double> distancesBefore;
-  std::vector<FacetRecord> facets; ///< Of this rank's boundary.
+  std::vector<FacetRecord> facets; ///< Records of the facets of this rank's boundary.
 };
 
 /// Moves the boundary vertices of the mesh onto the CAD (S. Strunk, KTH 2013, Algorithm 4.1):
@@ -45,7 +46,7 @@ ProjectionResult projectBoundary(RankExchange& exchange, DistributedMesh& mesh,
   const BoundaryProjector& projector, const DistributedBoundary& boundary,
   const ProjectionOptions& options);
 
-/// Moves every point of a mesh of dimension 0 to its nearest point. Collective.
+/// Moves every point of a mesh of dimension 0 to its nearest point on the CAD. Collective.
 ProjectionResult projectPoints(RankExchange& exchange, DistributedMesh& mesh, const CADModel& model,
   const ProjectionOptions& options);
 

@@ -17,9 +17,10 @@ namespace cadrefine
 namespace
 {
 
-/// A node on a wall that moves by less of the height of the first cell does so alone.
+/// A node on a wall that moves by less than this part of the height of the first cell does so
+/// alone.
 constexpr double leastMove = 0.25;
-/// A node that is to move by less of the length of its edge is where it is to go.
+/// A node that is to move by less than this part of the length of its edge is where it is to go.
 constexpr double negligible = 1e-9;
 
 /// Makes the mesh one of second order, given its edges, whose table is taken.
@@ -47,9 +48,9 @@ public:
   {
   }
 
-  /// The places of all mid nodes: those of the hits there, as far as all cells stay valid. Of those
-  /// that slide on the CAD to go along the hits become where they are to be. Sets `tooCurved` (see
-  /// PlacedMidNodes). Collective.
+  /// Returns the places of all mid nodes; those with hits go there as far as all cells stay valid.
+  /// The hits of nodes that slide on the CAD to go along become the places where they are to be.
+  /// Sets `tooCurved` (see PlacedMidNodes). Collective.
   std::vector<Point3> place(std::vector<MidpointOnCAD>& hits, std::vector<unsigned char>& tooCurved)
   {
     std::vector<EntityId> entities(nodes_.points.size());
@@ -97,8 +98,9 @@ private:
     return held;
   }
 
-  /// What no column has moved goes to its hit, others that are on the CAD to where they are near.
-  /// One that is held and at its hit, but for rounding, is on the CAD where it is.
+  /// Sends nodes on the CAD that no column has moved to their hits, and others to the place nearest
+  /// to where the column moves them. One that is held and at its hit, but for rounding, is on the
+  /// CAD where it is.
   void takeHits(const std::vector<unsigned char>& held, std::vector<MidpointOnCAD>& hits)
   {
     for (MidpointOnCAD& hit : hits)
@@ -141,13 +143,13 @@ private:
   const DistributedMesh& mesh_;
   const SharedEdges& sharedEdges_;
   const ClassifiedBoundary& classified_;
-  const MidNodes& nodes_; ///< In the middle of their edges.
+  const MidNodes& nodes_; ///< The mid nodes, in the middle of their edges.
   const Vector3 plane_;
   Moves moves_;
 };
 
-/// Those of a cell's edges that are on the CAD; or the others, if all of those at a corner are. All
-/// of them, where there are none such.
+/// The edges of a cell that are on the CAD; or the others, if all edges at a corner are on it. All
+/// edges, where there are none such.
 template<class Shape, class Edges, class IsOnCAD>
 std::vector<Index> edgesAtCAD(Shape, const Edges& edges, const IsOnCAD& isOnCAD)
 {

@@ -45,12 +45,12 @@ void addOverRanks(RankExchange& exchange, std::vector<FixedPointSum>& bins)
 /// Where items in descending order of their keys reach a sum of weights.
 struct Cut
 {
-  Key key = 0;         ///< Of the items that reach it.
-  FixedPointSum above; ///< Weight of what comes before them.
+  Key key = 0;         ///< Key of the items that reach the sum.
+  FixedPointSum above; ///< Weight of the items that come before these.
 };
 
-/// Of the items `open`, after others of weight `above`; all together weigh at least `target`.
-/// Digit by digit, as radix sort does.
+/// Finds the cut among the items `open`, which come after others of weight `above`; all together
+/// weigh at least `target`. Digit by digit, as radix sort does.
 Cut findCut(RankExchange& exchange, const std::vector<Key>& keys,
   const std::vector<double>& weights, std::vector<std::size_t> open, const FixedPointSum& above,
   double target)
@@ -78,7 +78,7 @@ Cut findCut(RankExchange& exchange, const std::vector<Key>& keys,
   return cut;
 }
 
-/// Ascends with the value, which is not negative.
+/// A key that ascends with the value, which is not negative.
 Key keyOf(double value)
 {
   const double positive = value + 0.0; // -0.0 would be the largest

@@ -9,12 +9,12 @@
 namespace cadrefine
 {
 
-/// 1 for the items with the largest values, as few as carry at least `fraction` of the sum of all
-/// values on all ranks; of equal values those with the smaller ids. None where the sum is 0, else
-/// at least one (W. Dörfler, "A convergent adaptive algorithm for Poisson's equation", SIAM J.
-/// Numer. Anal. 33, 1996). The same for every way of sharing the items out: sums are exact to
-/// 2^-111 of the largest value (see FixedPointSum), and are then rounded to double, so that values
-/// which together are below 2^-53 of the sum are left out even for the fraction 1.
+/// Returns 1 for the items with the largest values, as few as carry at least `fraction` of the sum
+/// of all values on all ranks; of equal values those with the smaller ids. No item is chosen where
+/// the sum is 0, else at least one (W. Dörfler, "A convergent adaptive algorithm for Poisson's
+/// equation", SIAM J. Numer. Anal. 33, 1996). The same for every way of sharing the items out: sums
+/// are exact to 2^-111 of the largest value (see FixedPointSum), and are then rounded to double, so
+/// that values which together are below 2^-53 of the sum are left out even for the fraction 1.
 ///
 /// @param exchange the ranks.
 /// @param values finite, not negative.

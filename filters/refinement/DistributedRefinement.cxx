@@ -37,7 +37,7 @@ std::vector<Index> combineMarks(RankExchange& exchange, RefinementPlan& plan)
   return fresh;
 }
 
-/// `onBoundary` of the vertices that were, and of the new ones on edges and in these
+/// The flags `onBoundary` of the old vertices, then those of the new ones on edges and in these
 /// quadrilaterals.
 std::vector<unsigned char> onRefinedBoundary(const RefinementPlan& plan,
   const std::vector<SharedClass>& ofEdges, const std::vector<Index>& quads,
@@ -65,7 +65,8 @@ struct NewVerticesOfMesh
   SharedVertices shared;
 };
 
-/// Appends the ids of new vertices in the middle of corners of cells, by the ids of these.
+/// Appends the ids of new vertices in the middle of corners of cells, in the order of the cells'
+/// ids.
 void numberInCells(RankExchange& exchange, DistributedMesh& mesh, NewVerticesOfMesh& made)
 {
   const auto& idsOfCells = mesh.converted.cellIds[mesh.mesh().dimension];
@@ -83,7 +84,8 @@ void numberInCells(RankExchange& exchange, DistributedMesh& mesh, NewVerticesOfM
   mesh.vertexIdBound += numbering.count;
 }
 
-/// Those on edges, then those in quadrilaterals, whose ids follow from those on edges, and so on.
+/// Makes the new vertices on edges, then those in quadrilaterals, whose ids follow from those on
+/// edges, and so on.
 NewVerticesOfMesh makeNewVertices(
   RankExchange& exchange, DistributedMesh& mesh, const RefinementPlan& plan)
 {
@@ -116,7 +118,8 @@ NewVerticesOfMesh makeNewVertices(
   return made;
 }
 
-/// Edges that stand over each other count as the longest of them, on whatever rank. Collective.
+/// Makes edges that stand over each other count as the longest of them, on whatever rank.
+/// Collective.
 void orderStacks(RankExchange& exchange, const Mesh& mesh, RefinementPlan& plan)
 {
   if (!exchange.any(!mesh.wedges.empty()))

@@ -17,11 +17,11 @@ namespace cadrefine
 /// Which edges of a piece are cut.
 struct RefinementPlan : MarkedEdges
 {
-  SharedQuads quads = {}; ///< Those that are cut.
+  SharedQuads quads = {}; ///< All quadrilaterals of the piece.
   bool uniform = false;
 };
 
-/// Marks all edges. Collective.
+/// Marks all edges. Throws Error where a cell would be cut badly (see cellsCutBadly). Collective.
 RefinementPlan planUniform(RankExchange& exchange, const DistributedMesh& mesh);
 
 /// The boundary of a mesh whose marked cells' facets are to be cut.
@@ -44,7 +44,7 @@ RefinementPlan planLongestEdge(RankExchange& exchange, const DistributedMesh& me
 RefinementPlan planFromEdges(
   RankExchange& exchange, const DistributedMesh& mesh, const EdgeMarks& edges, bool keepLayers);
 
-/// How many cells `refine` makes of each cell.
+/// The children that `refine` makes of each cell.
 ChildRanges countChildren(const Mesh& mesh, const RefinementPlan& plan);
 
 /// Cuts the mesh as planned (new vertices at midpoints; new ids by a parallel sort of the ids of
@@ -54,8 +54,8 @@ ChildRanges countChildren(const Mesh& mesh, const RefinementPlan& plan);
 RefinementTrace refine(RankExchange& exchange, DistributedMesh& mesh, const RefinementPlan& plan,
   RunStatistics& statistics);
 
-/// Ids of the children, which may be none: parents in the order of their ids, the children of each
-/// in a row. Collective (see denseOffsets).
+/// Global ids of the children, by their dimension: parents in the order of their ids, the children
+/// of each, of which there may be none, in a row. Collective (see denseOffsets).
 std::array<std::vector<GlobalId>, 4> numberChildren(
   RankExchange& exchange, const DistributedMesh& mesh, const RefinementTrace& trace);
 
@@ -63,19 +63,22 @@ std::array<std::vector<GlobalId>, 4> numberChildren(
 enum class NewVertices
 {
   MoveOntoCAD,
-  MoveAndMend, ///< The same, and cells that are inverted or flat are mended (see MoveSettings).
-  StayStraight ///< They are classified, and keep their distance from the CAD.
+  /// As MoveOntoCAD, and cells that are inverted or flat are mended (see MoveSettings).
+  MoveAndMend,
+  StayStraight ///< The new vertices are classified, and keep their distance from the CAD.
 };
 
-/// The same, and classifies the new vertices of classified edges: each belongs onto the entity of
-/// its edge in `classified`, the boundary of the mesh (S. Strunk, KTH 2013, Algorithm 4.3).
-/// MoveOntoCAD moves them there as far as all cells stay valid; vertices that stopped on the way
-/// earlier try again. Adds to "seconds projection" and "seconds moves" too. Collective.
+/// Cuts the mesh as `refine` does, and classifies the new vertices of classified edges: each
+/// belongs onto the entity of its edge in `classified`, the boundary of the mesh (S. Strunk, KTH
+/// 2013, Algorithm 4.3). MoveOntoCAD moves them there as far as all cells stay valid; vertices that
+/// stopped on the way earlier try again. Adds to "seconds projection" and "seconds moves" too.
+/// Collective.
 RefinementTrace refineOntoCAD(RankExchange& exchange, DistributedMesh& mesh,
   const RefinementPlan& plan, const ClassifiedBoundary& classified, Classification& classification,
   NewVertices newVertices, RunStatistics& statistics);
 
-/// Moves of all vertices that are not at their places on the CAD to these, which are found anew.
+/// The moves of all vertices that are not at their places on the CAD to these places, which are
+/// found anew.
 Moves movesOntoCAD(
   const Mesh& mesh, const BoundaryProjector& projector, Classification& classification);
 

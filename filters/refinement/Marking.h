@@ -35,9 +35,9 @@ struct MarkingCriterion
 std::vector<unsigned char> markCells(RankExchange& exchange, const DistributedMesh& mesh,
   const MeshArrays& arrays, const std::vector<MarkingCriterion>& criteria);
 
-/// The criterion by a value of the array: AtLeast the smallest value that it marks, and of
-/// Threshold its own; AtLeast infinity where it marks none. Throws and costs as markCells.
-/// Collective.
+/// The criterion as one by a value of the array: AtLeast the smallest value that a fraction or bulk
+/// marks, infinity where it marks none; of the others, AtLeast their own value. Throws and costs as
+/// markCells. Collective.
 MarkingCriterion asThreshold(RankExchange& exchange, const DistributedMesh& mesh,
   const MeshArrays& arrays, const MarkingCriterion& criterion);
 

@@ -1,4 +1,4 @@
-// Sets of indices that are joined until they are looked at.
+// Disjoint sets of indices, which can be joined.
 #pragma once
 
 #include <algorithm>

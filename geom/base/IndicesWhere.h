@@ -1,4 +1,4 @@
-// The indices of what has a property, and lists of that alone.
+// The indices for which something holds, and lists of chosen entries alone.
 #pragma once
 
 #include <cadrefine/base/MeshTypes.h>
@@ -10,7 +10,7 @@
 namespace cadrefine
 {
 
-/// Those of 0, ..., count - 1 for which holds(index) is true, ascending.
+/// The indices of 0, ..., count - 1 for which holds(index) is true, ascending.
 template<class Predicate>
 std::vector<Index> indicesWhere(std::size_t count, const Predicate& holds)
 {
@@ -25,7 +25,7 @@ std::vector<Index> indicesWhere(std::size_t count, const Predicate& holds)
   return indices;
 }
 
-/// The same on threads, for a predicate that is cheap.
+/// indicesWhere on threads, for a predicate that is cheap.
 template<class Predicate>
 std::vector<Index> indicesWhere(
   const ParallelFor& parallelFor, std::size_t count, const Predicate& holds)
@@ -43,7 +43,7 @@ std::vector<Index> indicesWhere(
     });
 }
 
-/// Leaves these entries of a list, ascending, in it.
+/// Removes all entries of a list but those with these indices, which ascend.
 template<class T>
 void keepOnly(const std::vector<Index>& kept, std::vector<T>& list)
 {

@@ -35,7 +35,7 @@ void reserveLong(std::vector<T>& list, std::size_t count)
   preferHugePages(list.data(), list.capacity() * sizeof(T));
 }
 
-/// vector.resize likewise.
+/// vector.resize for a vector that may become long.
 template<class T>
 void resizeLong(std::vector<T>& list, std::size_t count)
 {
@@ -43,8 +43,8 @@ void resizeLong(std::vector<T>& list, std::size_t count)
   list.resize(count);
 }
 
-/// vector.resize likewise, of a vector that is empty; the system clears its pages, which takes
-/// longer than to fill them, on threads.
+/// vector.resize for a vector that is empty and may become long; the system clears its pages, which
+/// takes longer than to fill them, on threads.
 template<class T>
 void resizeLong(std::vector<T>& list, std::size_t count, const ParallelFor& parallelFor)
 {

@@ -1,4 +1,4 @@
-// Of the exceptions of a loop on threads, the one that the loop throws.
+// Which of its exceptions a loop on threads throws.
 #pragma once
 
 #include <cstddef>

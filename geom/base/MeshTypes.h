@@ -6,10 +6,10 @@
 namespace cadrefine
 {
 
-/// Vertex, edge or cell of one rank's piece.
+/// Number of a vertex, edge or cell of one rank's piece.
 using Index = std::int32_t;
 
-/// Vertex or cell of the whole mesh, the same on every rank.
+/// Global id of a vertex or cell of the whole mesh, the same on every rank.
 using GlobalId = std::int64_t;
 
 } // namespace cadrefine

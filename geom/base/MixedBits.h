@@ -1,4 +1,4 @@
-// Numbers spread evenly, whatever their pattern.
+// A hash that spreads whole numbers evenly, whatever their pattern.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 namespace cadrefine
 {
 
-/// The finaliser of SplitMix64 (S. Vigna): one to one.
+/// A hash of a number: the finaliser of SplitMix64 (S. Vigna), which is one to one.
 inline std::uint64_t mixedBits(std::uint64_t bits)
 {
   bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9ULL;

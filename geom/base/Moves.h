@@ -1,4 +1,4 @@
-// Points on their way.
+// Moves of points, of which each goes a part of its way.
 #pragma once
 
 #include <cadrefine/base/MeshTypes.h>
@@ -13,11 +13,12 @@ namespace cadrefine
 /// part of its way.
 struct Moves
 {
-  std::vector<Point3> targets;      ///< A point each; the point itself where it does not move.
-  std::vector<double> fractions;    ///< In [0, 1]; 0 where it does not move.
+  std::vector<Point3> targets; ///< Where each point is to go; its own place if it does not move.
+  /// Part of its way that each point goes, in [0, 1]; 0 if it does not move.
+  std::vector<double> fractions;
   std::vector<unsigned char> whole; ///< 1: the point moves all of its way or not at all.
 
-  /// None of these points moves.
+  /// Moves of these points, of which none moves yet.
   explicit Moves(const std::vector<Point3>& points)
     : targets(points), fractions(points.size(), 0.0), whole(points.size(), 0)
   {

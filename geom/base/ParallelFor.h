@@ -42,7 +42,8 @@ void forEachIndex(
     });
 }
 
-/// What append(begin, end, list) appends to the list of each range, in the order of the ranges.
+/// Collects what append(begin, end, list) appends to the list of each range, in the order of the
+/// ranges.
 template<class Item, class Append>
 std::vector<Item> collect(
   const ParallelFor& parallelFor, std::size_t count, std::size_t grain, const Append& append)

@@ -36,7 +36,7 @@ inline Vector3 cross(const Vector3& a, const Vector3& b)
   return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
 }
 
-/// Of the matrix with these columns.
+/// The determinant of the matrix with these columns.
 inline double determinant(const Vector3& a, const Vector3& b, const Vector3& c)
 {
   return dot(a, cross(b, c));

@@ -1,4 +1,4 @@
-// Things by a vertex or an edge to which they belong.
+// Lists of things by the vertex or edge to which they belong.
 #pragma once
 
 #include <cadrefine/base/LargeMemory.h>
@@ -29,9 +29,9 @@ public:
   {
   }
 
-  /// The same on threads: visit(begin, end, use), which is called twice for every part, does so for
-  /// the things in [begin, end) of `things` ones. Each of a few parts has counts of its own (four
-  /// bytes a vertex), so that the order does not depend on threads.
+  /// Fills the buckets on threads: visit(begin, end, use), which is called twice for every part,
+  /// calls use(vertex, entry) for the things in [begin, end) of `things` ones. Each of a few parts
+  /// has counts of its own (four bytes a vertex), so that the order does not depend on threads.
   template<class Visit>
   VertexBuckets(
     std::size_t vertexCount, std::size_t things, const Visit& visit, const ParallelFor& parallelFor)
@@ -85,7 +85,8 @@ public:
   }
 
 private:
-  std::vector<std::size_t> begins_; ///< Of each vertex, and where the last one ends.
+  /// Where the entries of each vertex begin, and those of the last one end.
+  std::vector<std::size_t> begins_;
   std::vector<Entry> entries_;
 };
 

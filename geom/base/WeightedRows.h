@@ -21,7 +21,7 @@ struct WeightedRows
   std::size_t size() const { return targets.size(); }
   bool empty() const { return targets.empty(); }
 
-  /// To the row that is ended next.
+  /// Adds a source to the row that is ended next.
   void add(Index source, double weight)
   {
     sources.push_back(source);

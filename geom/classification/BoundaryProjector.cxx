@@ -17,7 +17,8 @@ bool isOnFace(const EdgeClass& edgeClass)
   return edgeClass.kind == EdgeClass::Smooth && edgeClass.entity >= 0;
 }
 
-/// That of the facet, but for quadrilaterals, which need not be flat.
+/// The normal at corner k of a facet: the facet's own, except for quadrilaterals, which need not be
+/// flat.
 Vector3 normalAtCorner(const ClassifiedFacet& facet, int k, const Vector3& ofFacet)
 {
   const auto& p = facet.points;
@@ -170,8 +171,8 @@ std::int32_t BoundaryProjector::earOf(const ClassifiedFacet& facet) const
   return found == ofTwo.end() ? -1 : *found;
 }
 
-/// Of an ear the long side, beyond which the same face goes on, is not on the CAD edge: that runs
-/// along the two others.
+/// The nearest crease that both ends lie on; -1: none. The long side of an ear, beyond which the
+/// same face goes on, is not on the CAD edge: that runs along the two others.
 std::int32_t BoundaryProjector::commonCrease(const std::array<Point3, 2>& points,
   const std::array<EntityId, 2>& entities, const std::vector<FacetRecord>& onCAD) const
 {
@@ -184,7 +185,7 @@ std::int32_t BoundaryProjector::commonCrease(const std::array<Point3, 2>& points
     onCAD.size() == 2 && onCAD[0].face >= 0 && onCAD[1].face >= 0 && onCAD[0].face != onCAD[1].face;
   const auto between = areTwoFaces ? edgesBetween(model_.nurbs(), onCAD[0].face, onCAD[1].face)
                                    : std::vector<std::int32_t>{};
-  // However far that bows.
+  // An edge between the two faces counts however far it bows.
   const auto isBetween = [&](std::int32_t edge)
   { return std::binary_search(between.begin(), between.end(), edge); };
   const Point3 middle = 0.5 * (points[0] + points[1]);
@@ -204,7 +205,8 @@ std::int32_t BoundaryProjector::commonCrease(const std::array<Point3, 2>& points
   return best;
 }
 
-/// A smooth edge that both ends lie on, between the faces of the facets on the two sides.
+/// A smooth CAD edge that both ends lie on, between the faces of the facets on the two sides; -1:
+/// none.
 std::int32_t BoundaryProjector::commonSmoothEdge(const std::array<Point3, 2>& points,
   const std::array<EntityId, 2>& entities, const std::vector<FacetRecord>& onCAD) const
 {
@@ -259,7 +261,8 @@ EdgeClass BoundaryProjector::classify(const std::array<Point3, 2>& points,
   return smooth >= 0 ? EdgeClass{ EdgeClass::OnEdge, smooth } : onFace;
 }
 
-/// Beyond the end of a crease on those that continue it.
+/// The nearest point of a CAD edge (-1: of all creases); beyond the end of a crease, of those that
+/// continue it.
 ClosestPoint BoundaryProjector::projectOnEdge(std::int32_t edge, const Point3& point) const
 {
   if (edge < 0)
@@ -289,7 +292,7 @@ std::vector<std::int32_t> BoundaryProjector::entitiesOf(
                              : commonEntities(model_.nurbs(), entities[0], entities[1], dimension);
 }
 
-/// On an entity that both ends share: it cannot jump to the other side of something thin.
+/// As it is on an entity that both ends share, it cannot jump to the other side of something thin.
 ClosestPoint BoundaryProjector::nearestOnShared(
   const EdgeClass& edgeClass, const std::array<EntityId, 2>& entities, const Point3& point) const
 {

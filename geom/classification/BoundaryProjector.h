@@ -22,7 +22,7 @@ enum class BoundaryKind
   Edges
 };
 
-/// Of these facets, and of the CAD's faces or edges.
+/// The dimension of these facets, and of the CAD's faces or edges that they are compared with.
 constexpr std::int8_t dimensionOf(BoundaryKind kind)
 {
   return kind == BoundaryKind::Faces ? 2 : 1;
@@ -33,8 +33,8 @@ struct ClassifiedFacet
 {
   std::array<Point3, 4> points{};
   std::array<EntityId, 4> entities{};
-  int corners = 3;       ///< Of triangles; 4 of quadrilaterals, 2 of segments.
-  bool isInside = false; ///< It is between two cells.
+  int corners = 3;       ///< 3 of a triangle, 4 of a quadrilateral, 2 of a segment.
+  bool isInside = false; ///< The facet is between two cells.
 };
 
 /// How the midpoint of a mesh edge is to be placed.
@@ -59,7 +59,7 @@ struct BoundaryEdge
   std::array<EntityId, 2> entities;
 };
 
-/// The nearer of two answers; on a tie the smaller entity.
+/// Whether `a` is nearer than `b`; on a tie, whether its entity is the smaller one.
 inline bool isNearer(const ClosestPoint& a, const ClosestPoint& b)
 {
   return a.distance != b.distance ? a.distance < b.distance : a.entity < b.entity;
@@ -75,13 +75,13 @@ public:
   BoundaryKind kind() const { return kind_; }
   const CADModel& model() const { return model_; }
 
-  /// Nearest point of what the boundary is compared with, up to `limit`; on a face's border that of
-  /// the edge which the faces share (see onSharedEdge).
+  /// Nearest point of the CAD faces or edges that the boundary is compared with, up to a distance
+  /// of `limit`; on a face's border that of the edge which the faces share (see onSharedEdge).
   ClosestPoint nearest(const Point3& point, double limit) const;
-  /// Given the nearest point of the model: where the point lies on a CAD vertex or else a CAD edge
-  /// within `exact`, the nearest of these; otherwise that point.
+  /// Where the point is within a distance of `exact` of a CAD vertex, or else of a CAD edge, the
+  /// nearest point of these; otherwise `nearest`, the nearest point of the model.
   ClosestPoint onSmallest(const Point3& point, double exact, const ClosestPoint& nearest) const;
-  /// Nearest point of `entity` and its closure, in the same sense.
+  /// Nearest point of `entity` and its closure; on a face's border as `nearest` gives it.
   ClosestPoint nearestOn(EntityId entity, const Point3& point) const;
 
   /// Whether a facet whose corners all lie near the CAD stands for a part of it: whether its normal
@@ -93,7 +93,7 @@ public:
   /// half of its longest edge, and its normal (a segment's direction) fits there to 60 degrees.
   bool isBesideCAD(const std::array<Point3, 4>& points, int corners) const;
 
-  /// Of a classified facet, the CAD face that all of its corners lie on; of several the nearest one
+  /// The CAD face that all corners of a classified facet lie on; of several faces the nearest one
   /// whose normal fits; -1 where there is none.
   std::int32_t faceOf(const ClassifiedFacet& facet) const;
 
@@ -113,7 +113,7 @@ public:
   /// The face of a smooth edge, or else those (of a planar mesh: edges) that both ends share.
   std::vector<std::int32_t> entitiesOf(
     const EdgeClass& edgeClass, const std::array<EntityId, 2>& entities) const;
-  /// The nearest point of these; none where they have none.
+  /// The nearest point of the CAD entities of entitiesOf; with no entity where they have none.
   ClosestPoint nearestOnShared(
     const EdgeClass& edgeClass, const std::array<EntityId, 2>& entities, const Point3& point) const;
 

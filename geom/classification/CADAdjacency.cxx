@@ -13,7 +13,7 @@ namespace cadrefine
 namespace
 {
 
-/// Directions in which edges leave the vertex; of a closed edge both.
+/// Directions in which the accepted edges leave a vertex; both for a closed edge.
 template<class Accept>
 std::vector<Vector3> directionsAt(
   const CADModel& model, std::int32_t vertex, const Accept& isAccepted)
@@ -65,8 +65,8 @@ bool normalsDifferAround(const CADModel& model, std::int32_t vertex)
     });
 }
 
-/// Of a vertex without creases, whether it is the tip of something. Only where one edge ends or two
-/// meet at an angle, as those of a cone do, are the normals looked at.
+/// Whether a vertex without creases is the tip of something. Only where one edge ends or two meet
+/// at an angle, as those of a cone do, are the normals looked at.
 bool isApex(const CADModel& model, std::int32_t vertex)
 {
   const auto directions =

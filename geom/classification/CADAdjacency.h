@@ -21,33 +21,34 @@ std::vector<std::int32_t> entitiesAround(const NurbsModel& model, EntityId entit
 /// and no other: a vertex of a closed edge, the seam or a pole of a face that is smooth there.
 bool isWithin(const NurbsModel& model, EntityId entity, EntityId where);
 
-/// Entities of `dimension` (1 or 2) whose closure holds both, ascending.
+/// Entities of `dimension` (1 or 2) whose closure holds both `a` and `b`, ascending.
 std::vector<std::int32_t> commonEntities(
   const NurbsModel& model, EntityId a, EntityId b, int dimension);
 
-/// Faces whose closure holds the first `count` of these, three or four, ascending.
+/// Faces whose closure holds the first `count` of these entities, three or four, ascending.
 std::vector<std::int32_t> commonFaces(
   const NurbsModel& model, const std::array<EntityId, 4>& entities, int count);
 
-/// Where a mesh takes `point` whose nearest point is `where`. On the border of a face, off the edge
-/// that the border stands for: to the nearest point of that edge, which the faces beside it share.
-/// Otherwise there.
+/// The place on the CAD that a mesh has for `point`, whose nearest point is `where`. Where that is
+/// on the border of a face, off the edge that the border stands for: the nearest point of that
+/// edge, which the faces beside it share. Otherwise `where`.
 ClosestPoint onSharedEdge(const CADModel& model, const Point3& point, const ClosestPoint& where);
 
 /// How far from an entity of the CAD, beside the entity's own tolerance, a mesh vertex is that lies
 /// on it: 2e-7 of the model's size, more than an IGES file's rounding of 1e-7 of a coordinate makes
-/// of it, or a tenth of the vertex's shortest edge where that is less (but 1e-9 of the size).
+/// of it, or a tenth of the vertex's shortest edge where that is less (but at least 1e-9 of the
+/// size).
 double exactDistance(const CADModel& model, double shortestEdge);
 
-/// The same for a mesh whose file has five digits, as the short fields of Nastran: 5e-5 of the
-/// size, or a tenth of the shortest edge.
+/// The distance of exactDistance for a mesh whose file has five digits, as the short fields of
+/// Nastran: 5e-5 of the size, or a tenth of the shortest edge.
 double roundedDistance(const CADModel& model, double shortestEdge);
 
 /// Whether the CAD edge at this point, or one that ends there, fits the direction.
 bool fitsTangent(const CADModel& model, const ClosestPoint& where, const Vector3& direction);
 
-/// CAD edges that bound both faces, ascending; of one face the edges that bound no other one: its
-/// seams and its free border.
+/// CAD edges that bound both faces, ascending; if these are one face, the edges that bound no other
+/// one: its seams and its free border.
 std::vector<std::int32_t> edgesBetween(const NurbsModel& model, std::int32_t a, std::int32_t b);
 
 /// Whether a face lies on both sides of the edge without a crease.

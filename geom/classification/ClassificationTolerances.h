@@ -44,13 +44,15 @@ struct ClassificationTolerances
   /// A crease passes the middle of a mesh edge within this part of its reach (its length, or the
   /// height of a facet over it): beyond, another mesh edge is nearer.
   static constexpr double creaseDistance = 0.5;
-  /// Both ends are near some crease, in terms of the mesh edge's length, lest an edge that leaves
-  /// a crease be taken for it.
+  /// Both ends of a mesh edge along a crease are so near to some crease, in terms of its length,
+  /// lest an edge that leaves a crease be taken for it.
   static constexpr double endDistance = 0.5;
-  /// Ends of a mesh edge that follows a smooth CAD edge, in terms of its reach: vertices that a
-  /// mesher put there are nearer, those of a mesh that does not know of it mostly farther.
+  /// How far the ends of a mesh edge that follows a smooth CAD edge are from that, in terms of its
+  /// reach: vertices that a mesher put there are nearer, those of a mesh that does not know of it
+  /// mostly farther.
   static constexpr double followingDistance = 0.15;
-  /// Its middle, in terms of its length: a chord over a quarter of a circle is 0.21 from it.
+  /// How far the middle of such a mesh edge is from the CAD edge, in terms of its length: a chord
+  /// over a quarter of a circle is 0.21 from it.
   static constexpr double followingMiddle = 0.25;
   /// Part of a smooth CAD edge that a mesh must run along to know of it.
   static constexpr double coveredPart = 0.5;
@@ -60,8 +62,8 @@ struct ClassificationTolerances
   /// A mesh vertex takes a corner of the CAD within this part of its longest boundary edge: beyond,
   /// another vertex is nearer.
   static constexpr double cornerDistance = 0.5;
-  /// The end of two CAD edges that is no corner, in terms of the shortest boundary edge: as
-  /// `followingDistance`.
+  /// A mesh vertex takes an end of two CAD edges that is no corner within this part of its shortest
+  /// boundary edge: as `followingDistance`.
   static constexpr double jointDistance = 0.15;
   /// A crease is close to a vertex, in terms of its longest boundary edge: half of
   /// `creaseDistance`, as a vertex that could be on either side is to be named.
@@ -72,22 +74,26 @@ struct ClassificationTolerances
   /// A projected edge is not shorter than this part of what it was, nor longer than its inverse:
   /// facets of walls and of the far field collapse.
   static constexpr double leastShrinking = 0.5;
-  /// Of its area a facet keeps more: those beside a face, in its plane, collapse.
+  /// A projected facet keeps more than this part of its area: those beside a face, in its plane,
+  /// collapse.
   static constexpr double leastArea = 0.25;
-  /// Where the user sets no limit, no corner is farther away, in terms of the longest edge.
+  /// Where the user sets no limit, no corner of a facet is farther from the CAD than this part of
+  /// the facet's longest edge.
   static constexpr double farthestCorner = 0.5;
   /// Part of the facets on a CAD face that must agree on its side.
   static constexpr double sideMajority = 0.75;
 
   // What lies on the CAD already, in terms of the model's size
 
-  /// More than an IGES file's rounding of 1e-7 of a coordinate makes of a point on the CAD.
+  /// How far from the CAD a vertex may be to lie on it: more than an IGES file's rounding of 1e-7
+  /// of a coordinate makes of a point on the CAD.
   static constexpr double exact = 2e-7;
-  /// What five digits leave of a coordinate.
+  /// How far from the CAD a vertex may be to lie on it, in a mesh whose coordinates have five
+  /// digits.
   static constexpr double rounded = 5e-5;
-  /// But not more than this part of the vertex's shortest edge,
+  /// A vertex on the CAD is never farther from it than this part of its shortest edge,
   static constexpr double exactPartOfEdge = 0.1;
-  /// and not less than the precision of a nearest point.
+  /// or than this distance, the precision of a nearest point, if that is larger.
   static constexpr double leastExact = 1e-9;
   /// Distances that differ by less are the same.
   static constexpr double tie = 1e-9;

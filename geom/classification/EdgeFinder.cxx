@@ -13,7 +13,7 @@ namespace
 
 using Tolerances = ClassificationTolerances;
 
-/// Of the mesh edge's length and the heights of the facets over it the shortest.
+/// The smallest of the mesh edge's length and the heights of the facets over it.
 double reachOf(const MeshEdge& edge)
 {
   const double length = distance(edge.points[0], edge.points[1]);
@@ -90,7 +90,7 @@ ClosestPoint EdgeFinder::nearestCrease(const Point3& point, double limit) const
 }
 
 /// Whether two faces that make an angle at the point have the normals of the two facets, up to one
-/// sign, or two if a facet is between cells; of one facet, whether a face has its normal.
+/// sign, or two if a facet is between cells; for one facet, whether a face has its normal.
 bool EdgeFinder::fitsNormals(const ClosestPoint& where, const MeshEdge& edge) const
 {
   const bool anySigns = edge.facets[0].isInside || edge.facets[1].isInside;
@@ -129,7 +129,8 @@ bool EdgeFinder::passesAsCrease(const ClosestPoint& where, const MeshEdge& edge)
          fitsNormals(where, edge) && endsAreNearCreases(edge);
 }
 
-/// Otherwise an edge that leaves a crease would be taken for it, and its far end be moved there.
+/// Whether both ends are near to creases: otherwise an edge that leaves a crease would be taken for
+/// it, and its far end be moved there.
 bool EdgeFinder::endsAreNearCreases(const MeshEdge& edge) const
 {
   const double limit = Tolerances::endDistance * distance(edge.points[0], edge.points[1]);
@@ -230,7 +231,7 @@ EdgeMatch EdgeFinder::findCrease(const MeshEdge& edge) const
     {
       continue;
     }
-    // Of a face on both sides, one normal is known only: there the mesh has to follow closely.
+    // With one face on both sides, only one normal is known: there the mesh has to follow closely.
     best = std::min(
       best, sameFace ? matchFollowed(candidate, edge, reach) : matchCrease(candidate, edge, reach));
   }

@@ -17,12 +17,12 @@ namespace cadrefine
 struct FacetRecord
 {
   Vector3 normal{};        ///< Unit outward normal of a triangle.
-  double area = 0;         ///< Of a triangle.
+  double area = 0;         ///< Area of a triangle.
   unsigned char onCAD = 0; ///< The facet stands for a part of the CAD.
-  unsigned char free = 0;  ///< It is not, because the user's region leaves it out.
-  std::int32_t face = -1;  ///< CAD face that a triangle on the CAD stands for; -1: not known.
-  std::int32_t ear = -1;   ///< CAD edge that all corners of a triangle lie on; -1: none.
-  unsigned char odd = 0;   ///< All corners of a facet lie on the CAD, but its normal fits no face.
+  unsigned char free = 0; ///< The facet is not on the CAD, because the user's region leaves it out.
+  std::int32_t face = -1; ///< CAD face that a triangle on the CAD stands for; -1: not known.
+  std::int32_t ear = -1;  ///< CAD edge that all corners of a triangle lie on; -1: none.
+  unsigned char odd = 0;  ///< All corners of a facet lie on the CAD, but its normal fits no face.
   unsigned char isInside = 0; ///< The facet is between two cells: its normal may be either one.
 };
 
@@ -35,8 +35,8 @@ struct MeshEdge
   std::array<Point3, 2> points;
   std::array<FacetRecord, 2> facets;
   int facetCount = 2;
-  /// The end lies on the CAD already. It does not move to a smooth CAD edge for which the CAD gives
-  /// no reason.
+  /// 1 for an end that lies on the CAD already: it does not move to a smooth CAD edge for which the
+  /// CAD gives no reason.
   std::array<unsigned char, 2> settled{};
 };
 
@@ -48,12 +48,13 @@ std::vector<MeshEdge> meshEdges(
 /// the 15 of a crease.
 bool hasAngle(const MeshEdge& edge);
 
-/// The CAD edge for a mesh edge, and how far the middle of that is from it.
+/// The CAD edge for a mesh edge, and how far the middle of that (or its farther end, if it follows
+/// the CAD edge) is from it.
 struct EdgeMatch
 {
   std::int32_t edge = -1; ///< -1: none.
   double distance = std::numeric_limits<double>::infinity();
-  unsigned char unsettles = 0; ///< An end that is settled does not lie on it.
+  unsigned char unsettles = 0; ///< A settled end of the mesh edge does not lie on it.
 
   friend bool operator<(const EdgeMatch& a, const EdgeMatch& b)
   {
@@ -68,7 +69,7 @@ class EdgeFinder
 public:
   explicit EdgeFinder(const CADModel& model) : model_(model) {}
 
-  /// The nearest of these CAD edges:
+  /// Finds the CAD edge along which a mesh edge runs, the nearest of these:
   ///   - creases between the faces of the two facets (of one facet: of its face), if they pass the
   ///     middle of the mesh edge within half of its length and of the facets' heights over it, at
   ///     an angle of up to 60 degrees, the normals of their faces fit those of the facets, and both
@@ -81,7 +82,7 @@ public:
   /// Cost: a query for each edge that the faces share, at times one of the whole model, and two of
   /// the edge found.
   EdgeMatch find(const MeshEdge& edge) const;
-  /// The nearest crease for any of these, with the same limits.
+  /// The nearest crease for any of these mesh edges, with the limits of `find`.
   EdgeMatch findCrease(const std::vector<MeshEdge>& edges) const;
 
   /// Nearest crease (sharp edges and their ends) up to `limit`.

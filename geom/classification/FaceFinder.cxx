@@ -76,7 +76,8 @@ std::int32_t FaceFinder::faceByCorners(const CornerHits& facet, const Vector3& n
   return -1;
 }
 
-/// Of faces that are equally near, as those at an edge are, the one whose normal fits best.
+/// The nearest of the faces whose normal fits; if several are equally near, as those at an edge
+/// are, the one whose normal fits best.
 std::int32_t FaceFinder::nearestFitting(const std::vector<std::int32_t>& faces,
   const Point3& centroid, const Vector3& normal, bool eitherWay) const
 {

@@ -28,7 +28,8 @@ struct CornerHits
   std::array<Point3, 4> points{};
   std::array<ClosestPoint, 4> hits{};
   int corners = 3;
-  /// All vertices that share an edge with this corner have their nearest point on the same face.
+  /// For each corner, 1 if all vertices that share an edge with it have their nearest point on the
+  /// same face.
   std::array<unsigned char, 4> amongItsOwn{};
   /// All corners lie on the CAD already (see exactDistance).
   unsigned char exact = 0;
@@ -50,19 +51,20 @@ public:
   /// `sides` has one entry for each face of the model.
   FaceFinder(const CADModel& model, FaceSides sides) : model_(model), sides_(std::move(sides)) {}
 
-  /// The face nearest to the centroid of those whose normal there fits the facet's: to 60
-  /// degrees, and pointing the way that `sides` tells. So the two sides of a thin part are not
-  /// confused. Of facets whose corners lie on the CAD already, one that all corners lie on,
-  /// if it fits. No query where a corner and all vertices around it lie nearest to one face;
+  /// Finds the face of a facet: the nearest to its centroid of those whose normal there fits the
+  /// facet's, to 60 degrees, and points the way that `sides` tells. So the two sides of a thin part
+  /// are not confused. For facets whose corners lie on the CAD already, a face that all corners lie
+  /// on, if it fits. No query where a corner and all vertices around it lie nearest to one face;
   /// otherwise one of the whole model, and where the normal does not fit, two more and two for each
   /// face at the points found.
   FaceMatch find(const CornerHits& facet) const;
 
-  /// Whether a face at this point of the model has a normal that fits, and, unless it may be either
-  /// one, on the right side.
+  /// Whether a face at the point `where` of the model has a normal that fits a facet's `normal`
+  /// and, unless `eitherWay`, is on the right side.
   bool fitsAt(const ClosestPoint& where, const Vector3& normal, bool eitherWay) const;
 
-  /// Of these faces the nearest whose normal fits, either way, or -1.
+  /// The nearest of these faces whose normal fits, either way round, that of the facet with these
+  /// points; -1: none.
   std::int32_t nearestOf(
     const std::vector<std::int32_t>& faces, const std::array<Point3, 4>& points, int corners) const;
 

@@ -14,33 +14,35 @@ namespace cadrefine
 namespace
 {
 
-/// A place inside its face is looked for as far from the border as the middle is, and so often half
-/// as far, and twice.
+/// A place inside a face is looked for as far from its border as the middle is, then up to this
+/// many times at half the distance, and as often at twice the distance.
 constexpr int halvingsInside = 10;
-/// Of the model's size: a place so near to a plane is in it.
+/// A place nearer to a plane than this part of the model's size is in it.
 constexpr double planeTolerance = 1e-13;
-/// Each step of Newton's method doubles the digits.
+/// Limit on the steps of Newton's method, each of which doubles the digits.
 constexpr int mostSteps = 20;
 /// The least sine between a plane and the CAD, for the line in which they meet: of 10 degrees.
 constexpr double leastSlope = 0.17;
-/// A place on a face is taken instead of one on its border that is so many times nearer.
+/// A place on a face is taken instead of one on its border that is up to so many times nearer.
 constexpr double asNear = 1.25;
-/// Of a mesh edge's length: a place so near to one of its ends is not that of its middle.
+/// A place nearer to an end of a mesh edge than this part of its length is not that of its middle.
 constexpr double atEnd = 0.1;
 
 /// A mesh edge may lead across a nose if the CAD is so high over its middle, in parts of its
 /// length.
 constexpr double noseHeight = 0.05;
-/// Of the sum of the normals at its ends: those of both sides of a plate tell no direction.
+/// Least length of the sum of the normals at its ends: those of both sides of a plate tell no
+/// direction.
 constexpr double leastNoseSum = 0.1;
-/// Where the front of a nose, or the bottom of a groove, is looked for, in the same parts.
+/// How far from the middle the front of a nose, or the bottom of a groove, is looked for, in parts
+/// of the mesh edge's length.
 constexpr std::array noseParts{ 0.5, 1.0, 2.0, -0.5, -1.0, -2.0 };
-/// It is as far from one end as from the other, but for this part of the length.
+/// That place is as far from one end as from the other, but for this part of the length.
 constexpr double noseBalance = 0.5;
-/// Its normal is within 45 degrees of the direction between those at the ends.
+/// The normal there is within 45 degrees of the direction between those at the ends.
 const double noseCosine = ClassificationTolerances::cosineOfDegrees(45);
 
-/// Unit vectors square to one, 45 degrees apart.
+/// Unit vectors perpendicular to a vector, 45 degrees apart.
 std::array<Vector3, 8> directionsAcross(const Vector3& vector)
 {
   const auto smallest = std::min_element(
@@ -55,8 +57,9 @@ std::array<Vector3, 8> directionsAcross(const Vector3& vector)
     difference };
 }
 
-/// Beyond a smooth border of a face the surface goes on; so does a line beyond the end of an edge,
-/// unless both ends of the mesh edge are on that.
+/// Whether a place has left the face or edge that the mesh edge is on. It has not where the surface
+/// goes on beyond a smooth border of the face, or a line beyond the end of the edge, unless both
+/// ends of the mesh edge are on that edge.
 bool hasLeft(const BoundaryProjector& projector, EntityId entity, const BoundaryEdge& edge,
   const ClosestPoint& where)
 {
@@ -78,8 +81,8 @@ bool hasLeft(const BoundaryProjector& projector, EntityId entity, const Boundary
   return border.entity.dimension != 1 || projector.model().nurbs().edges[border.entity.index].sharp;
 }
 
-/// Of the place of a point on a CAD edge its parameter; at an end of the edge that of the end, and
-/// of a closed edge both.
+/// The parameter of the place of a point on a CAD edge; at an end of the edge that of the end, or
+/// of both ends if the edge is closed.
 std::vector<double> parametersOn(
   const BoundaryProjector& projector, std::int32_t edge, const Point3& point)
 {
@@ -141,8 +144,9 @@ ClosestPoint betweenOnEdge(const BoundaryProjector& projector, const BoundaryEdg
   return where;
 }
 
-/// Of the places on faces of eight points round the middle, so far away from it, the one that is
-/// nearest to the middle and as far from one end as from the other: these two added.
+/// Of the places on faces of eight points round the middle, at distance `away` from it, returns the
+/// one with the least sum of its distance from the middle and the difference of its distances from
+/// the ends.
 ClosestPoint betweenOnFaces(
   const BoundaryProjector& projector, const BoundaryEdge& edge, double away)
 {

@@ -11,14 +11,15 @@ namespace cadrefine
 /// the edge is nearest, as under a bow of the CAD that is as high as it is wide, a point between
 /// the ends, as far from one as from the other. If both ends lie on one CAD edge and another one is
 /// nearest, as for a diameter: such a point on their own CAD edge. Likewise on the face of the
-/// edge, unless another face is nearer by a fifth or more (a diameter under a dome). Of a chord
+/// edge, unless another face is nearer by a fifth or more (a diameter under a dome). For a chord
 /// that cuts off a nose, its tip (see onNose).
 ClosestPoint projectMidpoint(const BoundaryProjector& projector, const BoundaryEdge& edge);
 
-/// Of a smooth edge whose midpoint is nearest to `where`: where the normals at its ends are more
-/// than 90 degrees apart, as across the nose of a wing, the place before or behind the midpoint
-/// whose normal lies between them, if that of `where` does not; else of no entity. Work: none
-/// unless the CAD is higher than a twentieth of the edge; else two projections, and six on a nose.
+/// The tip of a nose under a smooth edge whose midpoint is nearest to `where`: where the normals at
+/// its ends are more than 90 degrees apart, as across the nose of a wing, the place before or
+/// behind the midpoint whose normal lies between them, if that of `where` does not. Else a place
+/// with no entity. Work: none unless the CAD is higher than a twentieth of the edge; else two
+/// projections, and six on a nose.
 ClosestPoint onNose(
   const BoundaryProjector& projector, const BoundaryEdge& edge, const ClosestPoint& where);
 
@@ -34,9 +35,9 @@ ClosestPoint offCrease(
 /// A place on the CAD for the midpoint of a smooth edge that is projected to `where`, in the plane
 /// of this unit normal through the edge: a plane of symmetry, or another plane wall that is not in
 /// the CAD, stays plane where the CAD cuts it at a slant. By Newton's method, from tangent plane to
-/// tangent plane. `where`, if it is in the plane already, or the normal is zero, if the CAD turns
-/// from the plane by less than 10 degrees, or if that finds no place. Work: none if `where` is in
-/// the plane; else three or four projections.
+/// tangent plane. Returns `where` if it is in the plane already, or the normal is zero, if the CAD
+/// turns from the plane by less than 10 degrees, or if that finds no place. Work: none if `where`
+/// is in the plane; else three or four projections.
 ClosestPoint inPlane(const BoundaryProjector& projector, const BoundaryEdge& edge,
   const ClosestPoint& where, const Vector3& normal);
 

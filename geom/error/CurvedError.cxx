@@ -33,7 +33,8 @@ double areaBetween(const Sample& a, const Sample& b)
   return norm(cross(mean, 0.5 * ((b.point - a.point) + (b.place - a.place))));
 }
 
-/// Positive on one side of the facet, negative on the other.
+/// The volume between a part and the places of its corners: positive on one side of the facet,
+/// negative on the other.
 double signedVolumeBetween(const Sample& a, const Sample& b, const Sample& c)
 {
   const auto way = [](const Sample& s) { return s.place - s.point; };
@@ -170,7 +171,7 @@ private:
     addSegment(middle, b, edge, depth - 1);
   }
 
-  /// A part with these corners.
+  /// Adds the measure of a part with these corners.
   template<std::size_t Corners>
   void addPart(
     const std::array<Sample, Corners>& c, const std::array<PartEdge, Corners>& edges, int depth)
@@ -215,13 +216,13 @@ private:
   const BoundaryProjector& projector_;
   const CurvedErrorFacet& facet_;
   PartEdge innerEdge_;
-  int count_;                 ///< Of corners.
-  CurvedTriangle triangle_{}; ///< Of a segment 0, 1 and 3.
+  int count_;                 ///< Number of corners.
+  CurvedTriangle triangle_{}; ///< For a segment, only nodes 0, 1 and 3.
   CurvedQuadrilateral quadrilateral_{};
   std::array<Sample, 4> corners_{};
   std::array<Sample, 4> middles_{};
   FacetError error_;
-  double coarser_ = 0; ///< The measure of one level less.
+  double coarser_ = 0; ///< The measure at one level less.
 };
 
 } // namespace

@@ -13,7 +13,7 @@ struct CurvedErrorFacet
 {
   ErrorFacet straight;              ///< Its corners, and the classes of its edges.
   std::array<Point3, 4> nodes;      ///< The mid node of each edge.
-  std::array<EntityId, 4> entities; ///< Of the mid nodes.
+  std::array<EntityId, 4> entities; ///< CAD entities of the mid nodes.
   std::array<bool, 4> offCAD{}; ///< Mid nodes that are classified, but have not reached the CAD.
   std::int32_t face = -1;       ///< Its CAD face; -1: not known.
 };

@@ -47,7 +47,7 @@ std::vector<SurfacePoint> newPoints(
 class BothSides
 {
 public:
-  /// Over a segment of this length.
+  /// Adds what is over a segment of this length, with heights a and b at its ends.
   void add(double length, double a, double b)
   {
     const double whole = length * (a + b) / 2;
@@ -56,7 +56,7 @@ public:
     add(whole - atA);
   }
 
-  /// Over a triangle of this area.
+  /// Adds what is over a triangle of this area, with heights a, b and c at its corners.
   void add(double area, double a, double b, double c)
   {
     if (b * c < 0) // so that, where one is alone on its side, that is the first
@@ -217,7 +217,7 @@ double cancelledAt(const FacetPoints& facet)
   return (corners == 2 ? bothSidesOf(c[0], c[1], m[0]) : bothSidesOf(facet)).cancelled();
 }
 
-/// Of one level.
+/// The error of a facet at one level.
 FacetError errorOf(const ClassifiedSurface& surface, const std::vector<ClosestPoint>& midpoints,
   const std::vector<SurfacePoint>& middles, const SurfaceFacet& facet)
 {

@@ -17,7 +17,7 @@ struct FacetError
   /// Largest distance from the middle of the facet's edges (of a quadrilateral also its own) to the
   /// CAD.
   double chordError = 0;
-  double largestDistance = 0; ///< The same over the edges of its children too.
+  double largestDistance = 0; ///< Largest such distance, over the edges of its children too.
   double lastLevel = 0;       ///< What the last level of the recursion has added to `measure`.
 };
 
@@ -29,8 +29,9 @@ double extrapolatedMeasure(const FacetError& error);
 struct SurfacePoint
 {
   Point3 point{};
-  EntityId entity;      ///< None: not on the CAD.
-  Point3 place = point; ///< On the CAD; elsewhere than `point` where that has not reached it.
+  EntityId entity; ///< CAD entity; none: not on the CAD.
+  /// Its place on the CAD; elsewhere than `point` where that has not reached it.
+  Point3 place = point;
   EntityId placeEntity = entity;
 };
 
@@ -58,12 +59,12 @@ struct ClassifiedSurface
   std::vector<SurfaceFacet> facets;
 
   BoundaryEdge edge(std::size_t e) const;
-  /// Whose midpoints are wanted: all edges, and one for each quadrilateral.
+  /// The edges whose midpoints are wanted: all edges, and one for each quadrilateral.
   std::vector<BoundaryEdge> allEdges() const;
 };
 
-/// What places the middle of a quadrilateral on this CAD face, or near these corners' where that is
-/// -1, given its corners.
+/// The edge whose midpoint is the middle of a quadrilateral with these corners: on this CAD face,
+/// or, where that is -1, on those that two opposite corners share.
 BoundaryEdge middleOfQuad(
   const std::array<Point3, 4>& points, const std::array<EntityId, 4>& entities, std::int32_t face);
 

@@ -147,7 +147,7 @@ double leastOfUnitEdges(const HexahedronEdges& edges)
   return std::copysign(std::sqrt(std::abs(least)), least);
 }
 
-/// At the middle of edge a + 2 b of direction d.
+/// The Bernstein coefficient at the middle of edge a + 2 b of direction d.
 double edgeCoefficient(const HexahedronEdges& edges, int d, int a, int b)
 {
   const auto& next = edges[(d + 1) % 3];
@@ -257,7 +257,8 @@ bool isNeverNegative(const Coefficients& coefficients, int& halvingsLeft)
   return isNeverNegative(halves[0], halvingsLeft) && isNeverNegative(halves[1], halvingsLeft);
 }
 
-/// The same of a quadratic polynomial in closed form. Its rounding is below the margin.
+/// Whether a quadratic polynomial with these Bernstein coefficients is nowhere negative, in closed
+/// form. Its rounding is below the margin.
 bool isNeverNegative(double first, double middle, double last)
 {
   return first >= 0 && last >= 0 && (middle >= 0 || middle * middle <= first * last);
@@ -293,13 +294,13 @@ std::array<Point3, 3> cornerOf(const std::array<Point3, Count>& corners, int k)
   return { corners[k], corners[(k + 1) % 4], corners[(k + 3) % 4] };
 }
 
-/// With the sign that tells whether the cell is valid.
+/// The least value, with the sign that tells whether the cell is valid.
 double withSignOf(bool isValid, double least)
 {
   return isValid ? std::max(least, std::numeric_limits<double>::min()) : std::min(0.0, least);
 }
 
-/// By which the sine at the corners of the equilateral triangle is 1.
+/// Factor that makes the sine at the corners of the equilateral triangle 1.
 const double sineFactor = 2 / std::sqrt(3.0);
 
 } // namespace
@@ -449,7 +450,8 @@ double scaledJacobian(const Quadrilateral& corners, const Vector3& side)
   return withSignOf(isValidQuadrilateral(corners, side), least);
 }
 
-/// The means of the Bernstein coefficients; those of a hexahedron at corners cancel out.
+/// The volume as the mean of the Bernstein coefficients; those of a hexahedron at corners cancel
+/// out.
 double volume(const Hexahedron& corners)
 {
   const HexahedronEdges edges = edgesOf(corners);

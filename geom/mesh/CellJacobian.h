@@ -58,25 +58,25 @@ bool isValidQuadrilateral(const Quadrilateral& corners, const Vector3& side);
 /// mesh quality metrics for unstructured initial meshes", Finite Elem. Anal. Des. 39, 2003). 1 for
 /// the cube (and bricks), the square (and rectangles), the right prism over an equilateral
 /// triangle, and the pyramid of equal edges; less for all others. Positive if and only if the cell
-/// is valid: 0 where the values are positive but the cell is not valid between them. Of hexahedra,
-/// wedges and quadrilaterals it is Verdict's: of the latter what the corners turn about the mean
-/// normal, with the sign that it has from the end of `side`. Of a pyramid it also has the sines of
+/// is valid: 0 where the values are positive but the cell is not valid between them. For hexahedra,
+/// wedges and quadrilaterals it is Verdict's: for the latter what the corners turn about the mean
+/// normal, with the sign that it has from the end of `side`. For a pyramid it also has the sines of
 /// the triangles' angles at the apex, as a high one has good corners at the base. Squares of edges
 /// must be finite.
 ///
-/// Of a hexahedron that is valid a lower bound may be given instead, if that is at least `enough`.
+/// For a valid hexahedron a lower bound may be given instead, if that is at least `enough`.
 double scaledJacobian(
   const Hexahedron& corners, double enough = std::numeric_limits<double>::infinity());
 double scaledJacobian(const Wedge& corners);
 double scaledJacobian(const Pyramid& corners);
 double scaledJacobian(const Quadrilateral& corners, const Vector3& side);
 
-/// The integral of the Jacobian determinant.
+/// The volume of a cell: the integral of its Jacobian determinant.
 double volume(const Hexahedron& corners);
 double volume(const Wedge& corners);
 double volume(const Pyramid& corners);
 
-/// That of the projection along its mean normal, if the quadrilateral is not plane.
+/// The area of a quadrilateral; if it is not plane, that of its projection along its mean normal.
 double area(const Quadrilateral& corners);
 
 } // namespace cadrefine

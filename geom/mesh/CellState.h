@@ -12,8 +12,8 @@
 namespace cadrefine
 {
 
-/// Whether a cell is valid, and its quality: of simplices the mean ratio, negative where they are
-/// inverted, of others the scaled Jacobian.
+/// Whether a cell is valid, and its quality: for simplices the mean ratio, negative where they are
+/// inverted, for others the scaled Jacobian.
 struct CellState
 {
   bool valid = false;
@@ -22,9 +22,10 @@ struct CellState
 
 constexpr double infiniteQuality = std::numeric_limits<double>::infinity();
 
-/// Of a cell with these corners: validity of simplices by exact orientation, of others by that of
-/// their Jacobian everywhere. A cell of area is valid where it turns as seen from the end of
-/// `side`. The quality of a valid cell may be a lower bound of it, where that is at least `enough`.
+/// The state of a cell with these corners: validity of simplices by exact orientation, of others by
+/// the sign of their Jacobian everywhere. A cell of area is valid where it turns as seen from the
+/// end of `side`. The quality of a valid cell may be a lower bound of it, where that is at least
+/// `enough`.
 CellState stateAt(shapes::Tetrahedron, const std::array<Point3, 4>& p, const Vector3& side = {},
   double enough = infiniteQuality);
 CellState stateAt(shapes::Pyramid, const std::array<Point3, 5>& p, const Vector3& side = {},
@@ -48,8 +49,8 @@ std::array<Point3, Corners> cornersOf(
   return result;
 }
 
-/// The side from which a cell is seen: of one of area that of the plane, or else its own where its
-/// corners are at these points.
+/// The side from which a cell is seen: for one of area the normal of the plane, or else its own (of
+/// any length) with its corners at these points; zero for one of volume.
 template<class Shape>
 Vector3 sideOf(Shape, const std::array<Point3, Shape::corners>& p, const Vector3& plane)
 {

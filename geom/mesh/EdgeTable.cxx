@@ -30,8 +30,8 @@ std::vector<Index> orderByIds(const std::vector<GlobalId>& ids)
   return order;
 }
 
-/// Calls use(place, a, b) for the edges of the cells in turn, `place` being where the number of the
-/// edge is to stand.
+/// Calls use(place, a, b) for the edges of the cells in turn, `place` counting where the number of
+/// the edge is to stand.
 template<std::size_t Corners, std::size_t Edges, class Use>
 void forEachCellEdge(
   const Cells<Corners>& cells, const int (&ends)[Edges][2], std::size_t& place, const Use& use)
@@ -45,7 +45,7 @@ void forEachCellEdge(
   }
 }
 
-/// visit(shape, cells) of the shapes that have edges, those of the highest dimension first.
+/// Calls visit(shape, cells) for the shapes that have edges, those of the highest dimension first.
 template<class Visit>
 void visitWithEdges(const Mesh& mesh, const Visit& visit)
 {
@@ -87,7 +87,7 @@ struct CellEdge
   static constexpr std::size_t most = std::numeric_limits<std::uint32_t>::max();
 };
 
-/// Where the number of a cell's edge stands.
+/// Finds where the number of a cell's edge stands in the table.
 class CellEdgePlaces
 {
 public:

@@ -22,7 +22,7 @@ public:
 
   /// End vertices, the one with the smaller global id first.
   const std::vector<std::array<Index, 2>>& edges() const { return edges_; }
-  /// Number of the edge, or -1.
+  /// Number of the edge between two vertices, or -1.
   Index find(Index a, Index b) const;
   Index findOrAdd(Index a, Index b);
 
@@ -39,11 +39,13 @@ struct EdgeTable
   /// End vertices, the one with the smaller global id first; in ascending order of (smaller id,
   /// larger id).
   std::vector<std::array<Index, 2>> edges;
-  /// Of edges that stand over each other in wedges (see EdgeStacks) that of the longest.
+  /// Squared length of each edge; for edges that stand over each other in wedges (see EdgeStacks)
+  /// that of the longest.
   std::vector<double> squaredLengths;
-  /// Of the edges that stand over each other the ids of the ends of the longest; none: no edges do.
+  /// For each edge, the ids of the ends of the longest of those that stand over each other with it;
+  /// empty: no edges stand over each other.
   std::vector<std::array<GlobalId, 2>> idsInStack;
-  /// Of the cells of each shape, in the order of its edges.
+  /// The edges of the cells of each shape, in the order of the shape's edges.
   std::vector<std::array<Index, 6>> ofTetrahedra;
   std::vector<std::array<Index, 8>> ofPyramids;
   std::vector<std::array<Index, 9>> ofWedges;
@@ -56,11 +58,11 @@ struct EdgeTable
   /// The edges whose smaller end is at position p: firstOfPosition[p] up to firstOfPosition[p + 1].
   std::vector<Index> firstOfPosition;
 
-  /// Number of the edge between two vertices, or -1. Takes the logarithm of the edges there.
+  /// Number of the edge between two vertices, or -1. Takes time logarithmic in the edges there.
   Index find(Index a, Index b) const;
 };
 
-/// Where a table has the edges of the cells of a shape.
+/// The member of a table that has the edges of the cells of a shape.
 constexpr auto edgesOfCells(shapes::Tetrahedron)
 {
   return &EdgeTable::ofTetrahedra;

@@ -44,7 +44,7 @@ std::pair<Index, std::uint64_t> sideKey(const std::array<Index, 2>& ends)
   return { std::min(a, b), static_cast<std::uint64_t>(std::max(a, b)) };
 }
 
-using MixedOthers = std::pair<std::uint64_t, Index>; ///< The last one -1 of a triangle.
+using MixedOthers = std::pair<std::uint64_t, Index>; ///< The last vertex is -1 for a triangle.
 
 std::pair<Index, MixedOthers> sideKey(Facet side)
 {
@@ -136,7 +136,7 @@ struct SimplexSides
   }
 };
 
-/// The same of cells of any shape.
+/// The sides of cells of any shape at a vertex that is their smallest, of those that are looked at.
 class MixedSides
 {
 public:
@@ -194,7 +194,7 @@ public:
 private:
   static constexpr std::size_t mostSides = 6;
 
-  /// use(place, side)
+  /// Calls use(place, side) for the sides of a cell.
   template<class Use>
   void forSides(std::size_t cell, const Use& use) const
   {
@@ -205,7 +205,7 @@ private:
       { forEachSide(shape, corners, number, [&](const Facet& side) { use(place++, side); }); });
   }
 
-  /// Whether enough corners are looked at for a side.
+  /// Whether enough corners of a cell are looked at for it to have a side that is.
   bool mayHaveSides(std::size_t cell) const
   {
     std::ptrdiff_t count = 0;
@@ -234,7 +234,7 @@ template<class Side>
 class SingleSides
 {
 public:
-  /// Appends the places of those.
+  /// Appends the places of the sides from `first` to `last` that are met once.
   void find(Side* first, Side* last, std::vector<std::size_t>& places)
   {
     constexpr std::ptrdiff_t fewSides = 64;

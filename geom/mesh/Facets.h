@@ -16,9 +16,10 @@ namespace cadrefine
 /// or a segment of a planar mesh's boundary. Where it has fewer than four vertices, -1 follows.
 struct Facet
 {
-  std::array<Index, 4> vertices{ -1, -1, -1, -1 }; ///< In the order that gives the outward normal.
-  Index cell = -1;                                 ///< Its cell of the mesh's own dimension.
-  bool isInside = false;                           ///< It is between two cells.
+  /// Its corners, in the order that gives the outward normal.
+  std::array<Index, 4> vertices{ -1, -1, -1, -1 };
+  Index cell = -1;       ///< Its cell of the mesh's own dimension.
+  bool isInside = false; ///< The facet is between two cells.
 
   int corners() const { return vertices[3] >= 0 ? 4 : vertices[2] >= 0 ? 3 : 2; }
   /// Edge k joins corners k and k + 1; a segment is its own edge 0.
@@ -27,7 +28,7 @@ struct Facet
   const Index* end() const { return vertices.data() + corners(); }
 };
 
-/// Of its corners, in the first places.
+/// The points of a facet's corners, in the first places.
 inline std::array<Point3, 4> pointsOf(const Mesh& mesh, const Facet& facet)
 {
   std::array<Point3, 4> points{};
@@ -36,7 +37,7 @@ inline std::array<Point3, 4> pointsOf(const Mesh& mesh, const Facet& facet)
   return points;
 }
 
-/// The sides of a shape: of one of volume its faces, of others their edges.
+/// The local sides of a shape: the faces of one of volume, the edges of others.
 template<class Shape>
 constexpr auto& sidesOf(Shape)
 {
@@ -50,7 +51,7 @@ constexpr auto& sidesOf(Shape)
   }
 }
 
-/// use(side) of a cell of this shape with these corners and this number.
+/// Calls use(side) for the sides of a cell of this shape with these corners and this number.
 template<class Shape, class Corners, class Use>
 void forEachSide(Shape shape, const Corners& corners, Index cell, const Use& use)
 {
@@ -64,7 +65,7 @@ void forEachSide(Shape shape, const Corners& corners, Index cell, const Use& use
   }
 }
 
-/// The same of all cells of the mesh's own dimension, which is 2 or 3.
+/// Calls use(side) for the sides of all cells of the mesh's own dimension, which is 2 or 3.
 template<class Use>
 void forEachSide(const Mesh& mesh, const Use& use)
 {
@@ -82,7 +83,7 @@ void forEachSide(const Mesh& mesh, const Use& use)
 /// Sides of the cells of the mesh's own dimension that are met once in this piece. In the order of
 /// the cells. Lists the cells at the smallest vertices of their sides: work linear in the number of
 /// cells but for a logarithm of the sides at a vertex, memory 8 bytes a cell. With `among`, a flag
-/// for each vertex, only the sides are looked at whose vertices all have one.
+/// for each vertex, only the sides are looked at whose vertices are all flagged.
 std::vector<Facet> findOuterFacets(const Mesh& mesh, const std::vector<unsigned char>& among = {},
   const ParallelFor& parallelFor = serialFor);
 

@@ -23,9 +23,9 @@ using Cells = std::vector<std::array<Index, Corners>>;
 /// come first: tetrahedra, pyramids, wedges, hexahedra; triangles, quadrilaterals.
 struct Mesh
 {
-  int dimension = 3; ///< Of the cells of highest dimension; the same on every rank.
+  int dimension = 3; ///< Dimension of the cells of highest dimension; the same on every rank.
   std::vector<Point3> points;
-  std::vector<GlobalId> ids; ///< Of the points; distinct within the piece.
+  std::vector<GlobalId> ids; ///< Global ids of the points; distinct within the piece.
   Cells<4> tetrahedra;
   Cells<5> pyramids; ///< Seen from the apex, corner 4, the base turns counter-clockwise.
   Cells<6> wedges;   ///< Seen from corners 3, 4, 5, the others turn counter-clockwise.
@@ -45,13 +45,14 @@ struct Mesh
   }
 };
 
-/// Whether it is a mesh of area in space. `plane`: the normal of a planar one, else zero.
+/// Whether a mesh is one of area in space. `plane`: the normal of a planar mesh, else zero.
 inline bool isSurface(const Mesh& mesh, const Vector3& plane)
 {
   return mesh.dimension == 2 && plane == Vector3{};
 }
 
-/// visit(cells) of the simplices of the mesh's own dimension: its tetrahedra, or its triangles.
+/// Calls visit(cells) for the simplices of the mesh's own dimension: its tetrahedra, or its
+/// triangles. Returns what that returns.
 template<class AnyMesh, class Visit>
 decltype(auto) visitOwnSimplices(AnyMesh& mesh, const Visit& visit)
 {
@@ -77,7 +78,7 @@ inline const int (&faceOppositeTo(Index vertex, const std::array<Index, 4>& cell
   return tetrahedronFaces[std::find(cell.begin(), cell.end(), vertex) - cell.begin()];
 }
 
-/// Local edges of each of these faces: edge k joins corners k and k + 1.
+/// Local edges of each local face of a tetrahedron: edge k joins corners k and k + 1.
 constexpr int tetrahedronFaceEdges[4][3] = { { 3, 5, 4 }, { 2, 5, 1 }, { 0, 4, 2 }, { 1, 3, 0 } };
 
 /// Local edges of a triangle: edge k joins corners k and k + 1.
@@ -117,7 +118,7 @@ struct Quadrilateral
   static constexpr std::size_t corners = 4;
   static constexpr auto cells = &Mesh::quadrilaterals;
   static constexpr int edges[4][2] = { { 0, 1 }, { 1, 2 }, { 2, 3 }, { 3, 0 } };
-  /// Edges of its quadrilaterals: here of itself.
+  /// Local edges of its quadrilaterals: here of itself.
   static constexpr int quadEdges[1][4] = { { 0, 1, 2, 3 } };
 };
 
@@ -152,7 +153,7 @@ struct Wedge
     { 0, 3 }, { 1, 4 }, { 2, 5 } };
   static constexpr int faces[5][4] = { { 0, 2, 1, -1 }, { 3, 4, 5, -1 }, { 0, 1, 4, 3 },
     { 1, 2, 5, 4 }, { 2, 0, 3, 5 } };
-  /// Edges of its quadrilaterals: of faces 2, 3, 4.
+  /// Local edges of its quadrilaterals: of faces 2, 3, 4.
   static constexpr int quadEdges[3][4] = { { 0, 7, 3, 6 }, { 1, 8, 4, 7 }, { 2, 6, 5, 8 } };
 };
 
@@ -178,7 +179,8 @@ constexpr bool isSimplex(Shape)
   return Shape::corners == Shape::dimension + 1;
 }
 
-/// visit(shape, cells) of the cells of one dimension, in the order in which they are numbered.
+/// Calls visit(shape, cells) for the shapes of one dimension, in the order in which their cells are
+/// numbered.
 template<class AnyMesh, class Visit>
 void visitShapes(AnyMesh& mesh, int dimension, const Visit& visit)
 {
@@ -197,7 +199,7 @@ void visitShapes(AnyMesh& mesh, int dimension, const Visit& visit)
   }
 }
 
-/// The same of the cells of the mesh's own dimension, which is 2 or 3.
+/// Calls visit(shape, cells) for the shapes of the mesh's own dimension, which is 2 or 3.
 template<class AnyMesh, class Visit>
 void visitOwnShapes(AnyMesh& mesh, const Visit& visit)
 {
@@ -207,7 +209,7 @@ void visitOwnShapes(AnyMesh& mesh, const Visit& visit)
     : visitAll(shapes::Triangle{}, shapes::Quadrilateral{});
 }
 
-/// visit(shape, corners) of the cell of this number among those of the mesh's own dimension.
+/// Calls visit(shape, corners) for the cell of this number among those of the mesh's own dimension.
 template<class Visit>
 void visitOwnCell(const Mesh& mesh, Index number, const Visit& visit)
 {
@@ -224,7 +226,7 @@ void visitOwnCell(const Mesh& mesh, Index number, const Visit& visit)
     });
 }
 
-/// visitShapes of all dimensions, 0 first.
+/// Calls visit(shape, cells) for the shapes of all dimensions, 0 first.
 template<class AnyMesh, class Visit>
 void visitShapes(AnyMesh& mesh, const Visit& visit)
 {

@@ -18,11 +18,11 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 /// (see QualitySummary.cxx). This is the square of eight times as much.
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double certain = (32 * epsilon) * (32 * epsilon);
-/// Between these, nothing of that underflows or overflows.
+/// With sums of squared lengths between these, nothing of that underflows or overflows.
 constexpr double smallestLengths = 1e-80;
 constexpr double largestLengths = 1e80;
 
-/// Rational arithmetic has no infinities.
+/// Whether all coordinates are finite: rational arithmetic has no infinities.
 template<class... Points>
 bool areFinite(const Points&... points)
 {

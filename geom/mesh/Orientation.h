@@ -25,10 +25,10 @@ bool isPositive(const Point3& a, const Point3& b, const Point3& c, const Point3&
 /// The signs of the three components of a triangle's normal: all 0 where the points lie on a line.
 std::array<int, 3> normalSigns(const Point3& a, const Point3& b, const Point3& c);
 
-/// The sign of a triangle, seen from the end of `reference`: 0 where it has no area. Exact where
-/// the triangle lies in a coordinate plane. Elsewhere only whether it has an area is exact, and
-/// whether its normal points to the side of `reference` is decided in floating point, as "turned
-/// over" has no exact meaning in space.
+/// The sign (-1, 0, 1) of a triangle, seen from the end of `reference`: 1 where it turns
+/// counter-clockwise, 0 where it has no area. Exact where the triangle lies in a coordinate plane.
+/// Elsewhere only whether it has an area is exact, and whether its normal points to the side of
+/// `reference` is decided in floating point, as "turned over" has no exact meaning in space.
 int turnOf(const Point3& a, const Point3& b, const Point3& c, const Vector3& reference);
 
 } // namespace cadrefine

@@ -25,7 +25,7 @@ double crossingAt(const Coordinates<Corners>& in, const Coordinates<Corners>& ou
   return in[k] / (in[k] - out[k]);
 }
 
-/// The point there.
+/// The point on the way from `in` to `out` where coordinate `k` is 0.
 template<std::size_t Corners>
 Coordinates<Corners> crossing(
   const Coordinates<Corners>& in, const Coordinates<Corners>& out, std::size_t k)
@@ -41,7 +41,7 @@ Coordinates<Corners> crossing(
 }
 
 /// A piece where coordinate `k` is positive at the first `inside` corners, neither none nor all.
-/// What it has there is a smaller simplex or a prism, of Corners - 1 simplices.
+/// The part where it is positive is a smaller simplex or a prism, of Corners - 1 simplices.
 template<std::size_t Corners>
 struct Cut
 {
@@ -84,7 +84,8 @@ std::array<double, Corners - 1> partsOf(const Cut<Corners>& cut)
   return parts;
 }
 
-/// Of a prism: each has some corners of one of two facets, and the others of the other.
+/// The simplices of the part where the coordinate is positive; each one of a prism has some corners
+/// of one of two facets, and the others of the other.
 template<std::size_t Corners>
 std::array<Piece<Corners>, Corners - 1> simplicesOf(const Cut<Corners>& cut)
 {
@@ -211,7 +212,7 @@ bool isApart(const Piece<Corners>& piece)
   return false;
 }
 
-/// Of simplices in one space.
+/// The overlap of simplices in one space.
 template<std::size_t Corners>
 double overlapOf(const SimplexFrame<Corners>& one, const SimplexFrame<Corners>& other)
 {

@@ -9,7 +9,7 @@
 namespace cadrefine
 {
 
-/// The corners of a tetrahedron or triangle.
+/// The points of the corners of a tetrahedron or triangle.
 template<std::size_t Corners>
 using SimplexPoints = std::array<Point3, Corners>;
 
@@ -17,7 +17,7 @@ using SimplexPoints = std::array<Point3, Corners>;
 double measure(const SimplexPoints<4>& cell);
 double measure(const SimplexPoints<3>& cell);
 
-/// A tetrahedron or triangle, with what its barycentric coordinates take.
+/// A tetrahedron or triangle, with what is needed to compute barycentric coordinates in it.
 template<std::size_t Corners>
 class SimplexFrame
 {
@@ -25,10 +25,10 @@ public:
   explicit SimplexFrame(const SimplexPoints<Corners>& points);
 
   const SimplexPoints<Corners>& points() const { return points_; }
-  double size() const { return size_; } ///< See measure.
+  double size() const { return size_; } ///< Volume or area, see measure.
 
   /// Barycentric coordinates of a point, of a triangle those of the nearest point of its plane;
-  /// they sum to 1 up to rounding. Of a flat cell: 1 for the first corner, 0 for the others.
+  /// they sum to 1 up to rounding. For a flat cell: 1 for the first corner, 0 for the others.
   std::array<double, Corners> coordinates(const Point3& point) const
   {
     std::array<double, Corners> result{ 1 };
@@ -44,7 +44,7 @@ public:
 private:
   SimplexPoints<Corners> points_;
   double size_;
-  std::array<Vector3, Corners - 1> gradients_{}; ///< Of all coordinates but the first.
+  std::array<Vector3, Corners - 1> gradients_{}; ///< Gradients of all coordinates but the first.
 };
 
 extern template class SimplexFrame<3>;
@@ -60,8 +60,9 @@ extern template class SimplexFrame<4>;
 /// otherwise some 0.4.
 double overlap(const SimplexFrame<4>& a, const SimplexFrame<4>& b);
 
-/// Area of the intersection of triangle `b` with the projection of `a` onto its plane, likewise; 0
-/// where their normals point to different sides, as those of the two sides of a thin plate.
+/// Area of the intersection of triangle `b` with the projection of `a` onto its plane, found in the
+/// same way; 0 where their normals point to different sides, as those of the two sides of a thin
+/// plate.
 double overlap(const SimplexFrame<3>& a, const SimplexFrame<3>& b);
 
 } // namespace cadrefine

@@ -13,7 +13,7 @@ namespace cadrefine
 namespace
 {
 
-/// As the table has them, given them in turn.
+/// The edges of a quadrilateral, given in turn, in the order in which the table has them.
 std::array<Index, 4> inOrder(const std::array<Index, 4>& edges)
 {
   const auto smallest = std::min_element(edges.begin(), edges.end()) - edges.begin();
@@ -22,7 +22,8 @@ std::array<Index, 4> inOrder(const std::array<Index, 4>& edges)
                        : std::array<Index, 4>{ at(0), at(3), at(2), at(1) };
 }
 
-/// Only the two opposite edges count: no two quadrilaterals share both.
+/// A key that tells quadrilaterals apart: only two opposite edges count, as no two quadrilaterals
+/// share both.
 std::uint64_t keyOf(const std::array<Index, 4>& ordered)
 {
   return static_cast<std::uint64_t>(ordered[0]) << 32 | static_cast<std::uint64_t>(ordered[2]);
@@ -32,7 +33,7 @@ std::uint64_t keyOf(const std::array<Index, 4>& ordered)
 struct CellQuad
 {
   std::array<Index, 4> edges; ///< As the table has them.
-  Index* number;              ///< Where that of the quadrilateral is to stand.
+  Index* number;              ///< Where the number of the quadrilateral is to stand.
 };
 
 /// Calls use(quad) for the quadrilaterals of all cells in turn.

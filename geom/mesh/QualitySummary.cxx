@@ -13,8 +13,8 @@ namespace
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-/// Beyond these, a cube of squared lengths or a volume may have lost digits to underflow, or be
-/// infinite.
+/// Beyond these bounds, a cube of squared lengths or a volume may have lost digits to underflow, or
+/// be infinite.
 constexpr double smallestCube = std::numeric_limits<double>::min() / (epsilon * epsilon * epsilon);
 constexpr double largestCube = std::numeric_limits<double>::max();
 
@@ -24,10 +24,10 @@ constexpr double largestCube = std::numeric_limits<double>::max();
 /// square of eight times as much for half the value, over L^3.
 constexpr double certainlyPositive = (16 * epsilon) * (16 * epsilon);
 
-/// Bounds of the quality above this do for it: bricks need only be looked at once.
+/// Lower bounds of a quality above this do in its place: bricks need only be looked at once.
 constexpr double practicallyOne = 1 - 1e-11;
 
-/// Of the cells so far.
+/// The summary of the cells so far.
 class Summary
 {
 public:

@@ -13,8 +13,9 @@ namespace cadrefine
 /// Cells of the mesh's own dimension with a flagged vertex, ascending. Work: one look at each cell.
 std::vector<Index> cellsAt(
   const Mesh& mesh, const std::vector<unsigned char>& flags, const ParallelFor& parallelFor);
-/// The cells of a shape, numbered from 0, among these numbers, ascending, of cells of the mesh's
-/// own dimension, of which `count` from `first` on are of that shape.
+/// Those of `numbers`, ascending numbers of cells of the mesh's own dimension, that are of one
+/// shape, whose `count` cells are numbered from `first` on; numbered among that shape's cells, from
+/// 0.
 std::vector<Index> cellsOfShape(
   const std::vector<Index>& numbers, std::size_t first, std::size_t count);
 /// Flags the vertices of these cells.
@@ -23,8 +24,8 @@ void flagVertices(
 
 /// The vertices that cells have, ascending. Work: one look at each cell.
 std::vector<Index> usedVertices(const Mesh& mesh);
-/// Takes all vertices but these, which are ascending and all that cells have, out of a mesh. The
-/// new number of each, -1 of what is gone. Work: linear.
+/// Takes all vertices but these, which are ascending and include all that cells have, out of a
+/// mesh. Returns the new number of each old vertex, -1 for those taken out. Work: linear.
 std::vector<Index> keepVertices(const std::vector<Index>& kept, Mesh& mesh);
 
 } // namespace cadrefine

@@ -14,7 +14,7 @@ constexpr bool standsOnAnother(Shape)
   return !isSimplex(Shape{}) && Shape::corners != shapes::Pyramid::corners;
 }
 
-/// visit(shape, corners) of the cell of this number, if cells of its shape stand on others.
+/// Calls visit(shape, corners) for the cell of this number, if cells of its shape stand on others.
 template<class Visit>
 void visitCell(const Mesh& mesh, Index cell, const Visit& visit)
 {

@@ -16,17 +16,18 @@ class CellStacks
 public:
   explicit CellStacks(const Mesh& mesh);
 
-  /// The side of the cell `side.cell` that is opposite to this side of it, with the same cell,
-  /// corner k of both joined by an edge; without corners where the cell has no such side.
+  /// The side of cell `side.cell` that is opposite to `side`; an edge of the cell joins corner k of
+  /// both. Without corners where the cell has no such side.
   Facet opposite(const Facet& side) const;
 
-  /// This side as that of the other cell that has it; its cell is -1 where there is none, or only
+  /// The same side, with the other cell that has it as its cell: -1 where there is none, or only
   /// one that is no part of a stack.
   Facet beyond(const Facet& side) const;
 
 private:
   const Mesh& mesh_;
-  VertexBuckets<Index> cellsAt_; ///< In their numbers among the cells of the mesh's own dimension.
+  /// Cells of stacks at each vertex, by their numbers among the cells of the mesh's own dimension.
+  VertexBuckets<Index> cellsAt_;
 };
 
 } // namespace cadrefine

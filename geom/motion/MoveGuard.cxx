@@ -23,8 +23,8 @@ std::vector<unsigned char> movingVertices(const Moves& moves)
   return flags;
 }
 
-/// As stateAt; a quadrilateral, whose corners may turn out of a plane, is also seen from its own
-/// side, as its validity is told.
+/// The state of a cell by stateAt; a quadrilateral, whose corners may turn out of a plane, is also
+/// seen from its own side, as when its validity is checked.
 template<class Shape>
 CellState stateFrom(Shape shape, const std::array<Point3, Shape::corners>& p, const Vector3& side,
   double enough = infiniteQuality)

@@ -14,15 +14,15 @@ namespace cadrefine
 
 /// Keeps cells valid while their vertices move, from a mesh whose points are the starting state.
 ///
-/// A cell that is valid accepts moves after which it is valid and its quality (see CellState) is at
-/// least half of what it was in the reference state, but not below `lowestQuality`, or
-/// at least `qualityFloor`; of a pyramid at least `pyramidFloor`, as worse ones may be too
-/// distorted to be cut (see cellsCutBadly); one that is worse than that, inverted or flat, if it
-/// gets no worse. With the state before all moves as reference, no number of moves in a row wears
-/// cells down. Halving the way of the vertices of every cell that does not accept, at once and
-/// until all do, ends in a state that does not depend on the order of cells: the unmoved state is
-/// accepted by all. Over ranks take the minimum of the fractions of shared vertices after each
-/// sweep, until no rank changes any.
+/// A valid cell accepts moves after which it is still valid and its quality (see CellState) is at
+/// least `qualityFloor`, or at least half of what it was in the reference state and not below
+/// `lowestQuality`; a pyramid's at least `pyramidFloor`, as worse ones may be too distorted to be
+/// cut (see cellsCutBadly). A cell that is worse than that in the reference state, inverted or flat
+/// accepts moves that make it no worse. With the state before all moves as reference, no number of
+/// moves in a row wears cells down. Halving the way of the vertices of every cell that does not
+/// accept, at once and until all do, ends in a state that does not depend on the order of cells:
+/// the unmoved state is accepted by all. Over ranks take the minimum of the fractions of shared
+/// vertices after each sweep, until no rank changes any.
 class MoveGuard
 {
 public:
@@ -73,8 +73,9 @@ private:
 
   const Mesh& mesh_;
   ParallelFor parallelFor_;
-  std::array<std::vector<GuardedCell>, 4> guarded_; ///< By the order of the shapes.
-  std::vector<double> lastFractions_;               ///< In the last sweep; none: there was none.
+  /// Guarded cells of each shape, in the order of the shapes.
+  std::array<std::vector<GuardedCell>, 4> guarded_;
+  std::vector<double> lastFractions_; ///< Fractions in the last sweep; empty before the first.
 };
 
 } // namespace cadrefine

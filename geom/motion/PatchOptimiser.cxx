@@ -15,10 +15,10 @@ namespace cadrefine
 namespace
 {
 
-/// Parts of Newton's step.
+/// Shortest and longest step that is tried, as parts of Newton's step.
 constexpr double shortestStep = 1.0 / 32;
 constexpr double longestStep = 8;
-/// See ShapeEnergy: where the worst cell counts most.
+/// Exponent of ShapeEnergy where the worst cell counts most.
 constexpr int exponentForWorst = 16;
 
 std::uint64_t hashOf(GlobalId id)
@@ -94,8 +94,8 @@ void PatchOptimiser::forCornersRound(Index vertex, const Visit& visit) const
   }
 }
 
-/// A vertex is one level above the highest free neighbour that comes before it, so that vertices of
-/// one level are no neighbours. Orders by levels.
+/// Orders the free vertices by levels: a vertex is one level above the highest free neighbour that
+/// comes before it, so that vertices of one level are no neighbours.
 void PatchOptimiser::findLevels()
 {
   std::vector<std::size_t> level(turns_.size(), 0);
@@ -268,7 +268,7 @@ Point3 PatchOptimiser::onItsEntity(Index vertex, const Point3& point) const
   return where.entity == entity ? where.point : patch_.mesh.points[vertex];
 }
 
-/// The facets of the boundary at a vertex all of whose cells are known are those that one cell has
+/// Finds the boundary's facets at a vertex all of whose cells are known: those that one cell has
 /// alone. In the plane they have one other corner.
 PatchOptimiser::Boundary PatchOptimiser::boundaryAt(Index vertex) const
 {
@@ -318,7 +318,7 @@ PatchOptimiser::Boundary PatchOptimiser::boundaryAt(Index vertex) const
   return boundary;
 }
 
-/// Of free vertices on the CAD.
+/// Finds the boundary at free vertices on the CAD, and how far from the CAD it may lie.
 void PatchOptimiser::findBoundaries()
 {
   const auto sliding = indicesWhere(patch_.free.size(),
@@ -414,8 +414,9 @@ bool PatchOptimiser::staysAsClose(Index vertex, const Point3& next) const
   return areWithin(farthest);
 }
 
-/// The step is halved until it gains something; where it does at once, it is doubled while it gains
-/// more: next to a singularity like s^-2, Newton's steps are a third of the way.
+/// Moves a vertex by a step of Newton's method, halved until it gains something; where it does at
+/// once, the step is doubled while it gains more: next to a singularity like s^-2, Newton's steps
+/// are a third of the way.
 void PatchOptimiser::improve(Index vertex)
 {
   Point3& point = patch_.mesh.points[vertex];

@@ -25,11 +25,12 @@ struct Patch
   std::vector<unsigned char> complete; ///< 1: all cells of the whole mesh round it are here.
   std::vector<EntityId> entities;      ///< The CAD entity to which a free vertex keeps.
   Vector3 plane{}; ///< Unit normal of a planar mesh; zero: triangles keep the side of `start`.
-  /// Where all cells at a vertex have this mean ratio, the worst of them counts most.
+  /// Where all cells at a vertex have at least this mean ratio, the worst of them counts most.
   double fairQuality = std::numeric_limits<double>::infinity();
 };
 
-/// Where a vertex that keeps to a CAD face or edge may go from a point of it: nowhere at a pole.
+/// The directions in which a vertex that keeps to a CAD face or edge may go from a point of it:
+/// none at a pole.
 Directions directionsOn(const BoundaryProjector& projector, EntityId entity, const Point3& point);
 
 /// Minimises the energies of the free vertices one after the other (see ShapeEnergy), each with the
@@ -61,19 +62,21 @@ public:
 
   /// Begins a sweep, given the smallest measure over all ranks.
   void beginSweep(double smallest);
-  /// Moves the vertices whose turn has come. True where vertices are left, that wait for others.
+  /// Moves the vertices whose turn has come. Returns true if vertices are left that wait for
+  /// others.
   bool advance();
   bool isDone(Index vertex) const { return done_[vertex] != 0; }
-  /// A vertex that another rank has moved in this sweep.
+  /// Puts a vertex where another rank has moved it in this sweep.
   void place(Index vertex, const Point3& point);
 
 private:
   /// The facets of the mesh's boundary at a vertex.
   struct Boundary
   {
-    std::vector<std::array<Index, 2>> facets; ///< The other corners of each.
-    std::vector<Index> neighbours;            ///< All of these.
-    double limit = 0;                         ///< May lie so far from the CAD.
+    std::vector<std::array<Index, 2>> facets; ///< The other corners of each facet.
+    std::vector<Index> neighbours;            ///< All of these corners.
+    /// How far the middles of the facets and of their edges may lie from the CAD.
+    double limit = 0;
   };
 
   double measure(const std::array<Index, 4>& cell) const;
@@ -101,10 +104,11 @@ private:
   std::vector<double> sizes_; ///< Measure of the equilateral cell of each cell's size in `start`.
   std::vector<std::size_t> firstOfStar_; ///< Cells round vertex v: from firstOfStar_[v] on.
   std::vector<Index> stars_;
-  std::vector<Boundary> boundaries_; ///< Of free vertices on the CAD.
+  std::vector<Boundary> boundaries_; ///< The boundary at each free vertex on the CAD.
   std::vector<Index> order_;         ///< The free vertices, level by level.
   std::vector<std::size_t> levels_;  ///< Where each level begins, and the last ends.
-  std::vector<std::uint64_t> turns_; ///< Of each vertex: the larger, the earlier.
+  /// For each vertex, a number: the larger it is, the earlier the vertex's turn.
+  std::vector<std::uint64_t> turns_;
   std::vector<unsigned char> done_;
   double delta_ = 0;
 };

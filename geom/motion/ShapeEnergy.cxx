@@ -23,7 +23,7 @@ double powerOf(int dimension)
   return dimension == 3 ? 2.0 / 3.0 : 1.0;
 }
 
-/// eta, from the sum of squared lengths and the regularised measure.
+/// The inverse mean ratio eta, from the sum of squared edge lengths and the regularised measure.
 double inverseRatio(int dimension, double squaredLengths, double measure)
 {
   const double root = std::cbrt(measure);
@@ -136,7 +136,8 @@ double ShapeEnergy::lengths(const Term& term, const Point3& x) const
   return sum;
 }
 
-/// Infinite where the cell is inverted or flat.
+/// The regularised inverse mean ratio of a cell; without regularisation infinite where the cell is
+/// inverted or flat.
 double ShapeEnergy::inverseRatioOf(const Term& term, const Point3& x) const
 {
   const double h = regularised(dot(term.slope, x - term.others[0]), term.delta);

@@ -17,7 +17,7 @@ struct Directions
   int count = 0;
 
   static Directions everywhere();
-  /// Across `normal`, which need not have length 1; none where it is zero.
+  /// The two directions across `normal`, which need not have length 1; none where it is zero.
   static Directions across(const Vector3& normal);
   static Directions along(const Vector3& tangent);
 };
@@ -37,18 +37,18 @@ struct Directions
 class ShapeEnergy
 {
 public:
-  /// Of tetrahedra (3) or triangles (2).
+  /// The energy of tetrahedra (`dimension` 3) or triangles (2), none of them added yet.
   explicit ShapeEnergy(int dimension) : dimension_(dimension) {}
 
-  /// A tetrahedron (a, b, c, x), in VTK's order; `delta` in terms of `measure`.
+  /// Adds a tetrahedron (a, b, c, x), in VTK's order; `delta` is in the unit of its measure s.
   void addTetrahedron(const Point3& a, const Point3& b, const Point3& c, double delta);
-  /// A triangle (a, b, x), seen from the end of the unit vector `normal`.
+  /// Adds a triangle (a, b, x), seen from the end of the unit vector `normal`.
   void addTriangle(const Point3& a, const Point3& b, const Vector3& normal, double delta);
 
   double at(const Point3& x) const;
-  /// The largest regularised inverse mean ratio.
+  /// The largest regularised inverse mean ratio of a cell with the vertex at x.
   double largestAt(const Point3& x) const;
-  /// Of the inverse mean ratios: a power of two.
+  /// Sets the exponent of the inverse mean ratios: a power of two.
   void setExponent(int exponent) { exponent_ = exponent; }
 
   /// A step of Newton's method from x in the given directions, with a shift where the second
@@ -57,7 +57,7 @@ public:
   Vector3 step(const Point3& x, const Directions& directions) const;
 
 private:
-  /// What a cell adds.
+  /// What a cell adds to the energy.
   struct Term
   {
     std::array<Point3, 3> others;
@@ -81,8 +81,8 @@ private:
   std::vector<Term> terms_;
 };
 
-/// delta for cells of which this is the smallest measure (1: equilateral, negative: inverted), in
-/// terms of the size of a cell; 0 where none is nearly flat.
+/// The delta of ShapeEnergy for cells of which this is the smallest measure (1: equilateral,
+/// negative: inverted), in terms of the size of a cell; 0 where no cell is nearly flat.
 double regularisation(double smallestMeasure);
 
 /// The measure s (see ShapeEnergy) of the equilateral cell with this sum of squared edge lengths.

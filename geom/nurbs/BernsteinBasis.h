@@ -41,7 +41,8 @@ inline void bernsteinValues(int degree, double s, BasisValues& b)
   }
 }
 
-/// The same with first and second derivatives, from the bases of the two degrees below.
+/// The Bernstein polynomials of `degree` at s with their first and second derivatives, from the
+/// bases of the two degrees below.
 inline void bernsteinDerivatives(int degree, double s, BernsteinBasis& basis)
 {
   BasisValues& b = basis.value;

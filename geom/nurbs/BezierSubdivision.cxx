@@ -23,7 +23,7 @@ void keepLower(ControlPoint* c, int degree, int step, double s)
   }
 }
 
-/// Keeps [s, 1].
+/// Keeps [s, 1] of such a curve.
 void keepUpper(ControlPoint* c, int degree, int step, double s)
 {
   for (int r = degree; r >= 1; --r)

@@ -114,8 +114,9 @@ inline BoundingBoxTree::RoundedPoint BoundingBoxTree::rounded(const Point3& p) c
   return r;
 }
 
-/// Lower bounds, and at most mostForMiddle above them, so that of boxes that q lies in the one
-/// whose middle is nearest comes first; infinite for children that are not there.
+/// Squared distances of a node's children: lower bounds, and at most mostForMiddle above them, so
+/// that of boxes that q lies in the one whose middle is nearest comes first; infinite for children
+/// that are not there.
 inline BoundingBoxTree::Lanes BoundingBoxTree::squaredDistances(
   const Node& node, const RoundedPoint& q)
 {
@@ -154,8 +155,8 @@ inline float BoundingBoxTree::boundOf(Waiting waiting)
   return bound;
 }
 
-/// The nearest child of the node becomes `next`, others within reach go onto the stack: without
-/// branches, since which it is cannot be foretold.
+/// Opens a node: its nearest child becomes `next`, others within reach go onto the stack. Without
+/// branches, since which child it is cannot be foretold.
 template<typename Expect>
 void BoundingBoxTree::open(
   const Node& node, const RoundedPoint& q, Waiting reach, Queue& queue, const Expect& expect) const

@@ -66,9 +66,9 @@ void visitTree(const SearchStructure& structure, BoundingBoxTree::Root root, con
     });
 }
 
-/// Of the model's size. Distances from points beyond the first differ by rounding alone, so that a
-/// search would look at all of the model; the nearest place is then that from a point at the second
-/// in the same direction, but for an eighth of the size over it.
+/// In terms of the model's size: distances from points beyond `tooFar` differ by rounding alone, so
+/// that a search would look at all of the model; the nearest place is then that from a point at
+/// `asFar` in the same direction, but for an eighth of the size over it.
 constexpr double tooFar = 1e8;
 constexpr double asFar = 1e7;
 
@@ -180,7 +180,8 @@ Point3 ClosestPointSearch::Implementation::nearer(const Point3& point) const
   return structure.centre + (asFar * structure.size / length) * away;
 }
 
-/// `visit(q, query)` visits the leaves that may hold the place that is nearest to q.
+/// Answers a query; `visit(q, query)` visits the leaves that may hold the place that is nearest to
+/// q.
 template<class Visit>
 ClosestPoint ClosestPointSearch::Implementation::answerTo(
   const Point3& point, double maximumDistance, const Visit& visit) const

@@ -136,7 +136,8 @@ ConvexityBounds::Ranges ConvexityBounds::rangesOf(const PatchView& patch) const
   return r;
 }
 
-/// From the derivatives of the patch: sharp where it is long and narrow, and its weights vary.
+/// Encloses the Hessian from the derivatives of the patch: sharp where it is long and narrow, and
+/// its weights vary.
 ConvexityBounds::Hessian ConvexityBounds::hessianByParts(const Ranges& r)
 {
   Hessian h;
@@ -149,7 +150,8 @@ ConvexityBounds::Hessian ConvexityBounds::hessianByParts(const Ranges& r)
   return h;
 }
 
-/// From the Bernstein form of |S - c|^2: sharp where the parameter lines spread, as at poles.
+/// Encloses the Hessian from the Bernstein form of |S - c|^2: sharp where the parameter lines
+/// spread, as at poles.
 ConvexityBounds::Hessian ConvexityBounds::hessianByForm(const PatchView& patch) const
 {
   const Degrees degrees = { 2 * patch.degreeU, 2 * patch.degreeV };

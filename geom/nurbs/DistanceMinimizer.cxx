@@ -8,27 +8,30 @@ namespace cadrefine
 namespace
 {
 
-/// When minimizeDistance accepts a step, and when it stops. Lengths are relative.
+/// When minimizeDistance accepts a step, and when it stops. All are ratios.
 struct Tolerances
 {
-  /// Metric of a parameter to that of both: less where a side of the patch has shrunk to a point,
-  /// so that one parameter moves nothing.
+  /// Metric of a parameter to that of both, at least: less is found where a side of the patch has
+  /// shrunk to a point, so that one parameter moves nothing.
   static constexpr double leastMetric = 1e-14;
-  /// Eigenvalue of the Hessian to the metric, 1 near the patch: far above rounding.
+  /// Eigenvalue of the Hessian to the metric, at least (it is 1 near the patch): far above
+  /// rounding.
   static constexpr double leastEigenvalue = 1e-9;
-  /// The same once the Hessian was made definite: its steps are at most a thousand times as long as
-  /// those of steepest descent.
+  /// Eigenvalue to the metric of a Hessian that was made definite: its steps are at most a thousand
+  /// times as long as those of steepest descent.
   static constexpr double shiftedEigenvalue = 1e-3;
   /// Squared length of a step to that of `scale`: it changes no digit.
   static constexpr double noStep = 1e-32;
-  /// The same: by quadratic convergence what is left after it does not matter, 1e-14 of the scale.
+  /// Squared length of the last step to that of `scale`: by quadratic convergence what is left
+  /// after it does not matter, 1e-14 of the scale.
   static constexpr double lastStep = 1e-14;
-  /// What of half the squared distance is rounding, of points on the patch (some ten operations
-  /// with coordinates as large as those of q) and of the square: so much it may seem to grow.
+  /// Part of half the squared distance that is rounding, of points on the patch (some ten
+  /// operations with coordinates as large as those of q) and of the square: so much it may seem to
+  /// grow.
   static constexpr double rounding = 1e-14;
-  /// Fall of half the squared distance to that of its tangent (L. Armijo 1966).
+  /// Fall of half the squared distance to that of its tangent, at least (L. Armijo 1966).
   static constexpr double leastFall = 1e-4;
-  /// Of a step: if 2e-9 of it is too far, only rounding hides the fall.
+  /// How often a step is halved: if 2e-9 of it is too far, only rounding hides the fall.
   static constexpr int maximumHalvings = 29;
 };
 

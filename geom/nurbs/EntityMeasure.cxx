@@ -13,10 +13,10 @@ namespace
 struct GridSum
 {
   double area = 0;
-  int inside = 0; ///< Points.
+  int inside = 0; ///< Number of points inside.
 };
 
-/// Over the part of a patch that is in `extent`, with `steps` squared points.
+/// Sums over the part of a patch that is in `extent`, with `steps` squared points.
 GridSum sumOver(
   const BezierPatch& patch, const ParameterRectangle& extent, const TrimRegion& trims, int steps)
 {

@@ -1,4 +1,4 @@
-// Memory on its way while other work is done. Private to geom/nurbs.
+// Fetching memory while other work is done. Private to geom/nurbs.
 #pragma once
 
 #include <cstddef>

@@ -52,7 +52,8 @@ inline Interval operator*(Interval a, Interval b)
   return product;
 }
 
-/// Of two that have a number in common; rounding may have left them a little apart.
+/// The intersection of two intervals that have a number in common; rounding may have left them a
+/// little apart.
 inline Interval intersection(Interval a, Interval b)
 {
   return { std::min(std::max(a.low, b.low), std::min(a.high, b.high)),

@@ -16,7 +16,7 @@ struct Part
   int depth = 0;
 };
 
-/// The part in the face's own parameters.
+/// A part of a patch in the face's own parameters.
 ParameterRectangle faceRectangle(const SearchPatch& patch, const ParameterRectangle& part)
 {
   const auto low = patch.parametersAt(part.s0, part.t0);

@@ -13,7 +13,7 @@ struct LeafLimits
 {
   double smallestRadius = 0; ///< Leaves smaller than this are not split, however curved.
   double largestRadius = 0;  ///< Larger ones are split, however flat.
-  int mostLeaves = 0;        ///< Of one patch.
+  int mostLeaves = 0;        ///< Largest number of leaves of one patch.
 };
 
 struct BuiltLeaf

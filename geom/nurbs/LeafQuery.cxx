@@ -12,11 +12,12 @@ namespace cadrefine
 namespace
 {
 
-/// Of the model's size: distances that differ by less are a tie.
+/// Distances that differ by less than this part of the model's size are a tie.
 constexpr double tieTolerance = 1e-12;
-/// Of the model's size: how much nearer than the answer a point may be that is not looked for.
+/// How much nearer than the answer, in terms of the model's size, a point may be that is not looked
+/// for.
 constexpr double searchTolerance = 5e-10;
-/// Control points.
+/// Most control points of a patch that are fetched ahead.
 constexpr int mostFetched = 16;
 
 } // namespace
@@ -110,8 +111,9 @@ bool LeafQuery::isDone(int patch) const
   return std::find(donePatches_.begin(), donePatches_.end(), patch) != donePatches_.end();
 }
 
-/// The minimum is unique. Where it is trimmed away, that over what is left of the leaf is on the
-/// trim border, which edges cover, or curves along it.
+/// Solves a leaf over which the distance is convex: its minimum is unique. Where it is trimmed
+/// away, that over what is left of the leaf is on the trim border, which edges cover, or curves
+/// along it.
 void LeafQuery::finishConvex(const Waiting& waiting)
 {
   const double limit = candidates_.limit();

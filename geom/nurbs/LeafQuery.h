@@ -69,8 +69,9 @@ private:
   double work_ = 0;
   static constexpr int mostWaiting = 64;
   boost::container::static_vector<Waiting, mostWaiting> waiting_;
-  boost::container::static_vector<int, mostWaiting> donePatches_; ///< Subdivided as a whole.
-  EntityId id_;                                                   // of the leaf at work
+  /// Patches that were subdivided as a whole.
+  boost::container::static_vector<int, mostWaiting> donePatches_;
+  EntityId id_; // of the leaf at work
   bool border_ = false;
 };
 

@@ -89,8 +89,8 @@ Interval LeafSubdivision::ratioRange(int entry) const
   return ratio;
 }
 
-/// Coefficients of the first entry carry rounding errors relative to the largest of them, and so do
-/// those of its parts, which are averages of them.
+/// Bounds the rounding errors. Coefficients of the first entry carry errors relative to the largest
+/// of them, and so do those of its parts, which are averages of them.
 void LeafSubdivision::boundRounding()
 {
   constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
@@ -158,7 +158,7 @@ bool LeafSubdivision::isTrimmedAway(Part& part) const
   return cover == TrimCover::out;
 }
 
-/// Scratch becomes the form numerator - level * denominator.
+/// Fills the scratch with the form numerator - level * denominator.
 void LeafSubdivision::fillLevel(int entry, double level) const
 {
   const double* top = numerator(entry);
@@ -179,8 +179,9 @@ LeafSubdivision::Curvature LeafSubdivision::curvature(int entry, double level) c
   return c;
 }
 
-/// Step 3, for distances with squares from `lowest` to `highest`. The sign of the derivative of the
-/// squared distance, where it is m, is that of numerator - m * denominator, which is linear in m.
+/// Whether step 3 drops an entry, for distances with squares from `lowest` to `highest`. The sign
+/// of the derivative of the squared distance, where it is m, is that of numerator - m *
+/// denominator, which is linear in m.
 bool LeafSubdivision::isMonotone(int entry, double lowest, double highest) const
 {
   const Part& part = stack_[entry];
@@ -206,7 +207,7 @@ bool LeafSubdivision::isMonotone(int entry, double lowest, double highest) const
          (falls[1] && open[3]);
 }
 
-/// Steps 1 to 3 for the last entry. True where nothing is left to be found in it.
+/// Does steps 1 to 3 for the last entry. Returns true where nothing is left to be found in it.
 bool LeafSubdivision::isDropped(int entry)
 {
   Part& part = stack_[entry];
@@ -256,7 +257,8 @@ bool LeafSubdivision::canSplit(const Part& part, bool acrossS) const
                      bounds.lengthT() * part.rectangle.height() > shortest * leaf_.part().height();
 }
 
-/// The direction in which the distance bends more; where it hardly bends, that of larger slope.
+/// Whether to split across s: the direction in which the distance bends more is taken; where it
+/// hardly bends, that of larger slope.
 bool LeafSubdivision::cutsAcrossS(
   const Part& part, const Curvature& c, const MiddleValue& middle) const
 {

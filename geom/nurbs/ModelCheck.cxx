@@ -29,7 +29,8 @@ void checkCoordinates(const Coordinates& coordinates, const char* what)
   }
 }
 
-/// Control points of a curve or surface in space or in the parameter plane; the weight is last.
+/// Checks control points of a curve or surface in space or in the parameter plane; the weight is
+/// last.
 template<typename Points>
 void checkPoints(const Points& points)
 {
@@ -86,7 +87,7 @@ void checkEdge(const NurbsEdge& edge)
   }
 }
 
-/// What `check` throws; empty: nothing.
+/// The text of what `check` throws; empty: it throws nothing.
 template<typename Check>
 std::string faultFoundBy(const Check& check)
 {

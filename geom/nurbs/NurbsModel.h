@@ -71,12 +71,12 @@ struct NurbsModel
   }
 };
 
-/// Whether all control points are so near to the plane of the points p with dot(normal, p) =
-/// offset.
+/// Whether all control points are within a distance of `tolerance` of the plane of the points p
+/// with dot(normal, p) = offset.
 bool liesInPlane(const NurbsModel& model, const Vector3& normal, double offset, double tolerance);
 
-/// The face itself, or the first one that holds the edge, or the first of the vertex's edges that
-/// one holds; -1: none.
+/// The first face at an entity: a face itself, the first one that holds an edge, or the one at the
+/// first of a vertex's edges that a face holds; -1: none.
 std::int32_t firstFaceAt(const NurbsModel& model, EntityId entity);
 
 } // namespace cadrefine

@@ -12,7 +12,7 @@ namespace
 /// Two numbers that are worked on at once (a vector type of GCC and Clang).
 using Pair = double __attribute__((vector_size(2 * sizeof(double))));
 
-/// Homogeneous coordinates.
+/// A point in homogeneous coordinates.
 struct Quad
 {
   Pair xy{};

@@ -28,7 +28,8 @@ PatchView viewOf(const BezierCurve& curve);
 /// Point at local parameters. O(degreeU * degreeV), no allocation; degrees up to maximumDegree.
 Point3 evaluateLocal(const PatchView& patch, double s, double t);
 
-/// The same with derivatives with respect to (s, t) (Piegl & Tiller, The NURBS Book, A4.4).
+/// Point at local parameters, with derivatives with respect to (s, t) (Piegl & Tiller, The NURBS
+/// Book, A4.4).
 PatchDerivatives evaluateLocalDerivatives(const PatchView& patch, double s, double t);
 
 } // namespace cadrefine

@@ -53,7 +53,7 @@ struct Piece
   }
 };
 
-/// The ends are exactly the function's.
+/// Interpolates the function over [from, to]. The values at the ends are exactly the function's.
 template<std::size_t dimension, typename Function>
 Piece<dimension> interpolate(const Function& function, double from, double to)
 {

@@ -32,7 +32,7 @@ Form derivative(const Form& form, bool alongS)
   return result;
 }
 
-/// Coefficients times their binomials, so that products are convolutions.
+/// The coefficients of a form times their binomials, so that products are convolutions.
 std::vector<double> scaled(const Form& form)
 {
   std::vector<double> c = form.c;

@@ -30,7 +30,7 @@ struct Quotient
 /// O(size of the numerator times size of the weight).
 Quotient derivative(const Quotient& quotient, const Form& weight, bool alongS);
 
-/// Range that encloses the values.
+/// Range that encloses the values of a quotient.
 Interval rangeOf(const Quotient& quotient, const Form& weight);
 
 /// Range that encloses the derivative, by interval arithmetic from `range`, that of the quotient:

@@ -64,8 +64,8 @@ private:
   int columns_;
 };
 
-/// Calls `test(place, x)` for as many points along a side as determine its curves; whether all
-/// hold.
+/// Calls `test(place, x)` for as many points along a side as determine its curves. Returns whether
+/// all hold.
 template<typename Test>
 bool holdsAlong(const Grid& grid, int side, const Test& test)
 {

@@ -17,14 +17,16 @@ namespace
 
 constexpr int mostLeavesOfModel = 400000;
 constexpr int fewestLeavesOfPatch = 64;
-/// Of the model's size: points nearer to each other than this are one.
+/// Points nearer to each other than this part of the model's size are one.
 constexpr double sameTolerance = 1e-12;
-/// Of the model's size: trim curves that lie no farther off their edge are covered by it.
+/// Trim curves that lie off their edge by no more than this part of the model's size are covered by
+/// it.
 constexpr double coverTolerance = 2e-10;
-/// Of the model's size: how far curves along borders may lie off them.
+/// How far curves along borders may lie off them, in terms of the model's size.
 constexpr double borderTolerance = 5e-11;
 
-/// Of the edges and vertices, which span a trimmed model; of the patches, where there are none.
+/// The size of the edges and vertices, which span a trimmed model; of the patches, where there are
+/// none.
 double roughSize(const NurbsModel& model)
 {
   BoundingBox box;
@@ -55,7 +57,7 @@ double roughSize(const NurbsModel& model)
   return box.diagonal();
 }
 
-/// Where the trim curve passes from one patch of the face to the next.
+/// The parameters at which a trim curve passes from one patch of the face to the next.
 std::vector<double> findCuts(const NurbsFace& face, const BezierCurve2& curve)
 {
   std::vector<double> cuts, u, v;
@@ -116,7 +118,7 @@ private:
     return support.deviation <= coverTolerance * roughSize_;
   }
 
-  /// For each edge the first face whose border it covers all along.
+  /// Finds for each edge the first face whose border it covers all along.
   void findCovers()
   {
     coveredFace_.assign(model_.edges.size(), -1);
@@ -281,7 +283,7 @@ private:
     }
   }
 
-  /// One tree for each entity, whose leaves are consecutive, and one over all of them.
+  /// Builds a tree for each entity, whose leaves are consecutive, and one over all of them.
   void buildTrees()
   {
     BoundingBox box;
@@ -318,7 +320,7 @@ private:
     }
   }
 
-  /// Of the leaves of one entity, which are consecutive.
+  /// The tree's entries for the leaves of one entity, which are consecutive.
   Entries entriesOf(int entity) const
   {
     const auto isBefore = [&](const BoundingBoxTree::Entry& e, int number)
@@ -328,7 +330,7 @@ private:
       std::lower_bound(begin, entries_.end(), entity + 1, isBefore) };
   }
 
-  /// Of the leaves of a face's edges and their vertices.
+  /// The tree's entries for the leaves of a face's edges and their vertices.
   Entries borderOf(const NurbsFace& face) const
   {
     std::vector<int> numbers;
@@ -357,7 +359,7 @@ private:
   SearchStructure& structure_;
   const NurbsModel& model_;
   double roughSize_ = 0;
-  std::vector<int> coveredFace_; ///< Of each edge.
+  std::vector<int> coveredFace_; ///< The face that each edge covers, see findCovers.
   LeafLimits limits_;
   Entries entries_;
 };

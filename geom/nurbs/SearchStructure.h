@@ -22,11 +22,12 @@ namespace cadrefine
 struct SearchPatch
 {
   PatchView view;
-  ParameterRectangle range; ///< Of the entity's own parameters; along a border those of `trim`.
-  int entity = -1;          ///< Number in SearchStructure::entities.
+  /// Range of the entity's own parameters; along a border of those of `trim`.
+  ParameterRectangle range;
+  int entity = -1; ///< Number in SearchStructure::entities.
   /// Which of the sides s = 0, s = 1, t = 0, t = 1 are shared with another patch of the face.
   std::array<bool, 4> joined{ false, false, false, false };
-  const BezierCurve2* trim = nullptr; ///< Of a border: the trim curve that it follows.
+  const BezierCurve2* trim = nullptr; ///< For a border, the trim curve that it follows.
 
   /// The entity's parameters at local ones; exact at the borders.
   std::array<double, 2> parametersAt(double s, double t) const
@@ -45,7 +46,7 @@ struct SearchPatch
 /// cache lines.
 struct alignas(64) SearchLeaf
 {
-  /// In the patch's local parameters, which halving leaves exact in single precision.
+  /// The part in the patch's local parameters, which halving leaves exact in single precision.
   ParameterRectangle part() const { return { sides[0], sides[1], sides[2], sides[3] }; }
 
   ConvexityBounds bounds;
@@ -58,14 +59,14 @@ struct alignas(64) SearchLeaf
 struct SearchEntity
 {
   EntityId id;
-  /// Tree over its own leaves; none where nothing is left of it.
+  /// Tree over the entity's own leaves; none where nothing is left of it.
   BoundingBoxTree::Root root = BoundingBoxTree::none;
-  /// Of a face, tree over these and the leaves of its edges and their vertices.
+  /// For a face, the tree over these leaves and those of its edges and their vertices.
   BoundingBoxTree::Root closure = BoundingBoxTree::none;
-  bool sharp = false; ///< Of an edge.
+  bool sharp = false; ///< For an edge, whether it is a crease.
   bool stray = false; ///< See SearchScope::strays.
-  int face = -1;      ///< Of an edge, the first face whose border it covers; -1: none.
-  std::unique_ptr<const TrimRegion> trim; ///< Of a face.
+  int face = -1;      ///< For an edge, the first face whose border it covers; -1: none.
+  std::unique_ptr<const TrimRegion> trim; ///< For a face, its trimmed region.
   int firstPatch = 0; ///< Its patches are consecutive, in a grid; then come those of its border.
   int rows = 0;
   int columns = 0;
@@ -90,11 +91,11 @@ struct SearchStructure
   std::vector<SearchPatch> patches;
   std::deque<std::vector<ControlPoint>> borders; ///< Control points of the curves along borders.
   std::vector<SearchLeaf> leaves;
-  std::vector<SearchEntity> entities; ///< Vertices, edges, faces.
+  std::vector<SearchEntity> entities; ///< Vertices, then edges, then faces.
   std::array<int, 3> firstEntity{};   ///< Number of the first entity of each dimension.
   BoundingBoxTree tree;
   BoundingBoxTree::Root root = BoundingBoxTree::none; ///< Tree over all leaves.
-  Point3 centre{};                                    ///< Of the bounding box.
+  Point3 centre{};                                    ///< Middle of the bounding box.
   double size = 0;                                    ///< Its diagonal.
 };
 

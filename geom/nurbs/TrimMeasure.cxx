@@ -58,7 +58,7 @@ public:
   }
 
 private:
-  static constexpr int starts = 8; ///< Of each segment.
+  static constexpr int starts = 8; ///< Starting points in each segment.
 
   struct Sample
   {
@@ -68,7 +68,7 @@ private:
   };
 
   const NurbsEdge* edge_;
-  double spacing_ = 0; ///< Squared, the largest between two samples that follow each other.
+  double spacing_ = 0; ///< Largest squared distance between two samples that follow each other.
   std::vector<Sample> samples_;
 };
 
@@ -104,8 +104,8 @@ double farthestFrom(const NurbsVertex& vertex, const std::vector<Point3>& points
   return farthest;
 }
 
-/// Of a curve that does not know its edge: the edge of the face that it follows best, or none where
-/// it stays nearer to an end of one.
+/// The support of a curve that does not know its edge: the edge of the face that it follows best,
+/// or none where it stays nearer to an end of one.
 TrimSupport findSupport(
   const NurbsModel& model, const NurbsFace& face, const std::vector<Point3>& points)
 {

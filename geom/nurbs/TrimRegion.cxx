@@ -45,7 +45,7 @@ ParameterRectangle boundsOf(const std::vector<ControlPoint2>& points)
   return box;
 }
 
-/// Of the grid, each way.
+/// Number of cells of the grid, each way.
 constexpr int cellsAlong = 32;
 
 /// Column or row of `x` in the grid over [low, high]; the same for whatever lies beyond as at the
@@ -224,8 +224,8 @@ int TrimRegion::cellOf(double u, double v) const
   return cellIn(u, extent_.s0, extent_.s1) + cellsAlong * cellIn(v, extent_.t0, extent_.t1);
 }
 
-/// Cells that the box of a piece, with the band round it, touches are cut. The others are like
-/// their left neighbour, or else like their middle.
+/// Fills the grid. Cells that the box of a piece, with the band round it, touches are cut. The
+/// others are like their left neighbour, or else like their middle.
 void TrimRegion::fillCells()
 {
   cells_.assign(cellsAlong * cellsAlong, TrimCover::out);

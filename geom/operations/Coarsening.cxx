@@ -23,7 +23,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Cells below this are improved so that more vertices can go.
 constexpr double aim = 0.5;
 
-/// Of the boundary on the CAD.
+/// The number of facets of the boundary on the CAD (of a planar mesh: segments).
 double countFacetsOnCAD(const EditableMesh& mesh)
 {
   const auto count = [](const auto& store)
@@ -38,7 +38,7 @@ double countFacetsOnCAD(const EditableMesh& mesh)
   return mesh.kind() == EditableMesh::Kind::Plane ? count(mesh.segments()) : count(mesh.facets());
 }
 
-/// Those of the vertices that are to go that can go at all, the freest first.
+/// The vertices that are to go and are free to move at all, the freest first.
 std::vector<Index> candidates(const EditableMesh& mesh, const std::vector<VertexFate>& fates)
 {
   std::vector<std::pair<Freedom, Index>> sorted;
@@ -71,7 +71,7 @@ std::int64_t countCells(const EditableMesh& mesh)
   return count;
 }
 
-/// So that no operation moves them or takes them out.
+/// Flags the vertices whose fate is to stay, so that no operation moves them or takes them out.
 void holdStaying(const std::vector<VertexFate>& fates, EditableMesh& mesh)
 {
   for (std::size_t v = 0; v < fates.size(); ++v)
@@ -99,9 +99,9 @@ public:
   {
   }
 
-  /// `exchanges`: where a vertex cannot go, a neighbour may go into it. `fewest`: once there are so
-  /// few cells, no vertex goes any more; of exchanges, a neighbour may also go elsewhere. Returns
-  /// the number of collapses.
+  /// Takes out vertices and returns the number of collapses. `exchanges`: where a vertex cannot go,
+  /// a neighbour may go into it. `fewest`: once there are so few cells, no vertex goes any more; if
+  /// given, a neighbour that is exchanged may also go elsewhere.
   std::int64_t run(bool exchanges, std::optional<std::int64_t> fewest)
   {
     exchanges_ = exchanges;
@@ -127,7 +127,7 @@ private:
   /// A way to take a vertex out.
   struct Collapse
   {
-    double worst; ///< Of the cells after it.
+    double worst; ///< Quality of the worst cell after it.
     Index from;
     Index to;
   };
@@ -200,7 +200,7 @@ private:
     return worst;
   }
 
-  /// Those of a vertex into neighbours.
+  /// Adds the collapses of a vertex into these neighbours that leave no cell too bad.
   void addWays(Index from, const std::vector<Index>& neighbours, std::vector<Collapse>& ways) const
   {
     const double least = std::min(minimumQuality_, mesh_.worst(cells().at(from)));
@@ -224,7 +224,7 @@ private:
                             (fewest_ && takeOutNeighbour(vertex, neighbours, true))));
   }
 
-  /// A neighbour in the place of the vertex: into it, or elsewhere.
+  /// Takes out a neighbour in place of the vertex: into the vertex, or `elsewhere`.
   bool takeOutNeighbour(Index vertex, const std::vector<Index>& neighbours, bool elsewhere)
   {
     std::vector<Collapse> ways;
@@ -244,8 +244,8 @@ private:
     return goes;
   }
 
-  /// By the way that adds least to the error; of those that add nothing, by the one with the best
-  /// worst cell.
+  /// Collapses by the way that adds least to the error; of those that add nothing, by the one with
+  /// the best worst cell.
   bool collapseByBest(std::vector<Collapse>& ways)
   {
     std::stable_sort(ways.begin(), ways.end(),
@@ -312,11 +312,11 @@ private:
   const double minimumQuality_;
   const ImprovementRule<Dimension> judge_;
   double& errorLeft_;
-  std::vector<unsigned char> waits_; ///< 1: to be tried.
-  double mostGain_ = infinity;       ///< Of the error, by a collapse.
-  bool costsTooMuch_ = false;        ///< The vertex last looked at.
+  std::vector<unsigned char> waits_; ///< 1: the vertex is to be tried.
+  double mostGain_ = infinity;       ///< Most that a collapse may add to the error.
+  bool costsTooMuch_ = false;        ///< The vertex last looked at adds too much error.
   bool exchanges_ = false;
-  std::optional<std::int64_t> fewest_; ///< Cells that are to be left.
+  std::optional<std::int64_t> fewest_; ///< How many cells are to be left.
   std::int64_t cellCount_ = countCells<Dimension>(mesh_);
   Cavity cavity_;
   std::int64_t collapses_ = 0;

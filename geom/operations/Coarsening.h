@@ -11,15 +11,16 @@
 namespace cadrefine
 {
 
-/// What coarsening keeps to.
+/// Limits that coarsening keeps to.
 struct CoarseningLimits
 {
-  double minimumQuality = 0.1; ///< Mean ratio; no cell gets below this and those it comes from.
-  /// Of the middles of edges and centroids of new facets from the CAD. Less than those before have
-  /// does no harm.
+  /// Least mean ratio of a new cell, or that of the cells that it comes from, if worse.
+  double minimumQuality = 0.1;
+  /// Largest distance from the CAD of the centroids of new facets and the middles of their edges;
+  /// that of the facets they replace, if larger.
   double distance = 0;
-  /// What the sum of the geometric errors of facets on the CAD may gain for each facet that is
-  /// there at first; infinite: not looked at.
+  /// How much the sum of the geometric errors of facets on the CAD may grow, for each such facet
+  /// that is there at first; infinite: the error is not looked at.
   double errorPerFacet = 0;
   /// How many cells are to go for each vertex that is to go. Once so many have gone, no more
   /// vertices go; until then, others may go in place of those that cannot. Empty: every vertex goes
@@ -31,7 +32,7 @@ struct CoarseningLimits
 enum class VertexFate : unsigned char
 {
   Stays,
-  MayGo, ///< In the place of a neighbour that is to go and cannot.
+  MayGo, ///< It may go in place of a neighbour that is to go but cannot.
   Goes
 };
 

@@ -13,9 +13,9 @@ namespace cadrefine
 namespace
 {
 
-/// Of segments that are not listed.
+/// Label of segments that are not listed.
 constexpr Index ownLabel = -1;
-/// Of those between facets off the CAD.
+/// Label of segments between facets off the CAD.
 constexpr Index creaseLabel = -2;
 
 } // namespace
@@ -234,8 +234,8 @@ bool EditableMesh::hasFacet(const std::array<Index, 3>& corners) const
 namespace
 {
 
-/// Of a distance from a plane or line through some of these points: their coordinates may be
-/// middles of middles.
+/// Rounding error of a distance from a plane or line through some of these points, whose
+/// coordinates may be middles of middles.
 double roundingOf(const std::vector<Point3>& points)
 {
   double size = 0;

@@ -18,11 +18,11 @@ template<std::size_t Corners>
 struct LabelledSimplex
 {
   std::array<Index, Corners> corners;
-  Index label = 0;   ///< What lies on either side of a change of labels stays apart.
-  Index parent = -1; ///< Of the mesh that was there at first; -1: none.
+  Index label = 0;   ///< Simplices of different labels are not joined.
+  Index parent = -1; ///< Its number in the mesh that was there at first; -1: none.
 };
 
-/// A segment knows how its middle is placed on the CAD, too.
+/// A segment, which also carries the class by which its middle is placed on the CAD.
 template<>
 struct LabelledSimplex<2>
 {
@@ -38,7 +38,7 @@ bool hasCorner(const std::array<Index, Corners>& corners, Index vertex)
   return std::find(corners.begin(), corners.end(), vertex) != corners.end();
 }
 
-/// Ascending: the same for cells with the same corners.
+/// The corners in ascending order: equal for cells with the same corners.
 template<std::size_t Corners>
 std::array<Index, Corners> sorted(std::array<Index, Corners> corners)
 {
@@ -46,11 +46,11 @@ std::array<Index, Corners> sorted(std::array<Index, Corners> corners)
   return corners;
 }
 
-/// Whether a triangle turns from `a` to `b`.
+/// Whether corner `b` of a triangle follows its corner `a`.
 bool goesAlong(const std::array<Index, 3>& triangle, Index a, Index b);
 
-/// What an operation takes out of a mesh, and what it puts there. The cells of a mesh of triangles
-/// are its facets.
+/// The simplices that an operation takes out of a mesh (by their numbers), and those that it puts
+/// there. The cells of a mesh of triangles are its facets.
 struct Cavity
 {
   std::vector<Index> cells;
@@ -59,8 +59,8 @@ struct Cavity
   std::vector<LabelledSimplex<4>> newCells;
   std::vector<LabelledSimplex<3>> newFacets;
   std::vector<LabelledSimplex<2>> newSegments;
-  /// Of a mesh of triangles: for each new facet a normal of any length of those that it replaces,
-  /// from the end of which it turns as they do.
+  /// For each new facet of a mesh of triangles, a normal (of any length) of the facets that it
+  /// replaces, from the end of which it has to turn as they do.
   std::vector<Vector3> sides = {};
 
   void clear();
@@ -104,7 +104,8 @@ struct Cavity
   }
 };
 
-/// Simplices that come and go, each known to its corners. Numbers are not used again.
+/// Simplices that can be added and removed, with lists of those at each vertex. The number of a
+/// removed simplex is not used again.
 template<std::size_t Corners>
 class SimplexStore
 {
@@ -113,16 +114,17 @@ public:
 
   Index add(const Simplex& simplex);
   void remove(Index simplex);
-  /// Takes back what was done since there were `size`: those that came go, these that went come.
+  /// Returns to when there were `size` simplices: deletes those added since, restores those in
+  /// `removed`.
   void takeBack(std::size_t size, const std::vector<Index>& removed);
   void addVertex() { at_.emplace_back(); }
 
   std::size_t size() const { return simplices_.size(); }
   bool exists(Index simplex) const { return exists_[simplex] != 0; }
   const Simplex& operator[](Index simplex) const { return simplices_[simplex]; }
-  /// Those at a vertex, in the order in which they came.
+  /// The numbers of the simplices at a vertex, in the order in which they were added.
   const std::vector<Index>& at(Index vertex) const { return at_[vertex]; }
-  /// Those at both vertices, in this order.
+  /// The numbers of the simplices at both vertices, in the order in which they were added.
   std::vector<Index> at(Index a, Index b) const;
   void at(Index a, Index b, std::vector<Index>& result) const;
 
@@ -136,8 +138,8 @@ private:
 /// the segments along which facets must not be joined: creases, the rims of facets, where labels
 /// change, and listed ones. A mesh of triangles, in the plane or on a surface in space, has no
 /// tetrahedra: its cells are the facets, and in the plane its boundary is segments. Vertices have
-/// two places: where they are, and where they are wanted (on the CAD). There cells are valid, here
-/// their shape is judged.
+/// two places: where they are, in which cells have to be valid, and where they are wanted (on the
+/// CAD), in which the shape of cells is judged.
 class EditableMesh
 {
 public:
@@ -152,7 +154,7 @@ public:
   {
     Point3 point;
     Point3 wanted;
-    EntityId entity;             ///< Of the CAD; none: not on it.
+    EntityId entity;             ///< CAD entity that it lies on; none: it is not on the CAD.
     bool stays = false;          ///< It is not moved or taken out.
     bool isOnRim = false;        ///< It has cells beyond this mesh, and stays.
     bool isBesideOthers = false; ///< It is on the rim for cells that are no simplices.
@@ -169,17 +171,18 @@ public:
   };
 
   EditableMesh() = default;
-  /// `plane` is the unit normal of a planar mesh, from the end of which its triangles turn; where
-  /// it is zero, triangles keep the side that they have.
+  /// `plane` is the unit normal of a planar mesh, from whose end its triangles turn
+  /// counter-clockwise; where it is zero, triangles keep the side that they have.
   explicit EditableMesh(Kind kind, const Vector3& plane = {}) : kind_(kind), plane_(plane) {}
 
   Index addVertex(const Vertex& vertex);
   void addCell(const LabelledSimplex<4>& cell) { cells_.add(cell); }
   void addFacet(const LabelledSimplex<3>& facet) { facets_.add(facet); }
   void addSegment(const LabelledSimplex<2>& segment) { segments_.add(segment); }
-  /// Once all are there: adds a segment wherever the facets at an edge are not two of one label, or
-  /// off the CAD (their labels are below 0) do not lie in one plane. Along the latter, if straight,
-  /// vertices may go. Of a mesh of triangles also where two facets do not turn alike.
+  /// To be called when all simplices are there. Adds a segment wherever the facets at an edge are
+  /// not two of one label, or are off the CAD (labels below 0) and not in one plane; along segments
+  /// of the latter kind, if straight, vertices may go. In a mesh of triangles also where two facets
+  /// do not turn alike.
   void closeFacets();
 
   Kind kind() const { return kind_; }
@@ -188,7 +191,7 @@ public:
   std::size_t vertexCount() const { return vertices_.size(); }
   const Vertex& vertex(Index v) const { return vertices_[v]; }
   void setVertex(Index v, const Vertex& vertex);
-  /// To a place where it is wanted.
+  /// Moves a vertex to a point, where it is from then on also wanted.
   void moveVertex(Index v, const Point3& point);
   const SimplexStore<4>& cells() const { return cells_; }
   const SimplexStore<3>& facets() const { return facets_; }
@@ -207,8 +210,8 @@ public:
     }
   }
 
-  /// Whether both vertices have cells beyond this mesh: an edge between them may be there, or have
-  /// cells there.
+  /// Whether both vertices have cells beyond this mesh: then an edge between them may exist there,
+  /// or have cells there.
   bool areOnRim(Index a, Index b) const { return vertices_[a].isOnRim && vertices_[b].isOnRim; }
   Freedom freedomOf(Index v) const;
   bool haveOneLabel(const std::vector<Index>& cells) const;
@@ -220,37 +223,40 @@ public:
   /// The segment between two vertices; -1: none.
   Index segmentOf(Index a, Index b) const;
 
-  /// Mean ratio with the vertices where they are wanted, negative where it is inverted: in space,
-  /// where it would turn over on the way there.
+  /// Mean ratio of a cell with its vertices where they are wanted; negative if it is inverted there
+  /// (for a triangle in space: if it would turn over on the way there).
   double quality(const std::array<Index, 4>& cell) const;
   double quality(const std::array<Index, 3>& cell) const;
-  /// Of a cell that is there (of a mesh of triangles a facet). It is computed once.
+  /// The quality of a cell of the mesh, by its number (in a mesh of triangles, that of a facet).
+  /// Computed once, and again when a vertex of the cell has changed.
   double qualityOf(Index cell) const;
-  /// Mean ratio with the vertices where they are.
+  /// Mean ratio of a cell with its vertices where they are.
   double currentQuality(const std::array<Index, 4>& cell) const;
   double currentQuality(const std::array<Index, 3>& cell) const;
-  /// With the vertices where they are; exact. A triangle is valid where it turns as seen from the
-  /// end of `side`, or of the plane's normal.
+  /// Whether a cell is valid with its vertices where they are; exact (for triangles as far as
+  /// turnOf is). A triangle is valid if it turns counter-clockwise, seen from the end of the
+  /// plane's normal, or of `side` where there is none.
   bool isValid(const std::array<Index, 4>& cell, const Vector3& side = {}) const;
   bool isValid(const std::array<Index, 3>& cell, const Vector3& side) const;
-  /// The smallest quality; infinite of none.
+  /// The smallest quality of these cells, given by their numbers; infinite if there are none.
   double worst(const std::vector<Index>& cells) const;
-  /// Whether all new cells are.
+  /// Whether all new cells of the cavity are valid.
   bool isValid(const Cavity& cavity) const;
-  /// Twice the sum of the facets' areas times normals, with the vertices where they are.
+  /// Twice the sum of area times unit normal over these facets, with the vertices where they are.
   Vector3 sideOf(const std::vector<Index>& facets) const;
-  /// Whether the boundary changes, or is cut.
+  /// Whether replacing the cavity changes or cuts the boundary.
   bool touchesBoundary(const Cavity& cavity) const;
 
-  /// The numbers of the new cells are the last ones.
+  /// Exchanges the simplices of the cavity. The numbers of the new ones are the last ones.
   void replace(const Cavity& cavity);
 
-  /// Takes back these replacements, the last ones, and returns what they were together.
+  /// Takes back these replacements, which have to be the last ones, and returns a single cavity
+  /// that does the same as all of them.
   Cavity takeBack(const std::vector<Cavity>& done);
 
 private:
-  /// Whether between cells of different labels at a vertex there are facets everywhere, so that it
-  /// may go along these.
+  /// Whether facets separate the cells of different labels at a vertex everywhere, so that it may
+  /// go along these facets.
   bool labelsEndAtFacets(Index v) const;
   Vector3 areaVector(const std::array<Index, 3>& facet) const;
   void forgetQualities(Index v);
@@ -258,7 +264,7 @@ private:
   Kind kind_ = Kind::Solid;
   Vector3 plane_{};
   std::vector<Vertex> vertices_;
-  mutable std::vector<double> qualities_; ///< Of the cells; NaN, or not there: not known.
+  mutable std::vector<double> qualities_; ///< Quality of each cell; NaN, or no entry: not known.
   SimplexStore<4> cells_;
   SimplexStore<3> facets_;
   SimplexStore<2> segments_;

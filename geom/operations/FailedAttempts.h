@@ -1,4 +1,4 @@
-// What operations were tried in vain.
+// Which operations were tried in vain.
 #pragma once
 
 #include <cadrefine/mesh/Mesh.h>
@@ -17,7 +17,7 @@ namespace cadrefine
 class FailedAttempts
 {
 public:
-  /// Cells with these corners are new.
+  /// Notes that these cells are new: what failed at their corners may be tried again.
   template<class Cells>
   void noteChange(const Cells& cells)
   {
@@ -34,7 +34,7 @@ public:
 
   void noteCell(Index cell) { ofCells_[cell] = now_; }
   void noteVertex(Index vertex) { ofVertices_[vertex] = now_; }
-  /// `withSplit`: halving it was tried, too.
+  /// Notes that nothing could be gained at an edge. `withSplit`: halving it was tried, too.
   void noteEdge(Index a, Index b, bool withSplit) { ofEdges_[keyOf(a, b)] = { now_, withSplit }; }
 
   template<class Corners>
@@ -80,7 +80,7 @@ private:
   }
 
   Time now_ = 0;
-  std::vector<Time> changes_; ///< Of the vertices.
+  std::vector<Time> changes_; ///< When the cells at each vertex last changed.
   std::unordered_map<Index, Time> ofCells_;
   std::unordered_map<Index, Time> ofVertices_;
   std::unordered_map<std::uint64_t, EdgeFailure> ofEdges_;

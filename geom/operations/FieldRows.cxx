@@ -22,16 +22,16 @@ namespace cadrefine
 namespace
 {
 
-/// Less of the smaller of two cells is rounding.
+/// An overlap of less than this part of the smaller of two cells is rounding.
 constexpr double leastOverlap = 1e-13;
 /// A vertex whose barycentric coordinates are not below this lies in a cell, but for rounding.
 constexpr double leastCoordinate = -1e-9;
 
-/// A cell of the one or the other mesh.
+/// A cell of the mesh before or after the operations.
 template<std::size_t Corners>
 struct Shape
 {
-  Index number; ///< In the store.
+  Index number; ///< Number of the cell in the store.
   SimplexFrame<Corners> frame;
 
   double size() const { return frame.size(); }
@@ -44,7 +44,7 @@ struct Overlap
   double size;
 };
 
-/// Shapes by their boxes.
+/// Finds shapes by their bounding boxes.
 template<std::size_t Corners>
 class ShapeSearch
 {
@@ -236,7 +236,7 @@ private:
 
   Index labelOf(const Shape<Corners>& cell) const { return cells_[cell.number].label; }
 
-  /// With the old cells, which are near it; at least one, unless there is none of its label.
+  /// The overlaps of a new cell with old cells of its label; at least one, unless there are none.
   std::vector<Overlap> overlapsOf(
     const Shape<Corners>& cell, const ShapeSearch<Corners>& search) const
   {
@@ -283,7 +283,7 @@ private:
     return nearest;
   }
 
-  /// Rows in the order of the cells: `addOf` adds those of changed ones, by their places.
+  /// Adds the rows in the order of the cells; addOf(n) adds the entries of the n-th new cell.
   template<class AddOf>
   void addRows(WeightedRows& rows, const AddOf& addOf) const
   {
@@ -369,7 +369,7 @@ private:
     }
   }
 
-  /// Interpolation in the old cell that the vertex lies deepest in, or least outside of.
+  /// Adds the interpolation in the old cell that the vertex lies deepest in, or least outside of.
   void addVertex(Index vertex, const ShapeSearch<Corners>& search)
   {
     const Point3& point = mesh_.vertex(vertex).point;
@@ -390,7 +390,8 @@ private:
     }
   }
 
-  /// Among the old cells near those that the vertex has now; of all where there are none.
+  /// The old cell that a vertex lies least outside of, and its coordinates there: of those near the
+  /// cells that it has now, or of all where there are none.
   std::pair<Index, std::array<double, Corners>> leastOutside(
     Index vertex, const ShapeSearch<Corners>& search) const
   {
@@ -459,8 +460,8 @@ private:
   std::vector<unsigned char> moved_;
   std::vector<Shape<Corners>> old_;
   std::vector<Shape<Corners>> new_;
-  std::map<Index, Index> same_;                ///< Old cells, by the new ones that they are.
-  std::vector<std::vector<Overlap>> overlaps_; ///< Of each new cell.
+  std::map<Index, Index> same_;                ///< Old cells by the new ones that equal them.
+  std::vector<std::vector<Overlap>> overlaps_; ///< The overlaps of each new cell.
   FieldRows rows_;
 };
 

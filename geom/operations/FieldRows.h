@@ -14,7 +14,7 @@ namespace cadrefine
 struct MeshBefore
 {
   std::vector<Point3> points;
-  std::size_t cells = 0; ///< Of the mesh's own dimension.
+  std::size_t cells = 0; ///< Number of cells of the mesh's own dimension.
 };
 
 /// Which rows of cells are wanted, beside those of vertices.
@@ -24,22 +24,26 @@ struct CellRowKinds
   bool densities = false;
 };
 
-/// Rows for what has changed. Whatever has none keeps its value, or has that of its parent.
+/// Rows for the vertices and cells that have changed. Those without a row keep their value, or take
+/// that of their parent.
 struct FieldRows
 {
-  /// Of vertices that moved or are new: linear interpolation in the old cell that they lie in. By
-  /// vertices of the mesh. A new vertex on the CAD that lies in no old cell has no row.
+  /// For vertices that moved or are new: linear interpolation in the old cell that they lie in.
+  /// Targets and sources are vertices of the mesh. A new vertex on the CAD that lies in no old cell
+  /// has no row.
   WeightedRows ofVertices;
-  /// Of cells: the mean of the old values by overlap. By numbers in the store of cells.
+  /// For values of cells: the mean of the old values, weighted by overlap. Targets and sources are
+  /// numbers in the store of cells.
   WeightedRows ofCells;
-  /// Of cells, for densities: what old cells hold, shared out by overlap, over the new volume.
+  /// For densities of cells: what old cells hold, shared out by overlap, divided by the new volume.
+  /// Numbered as `ofCells`.
   WeightedRows ofDensities;
 };
 
 /// The rows of a mesh that was operated on. An old cell that is there again, with its vertices
 /// where they were, keeps its value to the last bit; the others overlap only with those of their
-/// own label. Of densities the parts of an old cell are in proportion to the overlaps of
-/// new cells with it, and sum to 1, so that the sum over all cells of density times volume stays,
+/// own label. For densities, an old cell is shared out in proportion to the overlaps of new cells
+/// with it, in parts that sum to 1, so that the sum over all cells of density times volume stays,
 /// also where the boundary changed. A new cell that overlaps no old one counts as overlapping the
 /// nearest one (by centroids) with its whole volume; an old cell that overlaps no new one gives its
 /// content to the nearest new one. Rows are in the order of the cells and vertices, sources

@@ -20,7 +20,7 @@ namespace
 
 constexpr int mostPasses = 10;
 
-/// A tetrahedron's or a triangle's.
+/// The local edges of a tetrahedron or a triangle.
 template<int Dimension>
 constexpr const auto& edgesOfCell()
 {
@@ -34,7 +34,7 @@ constexpr const auto& edgesOfCell()
   }
 }
 
-/// Of the cells of a mesh of this dimension.
+/// Improves the cells of a mesh of this dimension.
 template<int Dimension>
 class Improver
 {
@@ -101,7 +101,7 @@ private:
     Count count = nullptr;
     Index moved = -1;
     Point3 place{};
-    AddedVertex added{}; ///< Where an edge is halved.
+    AddedVertex added{}; ///< The new vertex of a split.
     EditableMesh::Vertex middle;
   };
 
@@ -112,8 +112,8 @@ private:
            !failed_.hasCell(cell, cells()[cell].corners);
   }
 
-  /// Nothing helped a cell, and so nothing that was tried with its edges: other cells need not try
-  /// the same again.
+  /// Notes that nothing helped a cell, and so nothing that was tried with its edges: other cells
+  /// need not try the same again.
   void noteFailure(Index cell)
   {
     failed_.noteCell(cell);
@@ -147,7 +147,7 @@ private:
     return corners;
   }
 
-  /// One operation, if one makes cells better: the best of those that cost least.
+  /// Does one operation, if any makes cells better: the best of those that cost least.
   bool improve(Index cell)
   {
     const auto corners = cells()[cell].corners;
@@ -195,7 +195,7 @@ private:
     return carryOut();
   }
 
-  /// Of a cell's edges those from which something may be gained.
+  /// Visits those edges of a cell at which something may be gained.
   template<class Visit>
   void forEdges(const Corners& corners, bool withSplit, const Visit& visit)
   {
@@ -208,7 +208,7 @@ private:
     }
   }
 
-  /// Whether the operation in the cavity is the best so far.
+  /// Takes the operation in the cavity if it is the best so far, and returns whether it is.
   bool consider(bool isPossible, Count count)
   {
     if (!isPossible)
@@ -276,7 +276,8 @@ private:
     }
   }
 
-  /// The boundary is to follow the CAD as well as before.
+  /// Considers moving a vertex along the CAD, so that the boundary follows the CAD as well as
+  /// before.
   void considerMoveOnCAD(Index vertex)
   {
     if (!isOnCAD(vertex) || limits_.surface.keepsError)
@@ -374,7 +375,8 @@ private:
     failed_.noteChange(cavity.newCellsOf<Dimension>());
   }
 
-  /// What costs least comes first: whether cells get too bad, before what the corners tell.
+  /// Considers a collapse. The cheaper check comes first: whether cells get too bad, then what the
+  /// corners tell.
   void considerCollapse(Index from, Index to)
   {
     if (mesh_.vertex(from).stays || mesh_.vertex(from).isOnRim)
@@ -400,7 +402,7 @@ private:
     consider(proposeCollapse(mesh_, from, to, cavity_), &OperationCounts::collapses);
   }
 
-  /// The cells at the vertex of a split.
+  /// The corners of the new cells at the vertex of a split.
   Cells<Dimension + 1> newCellsAtMiddle() const
   {
     Cells<Dimension + 1> corners;
@@ -414,7 +416,8 @@ private:
     return corners;
   }
 
-  /// Without swaps where the faces that stay let halves of the cells be better.
+  /// Considers a split; one without swaps only where the faces that stay let the halves of cells be
+  /// better.
   void considerSplit(Index a, Index b, bool withSwaps)
   {
     if (middle_ < 0)

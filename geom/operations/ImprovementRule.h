@@ -1,4 +1,4 @@
-// What of the cells that an operation makes is better than those before.
+// When the cells that an operation makes are better than those before.
 #pragma once
 
 #include <cadrefine/operations/EditableMesh.h>
@@ -12,23 +12,25 @@
 namespace cadrefine
 {
 
-/// Mean ratios of cells.
+/// The mean ratios of cells below which they are improved.
 struct ImprovementLimits
 {
-  double floor = 0.3;   ///< Cells below this, with their vertices where they are wanted, are tried.
-  double minimum = 0.1; ///< Edges of cells below this are split; below it none gets worse in place.
+  double floor = 0.3; ///< Cells below this, with their vertices where they are wanted, are tried.
+  /// Edges of cells below this are split; below it, none gets worse where the vertices are.
+  double minimum = 0.1;
   SurfaceLimits surface = {};
 };
 
-/// The cost of cells by their mean ratios: none above a floor, then growing without limit, so that
-/// of two sets of cells that with the worse ones costs more, but an operation that mends some of
-/// several bad cells gains even where the worst stays.
+/// The cost of cells by their mean ratios: 0 above a floor, and growing without limit below it, so
+/// that of two sets of cells the one with the worse cells costs more, but an operation that mends
+/// some of several bad cells gains even where the worst stays.
 class QualityCost
 {
 public:
   explicit QualityCost(double floor) : floor_(floor) {}
 
-  /// (floor / quality - 1)^2; far more than that of any other cell where it is inverted.
+  /// The cost of a cell: (floor / quality - 1)^2 below the floor; if it is inverted, far more than
+  /// that of any other cell.
   double of(double quality) const
   {
     if (quality >= floor_)
@@ -44,7 +46,7 @@ public:
     return lacks * lacks;
   }
 
-  /// Whether so much less is worth an operation.
+  /// Whether an operation is worth doing that lowers the cost from `before` to `after`.
   static bool isGain(double before, double after) { return after <= (1 - leastGain) * before; }
 
 private:
@@ -62,8 +64,8 @@ struct GroupQuality
   double cost = 0;
 };
 
-/// Of the cells of a mesh of this dimension. Keeps references. Work: that of a look at each cell,
-/// and of SurfaceRule::accepts where the boundary changes.
+/// Judges operations on the cells of a mesh of this dimension. Keeps references. Work: that of a
+/// look at each cell, and of SurfaceRule::accepts where the boundary changes.
 template<int Dimension>
 class ImprovementRule
 {
@@ -78,18 +80,18 @@ public:
   }
 
   GroupQuality qualityOf(const std::vector<Index>& cells) const;
-  /// With another cell.
+  /// Adds a cell of this quality to a group.
   void add(double quality, GroupQuality& group) const;
-  /// Whether cells may be exchanged for others. Of triangles the worst one has to gain a hundredth
-  /// of what it lacks, or, if that is less, half of what it has: a narrow face of the CAD takes
-  /// many splits.
+  /// Whether cells of quality `before` may be exchanged for others of quality `after`. The worst of
+  /// triangles has to gain a hundredth of what it lacks, or, if that is less, half of what it has:
+  /// a narrow face of the CAD takes many splits.
   static bool gains(const GroupQuality& before, const GroupQuality& after);
-  /// Whether cells may gain if each has this vertex, wherever that is: of tetrahedra, as the face
-  /// opposite to it bounds their quality.
+  /// Whether cells that all have this vertex may gain on `costBefore`, wherever the vertex is: the
+  /// face opposite to it bounds the quality of a tetrahedron. Always true for triangles.
   bool mayGain(double costBefore, const std::vector<Corners>& cells, Index vertex) const;
 
-  /// The worst of the cells where the vertices are, so far as that is bad: no operation may leave a
-  /// worse one, as vertices may never come to where they are wanted.
+  /// The smallest quality of the cells where the vertices are, or `minimum`, if that is smaller: no
+  /// operation may leave a worse cell, as vertices may never come to where they are wanted.
   double worstCurrent(const std::vector<Index>& cells) const;
   bool keepsCurrentQuality(const Cavity& cavity) const;
   bool keepsSurface(const Cavity& cavity) const;

@@ -59,7 +59,8 @@ struct Ring
   bool isClosed = true;
 };
 
-/// Empty where the cells do not make one ring of the size that is allowed.
+/// The ring of these cells, all those round an edge; empty where they do not make one ring of the
+/// size that is allowed.
 Ring ringOf(const EditableMesh& mesh, const std::vector<Index>& cells, Index a, Index b)
 {
   if (cells.size() > largestRing)
@@ -144,7 +145,8 @@ private:
     return j - i < 2 ? std::numeric_limits<double>::infinity() : best_[i][j];
   }
 
-  /// What costs least comes first.
+  /// Quality of the worse of the two cells at a triangle, or `impossible`; the cheaper check comes
+  /// first.
   double worstAt(std::size_t i, std::size_t k, std::size_t j) const
   {
     const auto cells = cellsAt(i, k, j);
@@ -258,7 +260,7 @@ bool mayGo(const EditableMesh& mesh, Index from, Index to)
   }
 }
 
-/// The simplices at `from` go; those without `to` come again with `to` in its place.
+/// Removes the simplices at `from`, and adds those without `to` again with `to` in its place.
 template<std::size_t Corners>
 void collapse(const SimplexStore<Corners>& store, Index from, Index to, std::vector<Index>& removed,
   std::vector<LabelledSimplex<Corners>>& added)
@@ -275,7 +277,7 @@ void collapse(const SimplexStore<Corners>& store, Index from, Index to, std::vec
   }
 }
 
-/// A segment in the place of two on different CAD edges is on a crease of them.
+/// A segment in place of two on different CAD edges no longer names one: it is on a crease of them.
 void joinClasses(const EditableMesh& mesh, Cavity& cavity)
 {
   const auto isOnAnother = [&](Index old, const EdgeClass& edgeClass)

@@ -13,10 +13,11 @@
 namespace cadrefine
 {
 
-/// Each fills in the cavity, and returns whether the operation is possible as far as corners and
-/// labels tell: cells of two labels do not become one, segments and listed facets stay, as do the
-/// cells beyond the mesh. Whether the new cells are valid and well shaped, and whether new facets
-/// follow the surface, is for the caller to judge. Work: the cells at the vertices that are named.
+/// Each function below fills in the cavity of an operation, and returns whether the operation is
+/// possible as far as corners and labels tell: cells of two labels do not become one, segments and
+/// listed facets stay, as do the cells beyond the mesh. Whether the new cells are valid and well
+/// shaped, and whether new facets follow the surface, is for the caller to judge. Work: the cells
+/// at the vertices that are named.
 ///
 /// (L. Freitag, C. Ollivier-Gooch, "Tetrahedral mesh improvement using swapping and smoothing",
 /// Int. J. Numer. Meth. Engng 40, 1997.)
@@ -33,8 +34,8 @@ enum class NewCells
 /// with the triangulation whose worst cell is best (G. Klincsek, "Minimal triangulations of
 /// polygonal domains", Ann. Discrete Math. 9, 1980; work cubic in the ring). Three cells around the
 /// edge become two. An edge between two boundary facets is replaced by their other diagonal; if
-/// both are facets of one cell, which is flat where they are coplanar, that cell disappears. Of
-/// triangles: proposeSwap.
+/// both are facets of one cell, which is flat where they are coplanar, that cell disappears. For a
+/// mesh of triangles: proposeSwap.
 bool proposeEdgeRemoval(
   const EditableMesh& mesh, Index a, Index b, Cavity& cavity, NewCells newCells = NewCells::Any);
 constexpr std::size_t largestRing = 7;
@@ -56,7 +57,7 @@ struct AddedVertex
 {
   std::array<Index, 2> parents; ///< The ends of its edge.
   bool onBoundary = false;
-  ClosestPoint where; ///< On the CAD; no entity: it is not there.
+  ClosestPoint where; ///< Its place on the CAD; without an entity if it is not on the CAD.
 };
 
 /// How often each operation was done.
@@ -66,8 +67,8 @@ struct OperationCounts
   std::int64_t faceRemovals = 0;
   std::int64_t collapses = 0;
   std::int64_t splits = 0;
-  std::int64_t moves = 0; ///< Of vertices.
-  std::int64_t cells = 0; ///< That were tried.
+  std::int64_t moves = 0; ///< Moves of vertices.
+  std::int64_t cells = 0; ///< Cells that were tried.
 
   std::int64_t operations() const
   {
@@ -78,7 +79,7 @@ struct OperationCounts
 /// What operations did to a mesh.
 struct OperationResult
 {
-  std::vector<AddedVertex> added; ///< Their numbers follow those of the vertices that were there.
+  std::vector<AddedVertex> added; ///< New vertices; their numbers follow those of the old ones.
   OperationCounts counts;
 };
 

@@ -25,7 +25,7 @@ double depthIn(const std::array<Point3, 4>& cell, const Point3& point)
   return depth;
 }
 
-/// The same of a triangle, seen along its normal.
+/// How far a point is within a triangle, seen along its normal, in the same terms.
 double depthIn(const std::array<Point3, 3>& cell, const Point3& point)
 {
   const Vector3 whole = twofoldAreaVector(cell[0], cell[1], cell[2]);

@@ -9,8 +9,9 @@
 namespace cadrefine
 {
 
-/// The parent of that of these cells, given by their numbers in the store, which the centroid of
-/// the new one lies in, or least outside of, where the vertices are.
+/// Of the cells with these numbers in the store, finds the one in which the centroid of a new cell
+/// with these corners lies, or of which it lies least outside, and returns that cell's parent. All
+/// with the vertices where they are.
 Index parentOf(const EditableMesh& mesh, const SimplexStore<4>& cells,
   const std::array<Index, 4>& corners, const std::vector<Index>& numbers);
 Index parentOf(const EditableMesh& mesh, const SimplexStore<3>& cells,

@@ -37,7 +37,7 @@ struct OnEntity
   {
     return directionsOn(projector, entity, point);
   }
-  /// None where that is the border of the entity.
+  /// The nearest point of the entity; none where that is on its border.
   std::optional<Point3> place(const Point3& point) const
   {
     const ClosestPoint where = projector.nearestOn(entity, point);
@@ -47,7 +47,7 @@ struct OnEntity
   }
 };
 
-/// The cells at a vertex; of triangles also unit normals, which they keep to.
+/// The cells at a vertex; for triangles also unit normals, which they keep to.
 template<std::size_t Corners>
 struct Star
 {
@@ -69,8 +69,8 @@ struct Star
   }
 };
 
-/// Moves the vertex there; the smallest quality of the cells, if it is above the bar; -2 where one
-/// is invalid.
+/// Moves the vertex to `point` and returns the smallest quality of its cells; -2 where one is
+/// invalid, or the quality is found to be no more than `bar`.
 template<std::size_t Corners>
 double worstAt(EditableMesh& mesh, const Star<Corners>& star, const Point3& point, double bar = -2)
 {

@@ -13,8 +13,8 @@ namespace cadrefine
 void relocate(EditableMesh& mesh, Index vertex, const Cells<4>& cells);
 void relocate(EditableMesh& mesh, Index vertex, const Cells<3>& cells);
 
-/// The same of a vertex on the CAD, along its face or edge, where it stays. Work: some 3
-/// projections a step.
+/// Moves a vertex on the CAD as `relocate` does, along its CAD face or edge, which it does not
+/// leave. Work: some 3 projections a step.
 void relocateOnCAD(
   EditableMesh& mesh, Index vertex, const Cells<4>& cells, const BoundaryProjector& projector);
 void relocateOnCAD(

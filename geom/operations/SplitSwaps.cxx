@@ -13,7 +13,8 @@ namespace cadrefine
 namespace
 {
 
-/// The removal of an edge opposite to a vertex whose new cells are the best.
+/// Finds, of the removals of edges opposite to a vertex, the one whose worst new cell is best.
+/// Returns false where none gains.
 template<int Dimension>
 bool findSwap(const EditableMesh& mesh, Index middle, Cavity& best)
 {

@@ -17,13 +17,14 @@ namespace cadrefine
 namespace
 {
 
-/// Of the error before it is extrapolated, as where meshes are measured.
+/// Depth of the error before it is extrapolated, as where meshes are measured.
 constexpr int errorDepth = 2;
 
-/// Of distances from the CAD, in parts of them: on a fillet they are the same wherever a facet is.
+/// Relative rounding error of distances from the CAD, which on a fillet are the same wherever a
+/// facet is.
 constexpr double distanceRounding = 1e-6;
 
-/// Of the turn of a facet's normal (40 degrees).
+/// Cosine of the largest turn of a facet's normal (40 degrees).
 const double turnCosine = ClassificationTolerances::cosineOfDegrees(40);
 
 Vector3 normalOf(const EditableMesh& mesh, const std::array<Index, 3>& facet)
@@ -101,7 +102,8 @@ SurfaceRule::Fit SurfaceRule::fitOf(
   return fit;
 }
 
-/// As a mesh's boundary is classified: of a mesh of triangles all with corners on the CAD.
+/// Whether a facet is on the CAD, as when a mesh's boundary is classified: in a mesh of triangles
+/// in space, if all its corners are.
 bool SurfaceRule::isOnCAD(const EditableMesh& mesh, const std::array<Index, 3>& facet) const
 {
   if (mesh.kind() == EditableMesh::Kind::Surface)
@@ -170,7 +172,7 @@ bool SurfaceRule::acceptsFacets(
     });
 }
 
-/// Of an edge of the facets before or after.
+/// The class of an edge of the facets before or after the operation.
 EdgeClass SurfaceRule::classOf(
   const EditableMesh& mesh, const Cavity& cavity, Index a, Index b) const
 {
@@ -185,7 +187,7 @@ EdgeClass SurfaceRule::classOf(
   return there < 0 ? added->edgeClass : mesh.segments()[there].edgeClass;
 }
 
-/// One facet, of a planar mesh a segment.
+/// A surface of one facet, or of one segment of a planar mesh.
 template<std::size_t Corners>
 ClassifiedSurface SurfaceRule::surfaceOf(
   const EditableMesh& mesh, const Cavity& cavity, const std::array<Index, Corners>& facet) const
@@ -289,8 +291,8 @@ bool SurfaceRule::isAsGood(const Fit& fit, const Fit& before)
          fit.cosine >= std::min(ClassificationTolerances::fittingCosine, before.cosine);
 }
 
-/// Of the middles of these segments from the CAD, but for rounding, and of their ends from where
-/// they are wanted.
+/// Largest distance of the middles of these segments from the CAD, and of their ends from where
+/// they are wanted; not less than rounding errors.
 double SurfaceRule::farthestMiddle(
   const EditableMesh& mesh, const std::vector<Index>& segments) const
 {
@@ -352,7 +354,7 @@ const SurfaceRule::PlaceOnCAD& SurfaceRule::nearest(const Point3& point) const
   return place->second;
 }
 
-/// Makes the fit that of another facet, too.
+/// Includes another facet in the fit.
 void SurfaceRule::widen(
   const EditableMesh& mesh, const Cavity& cavity, const std::array<Index, 3>& facet, Fit& fit) const
 {

@@ -14,10 +14,11 @@
 namespace cadrefine
 {
 
-/// What may become of a boundary.
+/// Which changes of a boundary are allowed.
 struct SurfaceLimits
 {
-  double distance = 0;     ///< From the CAD, at least what facets before have.
+  /// Largest distance of new facets from the CAD, or that of the facets before, if larger.
+  double distance = 0;
   bool keepsError = false; ///< The geometric error must not become larger.
   /// What may become of facets off the CAD: nothing, or, where they lie in one plane (segments: on
   /// a line), they may be exchanged for others there, with the same vertices or with fewer.
@@ -30,7 +31,7 @@ struct SurfaceLimits
   Walls walls = Walls::KeepVertices;
 };
 
-/// Judges new boundary facets, of a planar mesh segments, with their vertices where they are
+/// Judges new boundary facets (of a planar mesh: segments) with their vertices where they are
 /// wanted, and places new vertices. All answers are pure functions of the mesh at the cavity and
 /// the model. It keeps the nearest points of the CAD and the errors of facets that it has found,
 /// some 200 bytes each, since the same facets are asked for again and again: each thread needs a
@@ -43,16 +44,17 @@ public:
   /// How well facets follow the CAD.
   struct Fit
   {
-    /// Largest, of the middle of an edge or a centroid from the CAD; of a mesh of triangles also of
-    /// a vertex from where it is wanted.
+    /// Largest distance of a centroid or the middle of an edge from the CAD; in a mesh of triangles
+    /// also of a vertex from where it is wanted.
     double distance = 0;
-    /// Smallest, between a facet's normal and the CAD's at these points. The middles of segments
-    /// are left out, since two faces meet there.
+    /// Smallest cosine of the angle between a facet's normal and the CAD's at these points. The
+    /// middles of segments are left out, since two faces meet there.
     double cosine = 1;
   };
-  /// Work: 4 projections a facet.
+  /// The fit of those of these facets that are on the CAD. Work: 4 projections a facet.
   Fit fitOf(const EditableMesh& mesh, const std::vector<Index>& facets) const;
-  /// Of the boundary at a vertex: facets, of a planar mesh segments, which have no normals.
+  /// The fit of the boundary's facets at a vertex (of a planar mesh: segments, without their
+  /// normals).
   Fit fitAt(const EditableMesh& mesh, Index vertex) const;
   /// Whether a boundary that fits like this follows the CAD as well as it did before: no point is
   /// farther away, and normals make no more than 60 degrees, or no more than before.
@@ -64,8 +66,8 @@ public:
   /// as on the CAD; its normal makes no more than 40 degrees with one of theirs, and 60 with those
   /// of the CAD at its centroid and the middles of its edges, unless theirs do; and none of these
   /// points is farther from the CAD than the limit, or than those of the facets before. Facets off
-  /// the CAD stay, or stay in their planes. Of a planar mesh the same of the segments' directions
-  /// and middles. Work: up to 4 projections a facet, 2 a segment, and that of errorGain.
+  /// the CAD stay, or stay in their planes. In a planar mesh, the same holds for the directions and
+  /// middles of segments. Work: up to 4 projections a facet, 2 a segment, and that of errorGain.
   bool accepts(
     const EditableMesh& mesh, const Cavity& cavity, const SurfaceLimits& limits = {}) const;
 
@@ -74,21 +76,21 @@ public:
   /// projections for each facet that was not measured before.
   double errorGain(const EditableMesh& mesh, const Cavity& cavity) const;
 
-  /// The place on the CAD of the middle of an edge of facets, between its ends where they are
-  /// wanted; of no entity, halfway between its ends, where it is of the boundary off the CAD, or of
-  /// something listed inside, alone; none where it cannot be told.
+  /// The place on the CAD for the middle of an edge of facets, with its ends where they are wanted.
+  /// An edge that belongs only to the boundary off the CAD, or to something listed inside, gets the
+  /// point halfway between its ends, with no entity. None where the place cannot be told.
   std::optional<ClosestPoint> placeOfMiddle(const EditableMesh& mesh, Index a, Index b) const;
 
 private:
-  /// The nearest to a point.
+  /// The place on the CAD nearest to a point.
   struct PlaceOnCAD
   {
     ClosestPoint where;
-    Vector3 normal{}; ///< Of the CAD there, inside a face.
+    Vector3 normal{}; ///< Normal of the CAD there; zero unless it is inside a face.
   };
 
-  /// Of the corners of a facet and the edges from them to the next ones: where they are, and on
-  /// what.
+  /// What the error of a facet depends on: for each corner its coordinates and CAD entity, and the
+  /// class of the edge to the next corner.
   using FacetKey = std::array<std::array<double, 7>, 3>;
 
   bool isOffCAD(const EditableMesh& mesh, Index a, Index b) const;

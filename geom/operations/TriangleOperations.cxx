@@ -45,8 +45,8 @@ std::vector<Index> fanOf(const EditableMesh& mesh, Index vertex, Index facet)
   return fan;
 }
 
-/// On a surface in space, what is new between vertices that have cells beyond this mesh may be
-/// there already, round a hole or on the other side of something thin.
+/// Whether a new facet of a surface in space, or an edge of it, may already exist beyond this mesh,
+/// as between vertices with cells there round a hole or on the other side of something thin.
 bool mayBeBeyond(const EditableMesh& mesh, const LabelledSimplex<3>& facet)
 {
   int onRim = 0;

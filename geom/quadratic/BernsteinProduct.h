@@ -28,7 +28,7 @@ struct BernsteinProduct
 
   using Coefficients = std::array<double, count()>;
 
-  /// Places of one row along a factor are so far apart.
+  /// How far apart the places of one row along a factor are.
   static constexpr int stride(std::size_t factor)
   {
     int result = 1;

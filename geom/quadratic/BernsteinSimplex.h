@@ -123,8 +123,8 @@ struct BernsteinSimplex
 
   using Means = std::array<Mean, meansCount()>;
 
-  /// Those of the half in which the middle of edge (kept, lost) takes the place of `lost`, in their
-  /// order: in pass r all powers of `lost` of at least r, the highest first.
+  /// The means for the half in which the middle of edge (kept, lost) takes the place of `lost`, in
+  /// their order: in pass r all powers of `lost` of at least r, the highest first.
   static constexpr Means listMeans(int kept, int lost)
   {
     Means result{};

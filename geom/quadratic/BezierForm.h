@@ -76,7 +76,7 @@ private:
   static constexpr double epsilon = std::numeric_limits<double>::epsilon();
   static constexpr int maximumPieces = 256;
   static constexpr int mostCorners = 4;
-  /// Of the piece in each factor.
+  /// The corners of a piece in each factor.
   using Corners =
     std::array<std::array<std::array<double, mostCorners>, mostCorners>, Basis::factors>;
 
@@ -138,8 +138,8 @@ private:
     return longest;
   }
 
-  /// A coefficient takes part in as many means as the degree says, which round by half of epsilon
-  /// of the result.
+  /// Replaces a piece by its halves. A coefficient takes part in as many means as the degree says,
+  /// which round by half of epsilon of the result.
   void halve(const Piece& piece)
   {
     const auto [factor, a, b] = longestEdge(piece);

@@ -18,7 +18,7 @@ namespace
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double errorOfCoefficients = 12 * epsilon;
 
-/// Local numbers of the mid nodes between corners; of a corner and itself the corner.
+/// Local numbers of the mid nodes between corners; for a corner and itself, the corner.
 constexpr int nodeBetween[4][4] = { { 0, 4, 5, 6 }, { 4, 1, 7, 8 }, { 5, 7, 2, 9 },
   { 6, 8, 9, 3 } };
 constexpr int triangleNodeBetween[3][3] = { { 0, 3, 5 }, { 3, 1, 4 }, { 5, 4, 2 } };
@@ -80,7 +80,7 @@ bool isValidStraight(Shape, const std::array<Point3, Shape::corners>& corners, c
   }
 }
 
-/// Whether it is valid, if it is straight, or else by isPositive().
+/// Whether a cell is valid: by its corners if it is straight, or else by isPositive().
 template<class Shape, class IsPositive>
 bool isValidCell(
   Shape shape, const CurvedCell<Shape>& nodes, const Vector3& side, const IsPositive& isPositive)

@@ -38,20 +38,20 @@ using CurvedHexahedron = CurvedCell<shapes::Hexahedron>;
 /// 1-norms, M_1 M_2 M_3 with the largest ones over i: the bound is 12 epsilon M_1 M_2 M_3.
 BezierForm<20> jacobianOf(const CurvedTetrahedron& nodes);
 
-/// The same of a triangle: the component along the unit normal `side` of the product of the two
-/// derivatives, twice the area where the cell is straight and has that normal.
+/// The Jacobian determinant of a triangle: the component along the unit normal `side` of the
+/// product of the two derivatives, twice the area where the cell is straight and has that normal.
 BezierForm<6> jacobianOf(const CurvedTriangle& nodes, const Vector3& side);
 
-/// The same of cells of serendipity shape functions, those of VTK. Their maps are polynomials of
-/// degree 2 in each parameter of the square and the cube, and over the prism's triangle and along
-/// it, of which the terms of highest degree in two directions at once are missing: so in the middle
-/// of a quadrilateral the Bezier point is (2 sum of the edges' - sum of the corners') / 4, in the
-/// middle of the hexahedron (sum of the edges' - sum of the corners') / 4. The determinant is of
-/// degree 3 in each parameter of the square (16 coefficients), 5 of the cube (216), and 4 over the
-/// triangle and 5 along the prism (90). It is with respect to parameters from 0 to 1: the mean of
-/// the coefficients is the volume of the hexahedron and the area of the quadrilateral, twice the
-/// volume of the wedge. As long as that of a tetrahedron, of the wedge three times, of the
-/// hexahedron ten times.
+/// The Jacobian determinants of cells of serendipity shape functions, those of VTK. Their maps are
+/// polynomials of degree 2 in each parameter of the square and the cube, and over the prism's
+/// triangle and along it, of which the terms of highest degree in two directions at once are
+/// missing: so in the middle of a quadrilateral the Bezier point is (2 sum of the edges' - sum of
+/// the corners') / 4, in the middle of the hexahedron (sum of the edges' - sum of the corners') /
+/// 4. The determinant is of degree 3 in each parameter of the square (16 coefficients), 5 of the
+/// cube (216), and 4 over the triangle and 5 along the prism (90). It is with respect to parameters
+/// from 0 to 1: the mean of the coefficients is the volume of the hexahedron and the area of the
+/// quadrilateral, twice the volume of the wedge. As long as that of a tetrahedron, of the wedge
+/// three times, of the hexahedron ten times.
 ///
 /// Rounding: with S the largest 1-norm of a node less the first one, a Bezier point errs by less
 /// than 150 u S, a derivative's coefficient by 420 u S; M being the largest 1-norm of those in one
@@ -63,7 +63,7 @@ BezierForm<216> jacobianOf(const CurvedHexahedron& nodes);
 
 /// Whether the Jacobian determinant is positive on all of the cell, for certain (see isPositive):
 /// halving sees to it that a valid cell is not refused because its bounds are loose. About 0.2
-/// microseconds without a halving, and 0.1 for each; of a hexahedron ten times that.
+/// microseconds without a halving, and 0.1 for each; for a hexahedron ten times that.
 ///
 /// A cell all of whose mid nodes are the middles of its edges, to the last bit, is straight: it is
 /// valid by its corners (see CellJacobian.h), of a simplex by its exact orientation. Others whose
@@ -78,9 +78,9 @@ bool isValid(const CurvedPyramid& nodes);
 bool isValid(const CurvedWedge& nodes);
 bool isValid(const CurvedHexahedron& nodes);
 
-/// The same of a triangle, as seen from the end of `side`: in a plane from the side to which all
-/// triangles turn; in space take the normal of the straight triangle. The triangle is then a graph
-/// over its own plane: its normal is nowhere 90 degrees off.
+/// Whether a triangle or quadrilateral is valid, as seen from the end of `side`: in a plane from
+/// the side to which all triangles turn; in space take the normal of the straight triangle. The
+/// triangle is then a graph over its own plane: its normal is nowhere 90 degrees off.
 bool isValid(const CurvedTriangle& nodes, const Vector3& side);
 bool isValid(const CurvedQuadrilateral& nodes, const Vector3& side);
 
@@ -97,7 +97,7 @@ CurvedCell<Shape> straightCell(Shape, const std::array<Point3, Shape::corners>& 
 
 /// The point of the triangle at these barycentric coordinates.
 Point3 pointAt(const CurvedTriangle& nodes, const std::array<double, 3>& where);
-/// That of the quadrilateral at parameters from 0 to 1, from corner 0 to 1 and from 0 to 3.
+/// The point of the quadrilateral at parameters from 0 to 1, from corner 0 to 1 and from 0 to 3.
 Point3 pointAt(const CurvedQuadrilateral& nodes, const Point2& where);
 
 } // namespace cadrefine

@@ -31,7 +31,7 @@ std::vector<Index> cellsWhere(const Edges& edgesOf, const std::vector<double>& f
     [&](std::size_t c) { return std::any_of(edgesOf[c].begin(), edgesOf[c].end(), moves); });
 }
 
-/// Returns whether a node of these edges was taken back.
+/// Takes the nodes of these edges back a step. Returns whether it took any.
 template<class Edges>
 bool stepBackAt(
   const Edges& edges, const std::vector<double>& before, std::vector<double>& fractions)

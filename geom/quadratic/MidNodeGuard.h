@@ -62,7 +62,7 @@ private:
   const std::vector<Point3>& middles_;
   Vector3 plane_;
   ParallelFor parallelFor_;
-  std::vector<std::vector<Index>> cells_; ///< Of each shape those with a node that moves.
+  std::vector<std::vector<Index>> cells_; ///< Cells of each shape with a node that moves.
   std::vector<double> seen_;              ///< The fractions at the last sweep.
   std::vector<unsigned char> tooCurved_;
 };

@@ -66,7 +66,7 @@ struct SerendipityMap<shapes::Wedge>
 template<class Shape>
 using BezierPoints = BezierPolynomial<typename SerendipityMap<Shape>::Basis, Vector3>;
 
-/// Of a cell's map, less the first node; see jacobianOf.
+/// The Bezier points of a cell's map, less the first node; see jacobianOf.
 template<class Shape>
 BezierPoints<Shape> bezierPointsOf(Shape, const CurvedCell<Shape>& nodes)
 {

@@ -47,8 +47,8 @@ int cornersOf(const int (&face)[4])
   return face[3] < 0 ? 3 : 4;
 }
 
-/// The parts of a quadrilateral with corners v, m[k] on the edge from corner k on (-1: not marked)
-/// and a vertex in the middle if all are marked.
+/// The parts of a quadrilateral with corners v, with the new vertex m[k] on the edge from corner k
+/// on (-1: not marked), and with `middle` inside it if all are marked.
 std::vector<std::array<Index, 4>> piecesOfQuad(
   const std::array<Index, 4>& v, const std::array<Index, 4>& m, Index middle)
 {
@@ -90,7 +90,7 @@ std::vector<std::array<Index, 4>> piecesOfQuad(
   }
 }
 
-/// Seen from the end of its normal, which points to the apex.
+/// Adds a tetrahedron or pyramid over a base whose normal points to the apex.
 void addOver(const std::array<Index, 4>& base, Index apex, Mesh& children)
 {
   if (base[3] < 0)
@@ -175,21 +175,21 @@ CellCutting::CellCutting(
 {
 }
 
-/// On the edge between two local corners; -1: it is not marked.
+/// The new vertex on the edge between two local corners of a cell; -1: the edge is not marked.
 template<class Shape>
 Index CellCutting::midpointOf(Shape shape, Index cell, int a, int b) const
 {
   return midpoints_.ofEdge[(table_.*edgesOfCells(shape))[cell][edgeBetween(shape, a, b)]];
 }
 
-/// In one of the cell's quadrilaterals; -1: not all of its edges are marked.
+/// The new vertex in one of a cell's quadrilaterals; -1: not all of its edges are marked.
 template<class Shape>
 Index CellCutting::middleOf(Shape shape, Index cell, int quad) const
 {
   return midpoints_.ofQuad[(quads_.*quadsOfCells(shape))[cell][quad]];
 }
 
-/// Of the side with these local corners, in their order.
+/// The parts of the side with these local corners, turning as they do.
 template<class Shape>
 std::vector<CellCutting::Piece> CellCutting::piecesOf(
   Shape shape, Index cell, const int* corners, int count) const
@@ -228,8 +228,8 @@ bool CellCutting::isCut(Shape shape, Index cell) const
     edges.begin(), edges.end(), [&](Index edge) { return midpoints_.ofEdge[edge] >= 0; });
 }
 
-/// Between these sides. False where they are not cut alike, or some edges between them are marked
-/// and others not.
+/// Finds the stack between these sides. Returns false where they are not cut alike, or some edges
+/// between them are marked and others not.
 template<class Shape>
 bool CellCutting::findStack(
   Shape shape, Index cell, const int* low, const int* high, int count, Stack& stack) const

@@ -9,8 +9,8 @@
 namespace cadrefine
 {
 
-/// visit(shape, first, cells) of the cells of volume that are not simplices, `first` being the
-/// number of the first one.
+/// Calls visit(shape, first, cells) for each shape of cells of volume that are not simplices,
+/// `first` being the number of the first one.
 template<class Visit>
 void visitOthers(const Mesh& mesh, const Visit& visit)
 {
@@ -42,17 +42,18 @@ void visitOthers(const Mesh& mesh, const Visit& visit)
 class CellCutting
 {
 public:
-  /// All must outlive this object.
+  /// All arguments must outlive this object.
   CellCutting(
     const Mesh& mesh, const EdgeTable& table, const QuadTable& quads, const Midpoints& midpoints);
 
-  /// Whether a cell is cut with a new vertex in the middle.
+  /// Whether a cell, by its number among those of its shape, is cut with a new vertex in the
+  /// middle.
   bool needsApex(shapes::Pyramid, Index cell) const;
   bool needsApex(shapes::Wedge, Index cell) const;
   bool needsApex(shapes::Hexahedron, Index cell) const;
 
-  /// Appends the children of a cell (itself where it is not cut); `apex` is its new vertex, if it
-  /// needs one. The number is that among the cells of its shape.
+  /// Appends the children of a cell (itself where it is not cut), given by its number among those
+  /// of its shape; `apex` is its new vertex, if it needs one.
   void cut(shapes::Pyramid, Index cell, Index apex, Mesh& children) const;
   void cut(shapes::Wedge, Index cell, Index apex, Mesh& children) const;
   void cut(shapes::Hexahedron, Index cell, Index apex, Mesh& children) const;

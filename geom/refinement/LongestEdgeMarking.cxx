@@ -29,7 +29,7 @@ std::array<Index, Count> chosen(
   return result;
 }
 
-/// Of wedges and pyramids.
+/// A triangle of a wedge or pyramid, by its local edges.
 using LocalTriangle = std::array<int, 3>;
 constexpr LocalTriangle wedgeTriangles[2] = { { 0, 1, 2 }, { 3, 4, 5 } };
 constexpr LocalTriangle pyramidTriangles[4] = { { 0, 5, 4 }, { 1, 6, 5 }, { 2, 7, 6 },
@@ -37,7 +37,7 @@ constexpr LocalTriangle pyramidTriangles[4] = { { 0, 5, 4 }, { 1, 6, 5 }, { 2, 7
 
 /// The edges of a hexahedron in each of its directions.
 constexpr int hexahedronDirections[3][4] = { { 0, 2, 4, 6 }, { 1, 3, 5, 7 }, { 8, 9, 10, 11 } };
-/// Pairs of edges over each other in each direction.
+/// Pairs of edges that lie over each other, seen along each direction.
 constexpr int hexahedronPairs[3][4][2] = { { { 3, 1 }, { 7, 5 }, { 8, 9 }, { 11, 10 } },
   { { 0, 2 }, { 4, 6 }, { 8, 11 }, { 9, 10 } }, { { 0, 4 }, { 1, 5 }, { 2, 6 }, { 3, 7 } } };
 constexpr int quadrilateralDirections[2][2] = { { 0, 2 }, { 1, 3 } };
@@ -67,7 +67,8 @@ int thinDirection(const EdgeTable& table, const std::array<Index, Edges>& edges,
   return static_cast<int>(least);
 }
 
-/// All edges of a marked cell but those in the direction in which it is thin.
+/// Marks all edges of a marked cell, except those in the direction in which it is thin if layers
+/// are kept.
 template<std::size_t Edges, std::size_t Directions, std::size_t Parallel>
 void markAcross(const EdgeTable& table, const std::array<Index, Edges>& edges,
   const int (&directions)[Directions][Parallel], bool keepLayers, EdgeMarks& marks)
@@ -172,7 +173,7 @@ MarkClosure::MarkClosure(const EdgeTable& table, int dimension, bool keepLayers,
 {
 }
 
-/// visit(edges of the cells of a shape) in turn.
+/// Calls visit(edges of the cells of a shape) for one shape after the other.
 template<class Visit>
 void MarkClosure::visitLists(const Visit& visit) const
 {
@@ -198,7 +199,7 @@ bool MarkClosure::closeFrom(const std::vector<Index>& edges)
   return close();
 }
 
-/// Until no cell waits for a look. Returns true where an edge was marked.
+/// Looks at cells until none waits for a look. Returns true where an edge was marked.
 bool MarkClosure::close()
 {
   bool changed = false;
@@ -210,7 +211,7 @@ bool MarkClosure::close()
   return spread() || changed;
 }
 
-/// Looks at every cell; what was fresh before is not any more.
+/// Looks at every cell; edges that were fresh before no longer are.
 void MarkClosure::sweep()
 {
   --sweepsLeft_;
@@ -282,7 +283,7 @@ void MarkClosure::lookAtCell(std::uint32_t cell)
     });
 }
 
-/// The longest edge, and those of the faces.
+/// Marks the longest edge, and those of the faces, where some edges are marked and others not.
 void MarkClosure::lookAt(const std::array<Index, 6>& tetrahedron)
 {
   if (isPartlyMarked(marks_, tetrahedron))
@@ -339,7 +340,7 @@ void MarkClosure::lookAt(const std::array<Index, 12>& hexahedron)
   }
 }
 
-/// Those of a mesh of volume have no rules of their own.
+/// Applies the rule of thin cells; quadrilaterals of a mesh of volume have no rules of their own.
 void MarkClosure::lookAt(const std::array<Index, 4>& quadrilateral)
 {
   if (keepLayers_ && dimension_ == 2 && isPartlyMarked(marks_, quadrilateral))

@@ -46,7 +46,8 @@ using EdgeMarks = std::vector<unsigned char>;
 ///      the one over it.
 /// These are monotone too.
 
-/// Rule 1 for the cells of the mesh's own dimension; `cellMarks` has one entry for each of them.
+/// Marks edges by rule 1 for the cells of the mesh's own dimension; `cellMarks` has one entry for
+/// each of them.
 void markLongestEdges(const Mesh& mesh, const EdgeTable& table,
   const std::vector<unsigned char>& cellMarks, bool keepLayers, EdgeMarks& marks);
 
@@ -54,7 +55,7 @@ void markLongestEdges(const Mesh& mesh, const EdgeTable& table,
 struct StackLength
 {
   double squaredLength;
-  std::array<GlobalId, 2> ids; ///< Of its ends, smaller first.
+  std::array<GlobalId, 2> ids; ///< Global ids of its ends, smaller first.
 
   friend bool operator<(const StackLength& a, const StackLength& b)
   {
@@ -68,21 +69,24 @@ class EdgeStacks
 public:
   EdgeStacks(const EdgeTable& table, const std::vector<GlobalId>& ids);
 
-  /// Each edge counts as the largest of those over and below it. Returns whether any has changed.
+  /// Makes each edge count as the longest of those over and below it. Returns whether any has
+  /// changed.
   bool spread();
   /// What each edge counts as; over ranks, give shared edges the largest and spread again, until
   /// none changes.
   std::vector<StackLength>& lengths() { return lengths_; }
-  /// Makes it the order of the edges.
+  /// Makes these lengths the order of the table's edges.
   void writeTo(EdgeTable& table) const;
 
 private:
-  std::vector<Index> stackOf_; ///< The smallest of the edges that stand over each other.
+  /// For each edge, the first of those that stand over each other with it.
+  std::vector<Index> stackOf_;
   std::vector<StackLength> lengths_;
 };
 
-/// Rules 2 and 3 within this piece. Where few marks spread, as is usual, a few sweeps over all
-/// cells do; what they leave is spread from edge to edge, through lists of the cells at each edge.
+/// Spreads marks by rules 2 and 3 within this piece. Where few marks spread, as is usual, a few
+/// sweeps over all cells do; what they leave is spread from edge to edge, through lists of the
+/// cells at each edge.
 ///
 /// Work: linear in the number of cells, whatever their order and however often marks come from
 /// other ranks: at most 6 sweeps, and one look at a cell for each of its edges. In a sweep only the
@@ -94,16 +98,16 @@ public:
   /// Sweeps before the cells at each edge are listed, which costs as much as some five of them.
   static constexpr int maximumSweeps = 6;
 
-  /// Both must outlive this object. Throughout, marks may be set by others, but not reset.
-  /// `dimension` is that of the mesh: layers of quadrilaterals are those of a mesh of area.
+  /// `table` and `marks` must outlive this object. Meanwhile, others may set marks, but not reset
+  /// them. `dimension` is that of the mesh: layers of quadrilaterals are those of a mesh of area.
   MarkClosure(const EdgeTable& table, int dimension, bool keepLayers, EdgeMarks& marks);
 
   /// Closes all marks. Returns true where an edge was marked.
   bool closeAll();
-  /// The same where all marks were closed before these edges were marked.
+  /// As closeAll, given that all marks were closed before these edges were marked.
   bool closeFrom(const std::vector<Index>& edges);
 
-  /// Cells that were looked at so far, each as often as it was.
+  /// How many cells were looked at so far, counting each as often as it was.
   std::size_t looks() const { return looks_; }
 
 private:
@@ -130,7 +134,7 @@ private:
   EdgeMarks& marks_;
   std::vector<Index> fresh_; ///< Marked edges at which cells wait for a look.
   int sweepsLeft_ = maximumSweeps;
-  /// At each edge: the cells, by their numbers in the order of visitLists.
+  /// The cells at each edge, by their numbers in the order of visitLists.
   std::optional<VertexBuckets<std::uint32_t>> cellsAt_;
   std::size_t looks_ = 0;
 };

@@ -10,7 +10,7 @@ namespace cadrefine
 namespace
 {
 
-/// The corners of the cells in whose middle a vertex is, in their order.
+/// Calls use(corners) for the cells that have a new vertex in their middle, in their order.
 template<class Use>
 void forCornersOfCells(const Mesh& mesh, const Midpoints& midpoints, const Use& use)
 {
@@ -26,9 +26,9 @@ void forCornersOfCells(const Mesh& mesh, const Midpoints& midpoints, const Use& 
     });
 }
 
-/// What parts the corners of a cell have in the vertex in its middle: all the same, but that of a
-/// pyramid is higher over its base than their mean, as a base that is not plane rises; in one whose
-/// edges are equal it is as far from all sides.
+/// The weights of a cell's corners in the vertex in its middle: all the same, except that a
+/// pyramid's vertex is higher over its base than the mean of the corners, as a base that is not
+/// plane rises; in one whose edges are equal it is as far from all sides.
 template<std::size_t Corners>
 constexpr std::array<double, Corners> partsInMiddle(const std::array<Index, Corners>&)
 {

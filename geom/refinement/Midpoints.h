@@ -21,14 +21,14 @@ struct Midpoints
 {
   Index firstVertex = 0;
   std::vector<Index> ofEdge; ///< New vertex of each edge, or -1.
-  /// See SplitMesh; of those in the middle of corners the first corner and another one.
+  /// As in SplitMesh; for a new vertex in the middle of corners, the first corner and the last.
   std::vector<std::array<Index, 2>> parentEdges;
-  std::vector<Index> edges;        ///< Edge of each new vertex on one.
-  std::vector<Index> quads;        ///< Quadrilateral of each new vertex in one.
-  std::vector<Index> hexahedra;    ///< Of each in one.
+  std::vector<Index> edges;        ///< Edge of each new vertex on an edge.
+  std::vector<Index> quads;        ///< Quadrilateral of each new vertex in a quadrilateral.
+  std::vector<Index> hexahedra;    ///< Hexahedron of each new vertex in a hexahedron cut in eight.
   std::vector<Index> cells;        ///< Cell of volume of each new vertex in the middle of corners.
-  std::vector<Index> ofQuad;       ///< New vertex of each, or -1.
-  std::vector<Index> ofHexahedron; ///< Likewise.
+  std::vector<Index> ofQuad;       ///< New vertex of each quadrilateral, or -1.
+  std::vector<Index> ofHexahedron; ///< New vertex of each hexahedron cut in eight, or -1.
 
   /// The number of the vertex that the next parent edge makes.
   Index nextVertex() const { return firstVertex + static_cast<Index>(parentEdges.size()); }
@@ -48,20 +48,21 @@ std::array<Index, Count> midpointsOf(
 /// The quadrilaterals all of whose edges are marked, ascending.
 std::vector<Index> quadsCutInFour(const QuadTable& quads, const EdgeMarks& marks);
 
-/// Those on edges alone.
+/// Makes the new vertices on edges alone. Throws Error where one rank cannot hold them
+/// (PieceLimit.h).
 Midpoints makeMidpoints(const Mesh& mesh, const EdgeTable& table, const EdgeMarks& marks);
 
-/// All; a vertex in a quadrilateral is halfway between the middles of the first and the third of
-/// its edges in the table, one in a hexahedron halfway between that in the face with the smallest
-/// number and the opposite one. `uniform`: for splitUniformly, which needs none in the middle of
-/// corners.
+/// Makes all new vertices; one in a quadrilateral is halfway between the middles of the first and
+/// the third of its edges in the table, one in a hexahedron halfway between that in the face with
+/// the smallest number and the opposite one. `uniform`: for splitUniformly, which needs none in the
+/// middle of corners. Throws Error where one rank cannot hold them.
 Midpoints makeMidpoints(const Mesh& mesh, const EdgeTable& table, const QuadTable& quads,
   const EdgeMarks& marks, bool uniform);
 
-/// Those in the middle of corners, as sums of these.
+/// The new vertices in the middle of corners, as weighted sums of these.
 WeightedRows rowsInMiddle(const Mesh& mesh, const Midpoints& midpoints);
 
-/// Appends where the new vertices are to the points of the mesh.
+/// Appends the points of the new vertices to those of the mesh.
 void appendNewPoints(const Mesh& mesh, const Midpoints& midpoints, std::vector<Point3>& points);
 
 } // namespace cadrefine

@@ -14,20 +14,22 @@ namespace cadrefine
 /// What refinement made of a mesh, beside the mesh: how to carry arrays over.
 struct RefinementTrace
 {
-  std::vector<std::array<Index, 2>> parentEdges; ///< See SplitMesh.
+  /// Two vertices that each new one lies between, as in SplitMesh.
+  std::vector<std::array<Index, 2>> parentEdges;
   ChildRanges firstChildren;
   ChildNumbers children = {};
-  std::int64_t projectedPoints = 0; ///< Over all ranks.
-  /// 1 for vertices on the boundary, of a mesh that is classified.
+  std::int64_t projectedPoints = 0; ///< New vertices placed on the CAD, over all ranks.
+  /// For a classified mesh: 1 for each vertex on the boundary.
   std::vector<unsigned char> onBoundary = {};
-  /// Of vertices whose values are neither what they were nor the means of the ends of their edges.
+  /// Rows for vertices whose values are neither what they were nor the means of the ends of their
+  /// edges.
   WeightedRows ofVertices = {};
-  /// Of cells that do not inherit, for values and for densities, by the places of the cells before
-  /// and after, those of each dimension after those of lower ones.
+  /// Rows for cells that do not inherit their parent's values (`ofCells`) and densities, by the
+  /// places of the cells before and after, those of each dimension after those of lower ones.
   WeightedRows ofCells = {};
   WeightedRows ofDensities = {};
 
-  /// visit(parent, child) of all children of cells of one dimension, parent after parent.
+  /// Calls visit(parent, child) for all children of cells of one dimension, parent after parent.
   template<class Visit>
   void visitChildren(int dimension, const Visit& visit) const
   {

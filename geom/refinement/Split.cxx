@@ -35,7 +35,7 @@ SplitMesh withNewPoints(
   return result;
 }
 
-/// Children of one cell after the other.
+/// Counts the children of one cell after the other.
 class ChildCount
 {
 public:
@@ -51,7 +51,8 @@ public:
     firsts_.push_back(static_cast<Index>(total_));
   }
 
-  /// Where those of each cell begin. Throws Error where they are too many for one rank.
+  /// Returns where the children of each cell begin. Throws Error where they are too many for one
+  /// rank.
   std::vector<Index> finish()
   {
     requireAtMost(total_, "cells");
@@ -63,7 +64,8 @@ private:
   std::size_t total_ = 0;
 };
 
-/// Every cell has as many children.
+/// Where the children of each cell begin if all cells have equally many. Throws as
+/// ChildCount::finish.
 std::vector<Index> evenChildren(std::size_t cells, Index children)
 {
   requireAtMost(cells * static_cast<std::size_t>(children), "cells");
@@ -135,7 +137,7 @@ std::vector<Index> countParts(const std::vector<std::array<Index, Edges>>& cellE
   return count.finish();
 }
 
-/// Numbers of the children of cells of one dimension, which are appended to the cells of several
+/// Numbers the children of cells of one dimension, which are appended to the cells of several
 /// shapes.
 class ChildNumbering
 {
@@ -144,8 +146,8 @@ public:
   {
   }
 
-  /// The children that were appended since the last time: those of one cell, or of several in turn
-  /// that have children of the first shape alone. Returns how many they are.
+  /// Takes the children that were appended since the last time: those of one cell, or of several in
+  /// turn that have children of the first shape alone. Returns how many they are.
   std::size_t take()
   {
     const std::size_t begun = taken_.size();
@@ -223,7 +225,7 @@ void appendChildren(std::size_t children, std::vector<Index>& firsts)
   firsts.push_back(static_cast<Index>(total));
 }
 
-/// Of simplices and cells of lower dimension.
+/// The children of tetrahedra, triangles, segments and vertices that splitMarked makes.
 ChildRanges countPartsOfSimplices(const Mesh& mesh, const EdgeTable& table, const EdgeMarks& marks)
 {
   const EdgeOrder order(table);

@@ -11,8 +11,8 @@
 namespace cadrefine
 {
 
-/// Children of cells, by the dimension of the cells: those of cell c are first[c] up to first[c +
-/// 1].
+/// Which children each cell has, by the dimension of the cells: with `first` the entry of a
+/// dimension, those of cell c are first[c] up to first[c + 1].
 using ChildRanges = std::array<std::vector<Index>, 4>;
 
 /// Numbers of children among the cells of their dimension, parent after parent; none: in order.
@@ -25,13 +25,13 @@ struct SplitMesh
   /// Ends of the line that each new vertex halves, smaller id first, in the order of the new
   /// points: of an edge, or of one between such new points before it.
   std::vector<std::array<Index, 2>> parentEdges;
-  ChildRanges firstChildren; ///< Of the cells that were split.
-  ChildNumbers children;     ///< Where cells have children of several shapes.
-  WeightedRows ofVertices;   ///< New vertices in the middle of corners.
+  ChildRanges firstChildren; ///< The children of each cell of the mesh that was split.
+  ChildNumbers children; ///< Numbers of the children, where cells have children of several shapes.
+  WeightedRows ofVertices; ///< Rows for new vertices in the middle of corners.
 };
 
-/// How many cells splitMarked and splitUniformly make of each. Throw Error where one rank cannot
-/// hold them (PieceLimit.h).
+/// The children that splitMarked and splitUniformly make of each cell, without making them. Throw
+/// Error where one rank cannot hold them (PieceLimit.h).
 ChildRanges countMarkedChildren(
   const Mesh& mesh, const EdgeTable& table, const QuadTable& quads, const EdgeMarks& marks);
 ChildRanges countUniformChildren(const Mesh& mesh);

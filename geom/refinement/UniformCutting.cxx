@@ -12,8 +12,8 @@ namespace cadrefine
 namespace
 {
 
-/// The three diagonals of the octahedron between the corners, each as two midpoints and the ring of
-/// the other four, in terms of the tetrahedron's local edges.
+/// The three diagonals of the octahedron between a tetrahedron's corners, each as two midpoints and
+/// the ring of the other four, in terms of the tetrahedron's local edges.
 constexpr int diagonals[3][2] = { { 0, 5 }, { 1, 4 }, { 2, 3 } };
 constexpr int rings[3][4] = { { 1, 3, 4, 2 }, { 2, 5, 3, 0 }, { 0, 4, 5, 1 } };
 
@@ -92,7 +92,7 @@ std::optional<int> partingDiagonal(const Mesh& mesh, const std::array<Index, 5>&
   {
     return std::nullopt;
   }
-  // Half of those of the base.
+  // The diagonals are half of those of the base.
   const int shorter = shorterDiagonal(mesh, { v[0], v[2] }, { v[1], v[3] }) ? 0 : 1;
   for (const int k : { shorter, 1 - shorter })
   {

@@ -47,14 +47,14 @@ BezierPatch toPatch(const Geom_BezierSurface& surface)
   return patch;
 }
 
-/// A curve with a range that it has.
+/// A curve, and a range of its parameter.
 template<typename Curve>
 struct CurveRange
 {
   Handle(Curve) curve;
   double first = 0;
   double last = 0;
-  /// So little that Open CASCADE cuts no spline there.
+  /// Whether the range is so short that Open CASCADE cuts no spline there.
   bool isPoint() const
   {
     constexpr double little = 1e-12;

@@ -30,7 +30,7 @@ struct Span
   int source = 0;
   double from = 0; ///< Parameters after the shift by whole periods.
   double to = 0;
-  double localFrom = 0; ///< The same, from 0 to 1 over the source.
+  double localFrom = 0; ///< These as local parameters, from 0 to 1 over the source.
   double localTo = 1;
 };
 

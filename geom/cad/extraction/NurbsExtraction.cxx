@@ -22,7 +22,8 @@ namespace
 {
 
 constexpr std::size_t entityGrain = 8; // about a millisecond
-/// In parts of the box of all vertices: what is nearer has no nearest point of its own.
+/// What is nearer to each other than this part of the box of all vertices has no nearest point of
+/// its own.
 constexpr double coincident = 1e-9;
 
 NurbsVertex extractVertex(const TopoDS_Vertex& vertex)

@@ -26,7 +26,7 @@ struct EdgeUse
   TopoDS_Face face;
 };
 
-/// See NurbsEdge::sharp.
+/// Whether an edge with these uses is a crease, see NurbsEdge::sharp.
 bool isSharp(const std::vector<EdgeUse>& uses);
 
 } // namespace cadrefine

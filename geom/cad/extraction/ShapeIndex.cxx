@@ -16,7 +16,8 @@ namespace cadrefine
 namespace
 {
 
-/// Of coordinates that files hold and placements transform, in parts of the box of all vertices.
+/// Rounding error of coordinates that files hold and placements transform, as a part of the box of
+/// all vertices.
 constexpr double rounding = 1e-11;
 
 std::vector<Point3> pointsOf(const std::vector<TopoDS_Vertex>& vertices)

@@ -36,7 +36,7 @@ private:
   std::vector<TopoDS_Face> faces_;
   std::vector<TopoDS_Edge> edges_;
   std::vector<TopoDS_Vertex> vertices_;
-  std::vector<std::int32_t> firstCoincident_; ///< Of each vertex.
+  std::vector<std::int32_t> firstCoincident_; ///< The first vertex that coincides with each one.
   TopTools_IndexedMapOfShape edgeMap_;
   TopTools_IndexedMapOfShape vertexMap_;
 };

@@ -11,7 +11,7 @@
 namespace cadrefine
 {
 
-/// From the parameters of an analytic curve to those of its rational Bezier pieces. A circle's
+/// Maps the parameters of an analytic curve to those of its rational Bezier pieces. A circle's
 /// angle and the parameter of its rational quadratic arcs agree at the ends of the arcs only; the
 /// other curves keep their parameter. (For an arc of half angle a, whose middle weight is cos a,
 /// the local parameter of the angle x from its start is sin(x/2) / (sin(x/2) + sin(a - x/2)); Piegl
@@ -34,12 +34,12 @@ private:
 struct ConvertedSurface
 {
   PatchGrid grid;
-  ParameterMap mapU; ///< From the surface's parameters to the grid's.
+  ParameterMap mapU; ///< Maps the surface's parameters to the grid's.
   ParameterMap mapV;
   double fitError = 0; ///< How far the patches lie off a surface that was fitted.
 };
 
-/// What `surface` is a rectangular part of, or itself.
+/// The surface that `surface` is a rectangular part of, or `surface` itself.
 Handle(Geom_Surface) untrimmed(Handle(Geom_Surface) surface);
 
 /// The part of `surface`, which is untrimmed, over `window`: planes, extrusions and surfaces of

@@ -22,16 +22,18 @@ namespace cadrefine
 std::shared_ptr<const CADModel> readCADFile(
   const std::string& path, const std::string& unit = "", int threads = 1);
 
-/// The same as bytes for CADModel::fromBytes, without building the model.
+/// Reads a file as readCADFile does, and returns the bytes for CADModel::fromBytes, without
+/// building the model.
 std::vector<char> readCADBytes(
   const std::string& path, const std::string& unit = "", int threads = 1);
 
-/// Of the file that has the name now: when it was last written or put there, to the nanosecond, its
-/// size, and which file it is. "none" where there is no such file. Another stamp: another content.
+/// A stamp of the file that has the name now: when it was last written or put there, to the
+/// nanosecond, its size, and which file it is. "none" where there is no such file. Another stamp:
+/// another content.
 std::string fileStamp(const std::string& path);
 
-/// Where cadrefine-read-cad is, unless the environment variable CADREFINE_READER names another
-/// place. Returns the path, which must stay.
+/// Sets where cadrefine-read-cad is, unless the environment variable CADREFINE_READER names another
+/// place. Returns the path, which must stay valid.
 const char* setLinkedReader(const char* path) noexcept;
 
 #ifdef CADREFINE_READER // by CMake's target of this library

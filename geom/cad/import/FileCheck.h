@@ -14,7 +14,7 @@ enum class CADFormat
   Brep
 };
 
-/// By the extension; none for that of another kind of file.
+/// The CAD format of a file by its extension; none for that of another kind of file.
 std::optional<CADFormat> formatOf(const std::string& path);
 
 /// The format of the file, by its extension. Throws Error where it is missing, is no file, may not

@@ -7,7 +7,7 @@ namespace cadrefine
 {
 
 constexpr std::size_t igesLineColumns = 80;
-constexpr std::size_t igesDataColumns = 64;   ///< Of a parameter line.
-constexpr std::size_t igesSectionColumn = 72; ///< Where the section's letter stands.
+constexpr std::size_t igesDataColumns = 64;   ///< Data columns of a parameter line.
+constexpr std::size_t igesSectionColumn = 72; ///< Column in which the section's letter stands.
 
 } // namespace cadrefine

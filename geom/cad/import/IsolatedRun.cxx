@@ -107,8 +107,8 @@ private:
   RunState* state_ = nullptr;
 };
 
-/// Started with these descriptors as its own, silent, and with signals as a new program has them.
-/// Returns the error, 0 for none.
+/// Starts the program with these descriptors as its own, silent, and with signals as a new program
+/// has them. Returns the error, 0 for none.
 int startProgram(pid_t& process, const std::array<std::string, 3>& command, int answer, int state)
 {
   posix_spawn_file_actions_t files;
@@ -154,7 +154,7 @@ public:
   {
   }
 
-  /// To be called after a second without news. Why the process is to be ended; "" where it is not.
+  /// Why the process is to be ended; "" where it is not. To be called after a second without news.
   std::string look(bool& lateStep)
   {
     constexpr double little = 1e-3;
@@ -241,7 +241,7 @@ Received readAll(int descriptor, pid_t process, Watch watch)
 struct End
 {
   int signal = 0;        ///< 0: of its own.
-  double cpuSeconds = 0; ///< Of computing.
+  double cpuSeconds = 0; ///< Seconds of computing.
 };
 
 /// A process that was started, and is killed where nobody awaits its end.

@@ -14,14 +14,14 @@ namespace cadrefine
 
 struct RunLimits
 {
-  int cpuSeconds = 0; ///< Of computing, in all.
-  /// Of address space, beside what the program starts with; 0: no limit.
+  int cpuSeconds = 0; ///< Seconds of computing, in all.
+  /// Megabytes of address space, beside what the program starts with; 0: no limit.
   std::uint64_t megabytes = 0;
-  int idleSeconds = 20; ///< On the clock, without computing anything.
-  /// From one noteProgress() to the next, of computing and on the clock (on several threads the
-  /// former runs faster); 0: no limit.
+  int idleSeconds = 20; ///< Seconds on the clock without computing anything.
+  /// Seconds from one noteProgress() to the next, of computing and on the clock (on several threads
+  /// the former runs faster); 0: no limit.
   int stepSeconds = 0;
-  double spentSeconds = 0; ///< Of cpuSeconds, by other runs for the same.
+  double spentSeconds = 0; ///< Part of cpuSeconds that other runs for the same have spent.
 };
 
 /// Which part of the work a run was at, in numbers of its own (see noteStep).
@@ -35,8 +35,8 @@ struct RunPlace
 struct RunEnd
 {
   RunPlace place;
-  double cpuSeconds = 0; ///< Of computing.
-  bool lateStep = false; ///< Whether it was ended for RunLimits::stepSeconds.
+  double cpuSeconds = 0; ///< Seconds of computing.
+  bool lateStep = false; ///< Whether the run was ended for RunLimits::stepSeconds.
 };
 
 /// Thrown where a run ended without an answer: by a crash, an exception that is no Error, or beyond
@@ -58,11 +58,12 @@ private:
   RunEnd end_;
 };
 
-/// What the job of this name returns for `input`, in a process that prints nothing, of the program
-/// that reads CAD files (ReaderPath.h). An Error of the job is thrown here. Where it crashes,
-/// throws anything else or takes more time or memory than the limits allow, throws RunFailure,
-/// whose text begins with `context`; where the program cannot be started, or the system kills it,
-/// Error. The process does not outlive the thread that calls. Cost: starting the program, 0.05 s.
+/// Runs the job of this name with `input`, in a process that prints nothing, of the program that
+/// reads CAD files (ReaderPath.h), and returns its answer. An Error of the job is thrown here.
+/// Where it crashes, throws anything else or takes more time or memory than the limits allow,
+/// throws RunFailure, whose text begins with `context`; where the program cannot be started, or the
+/// system kills it, Error. The process does not outlive the thread that calls. Cost: starting the
+/// program, 0.05 s.
 std::vector<char> runIsolated(const std::string& job, const std::string& context,
   const RunLimits& limits, const std::vector<char>& input);
 
@@ -77,7 +78,7 @@ int serveRun(int argc, char** argv, const RunJobs& jobs);
 /// take RunLimits::stepSeconds. Does nothing outside of serveRun. Cost: one addition.
 void noteProgress();
 
-/// The same where another part of the work begins, so that a failure tells its place.
+/// Notes progress where another part of the work begins, so that a failure tells its place.
 void noteStep(int step, int item = -1);
 
 } // namespace cadrefine

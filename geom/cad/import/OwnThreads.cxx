@@ -13,7 +13,7 @@ namespace cadrefine
 namespace
 {
 
-/// As many as the system gives, `wanted` at most.
+/// Starts as many threads as the system gives, `wanted` at most.
 template<typename Work>
 std::vector<std::thread> startThreads(std::size_t wanted, const Work& work)
 {

@@ -48,8 +48,8 @@ int allowedThreads([[maybe_unused]] int wanted)
 #endif
 }
 
-/// With what each thread more takes of the address space: 8 MiB of stack and two of the allocator's
-/// heaps of 64 MiB, of which most stays unused.
+/// The limits with what each thread more takes of the address space: 8 MiB of stack and two of the
+/// allocator's heaps of 64 MiB, of which most stays unused.
 RunLimits limitsOn(int threads, RunLimits limits)
 {
   constexpr std::uint64_t eachThread = 136;

@@ -6,8 +6,8 @@
 namespace cadrefine
 {
 
-std::vector<char> readJob(const std::string& path, ByteReader& input);    ///< Of readCADBytes.
-std::vector<char> drawJob(const std::string& context, ByteReader& input); ///< Of drawModel.
+std::vector<char> readJob(const std::string& path, ByteReader& input); ///< The job of readCADBytes.
+std::vector<char> drawJob(const std::string& context, ByteReader& input); ///< The job of drawModel.
 
 inline RunJobs readJobs()
 {

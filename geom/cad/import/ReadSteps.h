@@ -19,9 +19,9 @@ enum class ReadStep
   Sewing,
   Healing,
   Gaps,
-  Conversion, ///< Of one entity to NURBS; its items are those of keepConvertible.
-  Drawing,    ///< Of one entity; its items are those of drawnEntities.
-  Other       ///< All without which there is no model.
+  Conversion, ///< Conversion of one entity to NURBS; its items are those of keepConvertible.
+  Drawing,    ///< Drawing of one entity; its items are those of drawnEntities.
+  Other       ///< All steps without which there is no model.
 };
 
 /// What a file is to be read without, and why: what Open CASCADE crashed on before.
@@ -30,7 +30,7 @@ struct ReadOptions
   std::map<ReadStep, std::string> withoutSteps;
   std::map<int, std::string> withoutConversions;
   std::map<int, std::string> withoutDrawings;
-  int threads = 1; ///< For conversions and drawings.
+  int threads = 1; ///< Number of threads for conversions and drawings.
   /// What failed on several threads, where one thread is tried next; else empty. Where that fails
   /// as well, it is for a reason that is told; where not, this must be.
   std::string failureOnThreads;

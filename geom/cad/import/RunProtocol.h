@@ -18,8 +18,8 @@ constexpr int stateDescriptor = 4;
 enum class AnswerKind : char
 {
   Done = '+',
-  Failed = '-',   ///< With an Error.
-  Excepted = 'x', ///< With another exception.
+  Failed = '-',   ///< The job ended with an Error.
+  Excepted = 'x', ///< The job ended with another exception.
   OutOfMemory = 'm'
 };
 constexpr std::size_t answerHeadSize = 1 + sizeof(std::uint64_t);
@@ -34,7 +34,7 @@ struct RunState
   std::uint64_t inputSize = 0;
   RunLimits limits;
   pid_t parent = 0;
-  std::atomic<bool> started{ false }; ///< By the program.
+  std::atomic<bool> started{ false }; ///< Set by the program.
   std::atomic<std::uint64_t> steps{ 0 };
   std::atomic<RunPlace> place{ RunPlace() };
 

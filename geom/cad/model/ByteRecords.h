@@ -25,7 +25,7 @@ public:
     number(static_cast<std::uint64_t>(value.size()));
     bytes.insert(bytes.end(), value.begin(), value.end());
   }
-  /// The count of `items`, and each of them by write(item).
+  /// Writes the count of `items`, and each of them by write(item).
   template<typename Items, typename Write>
   void list(const Items& items, const Write& write)
   {
@@ -35,7 +35,7 @@ public:
       write(item);
     }
   }
-  /// The same for items that are copied as they lie in memory.
+  /// Writes the count of items, and these as they lie in memory.
   template<typename Item>
   void array(const std::vector<Item>& items)
   {
@@ -73,7 +73,7 @@ public:
     const char* const begin = take(size);
     return { begin, begin + size };
   }
-  /// What ByteWriter::list wrote, each item made by read().
+  /// Reads what ByteWriter::list wrote, each item by read().
   template<typename Read>
   auto list(const Read& read) -> std::vector<decltype(read())>
   {

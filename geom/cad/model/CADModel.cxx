@@ -59,8 +59,8 @@ Vector3 patchNormal(const BezierPatch& patch, double u, double v)
   return area > 1e-9 * extent * extent ? normalized(n) : Vector3{};
 }
 
-/// At a singular point the limit from inside the patch: the parameters are moved towards its
-/// middle until there is a normal.
+/// The normal at a singular point, as the limit from inside the patch: the parameters are moved
+/// towards its middle until there is a normal.
 Vector3 limitNormal(const BezierPatch& patch, double u, double v)
 {
   Vector3 n = patchNormal(patch, u, v);
@@ -186,12 +186,12 @@ struct CADModel::Implementation
 
   std::vector<char> bytes;
   ShapeIndex index;
-  LengthScale scale; ///< From the index to the model.
+  LengthScale scale; ///< Leads from the coordinates of the index to those of the model.
   NurbsModel nurbs;
   double size = 0;
   CADReport report;
   std::array<std::vector<EntityAttributes>, 3>
-    allAttributes; ///< By dimension; empty where none has any.
+    allAttributes; ///< Attributes of the entities, by dimension; empty where no entity has any.
   mutable std::once_flag searchOnce;
   mutable std::unique_ptr<const ClosestPointSearch> lazySearch;
   mutable std::once_flag lengthsOnce;

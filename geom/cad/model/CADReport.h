@@ -17,13 +17,13 @@ struct UnreadEntity
                          ///< file's face or edge from 1; 0: not known, or the file itself.
   std::string type;      ///< For example "IGES 128 (rational B-spline surface)".
   std::string reason;    ///< One line.
-  std::string name = {}; ///< That the file gives it; empty: none.
+  std::string name = {}; ///< The name that the file gives it; empty: none.
 };
 
 /// Two edges of one face each that run beside each other, farther apart than was sewn.
 struct Gap
 {
-  double width = 0; ///< The largest found.
+  double width = 0; ///< The largest width found.
   Point3 point{};   ///< On the first edge, where it is that wide.
   std::array<int, 2> edges{};
 };

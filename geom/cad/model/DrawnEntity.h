@@ -15,7 +15,7 @@ struct DrawnEntity
   int face = -1;
 };
 
-/// What became of one.
+/// What became of the drawing of an entity.
 struct DrawnItem
 {
   Tessellation drawing; ///< Empty where there is a fault.

@@ -51,7 +51,7 @@ std::string nounOf(int dimension)
   return dimension == 2 ? "face" : "edge";
 }
 
-/// For a message.
+/// What entities there are, as text for a message.
 std::string describeAll(const CADModel& model, int dimension)
 {
   constexpr std::size_t most = 20;

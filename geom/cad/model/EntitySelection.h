@@ -13,10 +13,10 @@ namespace cadrefine
 struct EntitySelection
 {
   int dimension = 2;
-  std::vector<unsigned char> chosen;   ///< Of each entity.
-  std::vector<double> chordTolerances; ///< Of each entity; 0: none of its own.
+  std::vector<unsigned char> chosen;   ///< 1 for each entity that is chosen.
+  std::vector<double> chordTolerances; ///< Chord tolerance of each entity; 0: none of its own.
 
-  /// Whether it is one of them, or (of lower dimension) lies on the border of one.
+  /// Whether the entity is chosen, or (of lower dimension) lies on the border of one that is.
   bool contains(const NurbsModel& model, EntityId entity) const;
   bool hasTolerances() const;
 };

@@ -10,7 +10,7 @@ namespace cadrefine
 namespace
 {
 
-/// In millimetres.
+/// The lengths of units in millimetres.
 const std::map<std::string, double>& lengths()
 {
   static const std::map<std::string, double> byName{ { "nm", 1e-6 }, { "um", 1e-3 },

@@ -12,10 +12,10 @@ namespace cadrefine
 struct LengthUnit
 {
   const char* name;
-  const char* plural; ///< As text says it.
+  const char* plural; ///< The plural of its name, as text says it.
 };
 
-/// Those of engineers' meshes.
+/// The units of engineers' meshes.
 constexpr std::array<LengthUnit, 5> usualUnits{ { { "m", "metres" }, { "cm", "centimetres" },
   { "mm", "millimetres" }, { "in", "inches" }, { "ft", "feet" } } };
 
@@ -29,12 +29,12 @@ std::string shortUnitName(double millimetres);
 /// Length in millimetres of the unit of this short name; 0: not known.
 double unitLength(const std::string& shortName);
 
-/// From one unit to another. A quotient, so that millimetres in metres are the doubles nearest to
-/// the decimal numbers.
+/// Converts lengths from one unit to another. A quotient, so that millimetres in metres are the
+/// doubles nearest to the decimal numbers.
 struct LengthScale
 {
   double from = 1; ///< Length of the unit that coordinates are in.
-  double to = 1;   ///< Of the one that they are wanted in.
+  double to = 1;   ///< Length of the unit that they are wanted in.
 
   double operator()(double length) const { return length * from / to; }
   Point3 operator()(const Point3& p) const

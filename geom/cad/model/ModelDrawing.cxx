@@ -53,8 +53,8 @@ void take(DrawnItem item, EntityId entity, ModelDrawing& drawing)
   (isEdge ? drawing.edges : drawing.faces)[entity.index] = std::move(item.drawing);
 }
 
-/// By the size of the model's bytes. Far more than drawing takes: a terrain's one face, 7 s for
-/// each megabyte of its file.
+/// Limits by the size of the model's bytes. Far more than drawing takes: a terrain's one face, 7 s
+/// for each megabyte of its file.
 RunLimits limitsFor(std::size_t bytes)
 {
   constexpr int day = 86400;

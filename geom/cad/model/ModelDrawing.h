@@ -16,8 +16,8 @@ struct Tessellation
   /// Outward normals at the points, of the face, or the first face that holds the edge; zero where
   /// there is none. Empty for an edge outside of faces.
   std::vector<Vector3> normals;
-  std::vector<std::array<int, 3>> triangles; ///< Of a face.
-  std::vector<int> line;                     ///< Of an edge, a polyline.
+  std::vector<std::array<int, 3>> triangles; ///< The triangles of a face.
+  std::vector<int> line;                     ///< The polyline of an edge.
 };
 
 /// The entities with the indices rank, rank + size, ...
@@ -34,9 +34,10 @@ struct ModelDrawing
   /// One for each edge; empty where it cannot be drawn, or is neither in the share nor the first
   /// one of a vertex of the share, which has its normal.
   std::vector<Tessellation> edges;
-  std::vector<Tessellation> faces; ///< The same, those of the share.
-  /// A line for each of these that cannot be drawn, and one where a failure on several threads did
-  /// not come again on one.
+  /// One for each face; empty where it cannot be drawn, or is not in the share.
+  std::vector<Tessellation> faces;
+  /// A line for each edge or face that cannot be drawn, and one where a failure on several threads
+  /// did not come again on one.
   std::vector<std::string> undrawn;
 };
 

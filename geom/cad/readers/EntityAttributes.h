@@ -28,7 +28,8 @@ public:
   /// and `entity` if `shape` is a face or an edge itself.
   void add(
     const TopoDS_Shape& shape, const EntityAttributes& attributes, const FileEntity& entity = {});
-  /// `to` has come out of `from`, a face or an edge: its faces or edges take over what `from` has.
+  /// Gives the faces or edges of `to`, which has come out of `from`, a face or an edge, what `from`
+  /// has.
   void follow(const TopoDS_Shape& from, const TopoDS_Shape& to);
   EntityAttributes of(const TopoDS_Shape& entity) const;
   /// A face or edge that is lost, for the report.

@@ -33,8 +33,8 @@ ReadShape readShape(const std::string& path, CADFormat format, OptionalSteps& st
   }
 }
 
-/// Of the box round all faces and edges; round splines that of their poles, which may be larger
-/// than it must be (BRepBndLib::AddOptimal takes longer than all the rest of reading).
+/// The diagonal of the box round all faces and edges; round splines that of their poles, which may
+/// be larger than it must be (BRepBndLib::AddOptimal takes longer than all the rest of reading).
 double diagonalOf(const TopoDS_Shape& shape)
 {
   constexpr bool useTriangulation = false;
@@ -81,7 +81,7 @@ void append(std::vector<Item>& list, const std::vector<Item>& more)
   list.insert(list.end(), more.begin(), more.end());
 }
 
-/// Of what the file holds, what becomes a model.
+/// The part of what the file holds that becomes a model.
 TopoDS_Shape makeModelShape(ReadShape& read, const ReadOptions& options, OptionalSteps& steps)
 {
   const PreparedShape prepared = prepareShape(read.shape, read.attributeMap, steps);

@@ -20,8 +20,9 @@ struct ReadShape
   AttributeMap attributeMap;
 };
 
-/// Each throws Error where the file as a whole cannot be read. Open CASCADE prints, and keeps
-/// settings in global variables: for the program that reads CAD files (IsolatedRun.h).
+/// Read a file of this format; each throws Error where the file as a whole cannot be read. Open
+/// CASCADE prints, and keeps settings in global variables: for the program that reads CAD files
+/// (IsolatedRun.h).
 ReadShape readIges(const std::string& path, OptionalSteps& steps);
 ReadShape readStep(const std::string& path, OptionalSteps& steps);
 ReadShape readBrep(const std::string& path, OptionalSteps& steps);

@@ -45,8 +45,8 @@ public:
   {
   }
 
-  /// At a singular point the limit from inside the face: the parameters are moved towards its
-  /// middle until there is a normal. Zero where there is none.
+  /// The normal at a point of the face; at a singular point the limit from inside the face: the
+  /// parameters are moved towards its middle until there is a normal. Zero where there is none.
   Vector3 at(const gp_Pnt2d& uv) const
   {
     Vector3 n = this->regular(uv);

@@ -161,7 +161,7 @@ private:
   BRepTools_ReShape changes_;
 };
 
-/// Returns their number.
+/// Sorts out faces that cannot be converted. Returns the number of faces before.
 int sortFaces(AttributeMap& attributeMap, const ReadOptions& options, ConvertibleShape& result)
 {
   Sorting sorting(attributeMap, options, result);

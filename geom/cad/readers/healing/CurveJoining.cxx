@@ -73,7 +73,7 @@ std::string faultOf(const FreeCurve& c)
   return chordLength(c) > Precision::Confusion() ? "" : "has no length";
 }
 
-/// Those that are left out are added to `lost`.
+/// The free curves among the edges; those that are left out are added to `lost`.
 std::vector<FreeCurve> takeCurves(
   const TopoDS_Shape& edges, const AttributeMap& attributeMap, std::vector<UnreadEntity>& lost)
 {

@@ -9,8 +9,8 @@
 namespace cadrefine
 {
 
-/// See CADReport::gaps. Compares each two open edges whose boxes are near each other, at five
-/// points of the shorter one.
+/// Finds the gaps between open edges (see CADReport::gaps). Compares each two open edges whose
+/// boxes are near each other, at five points of the shorter one.
 std::vector<Gap> findGaps(const ShapeIndex& index, double modelSize);
 
 } // namespace cadrefine

@@ -20,8 +20,9 @@ struct PreparedShape
   std::vector<UnreadEntity> leftOut; ///< Open faces that are there twice.
 };
 
-/// The model made of `shape`: free faces and open shells sewn, broken ones healed, closed shells
-/// turned outward, free curves joined at their ends. `attributeMap` follow.
+/// Makes the shape of a model: free faces and open shells are sewn, broken ones healed, closed
+/// shells turned outward, free curves joined at their ends. The attributes in `attributeMap`
+/// follow.
 PreparedShape prepareShape(
   const TopoDS_Shape& shape, AttributeMap& attributeMap, OptionalSteps& steps);
 
@@ -33,8 +34,8 @@ struct BoundedFaces
   std::vector<TopoDS_Shape> removed;
 };
 
-/// Faces without an edge are the whole of their surface: they get its border and seams, or, where
-/// it has no end, are removed.
+/// Gives faces without an edge, which are the whole of their surface, its border and seams; removes
+/// those whose surface has no end.
 BoundedFaces boundFaces(const TopoDS_Shape& shape, AttributeMap& attributeMap);
 
 struct DistinctFaces
@@ -64,8 +65,8 @@ struct JoinedCurves
   std::vector<UnreadEntity> lost; ///< Curves without end, or without length.
 };
 
-/// Free curves that end in common vertices, where their ends lie within a tolerance of each other
-/// that follows from their size.
+/// Joins free curves in common vertices, where their ends lie within a tolerance of each other that
+/// follows from their size.
 JoinedCurves joinCurves(const TopoDS_Shape& edges, AttributeMap& attributeMap);
 
 /// Gives edges that have only trim curves a curve in space, where Open CASCADE can make one.

@@ -12,8 +12,8 @@ namespace cadrefine
 /// The entity of this number in Open CASCADE's model: its directory entry, and its type.
 FileEntity igesEntity(const IGESData_IGESEntity& entity, int number);
 
-/// Of all entities that gave a shape: the name property (406, form 15) or else the label and its
-/// subscript; the colour number or colour definition (314).
+/// The attributes of all entities that gave a shape: the name property (406, form 15) or else the
+/// label and its subscript; the colour number or colour definition (314).
 AttributeMap collectIgesAttributes(const Handle(XSControl_WorkSession) & session);
 
 } // namespace cadrefine

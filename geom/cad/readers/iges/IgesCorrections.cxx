@@ -88,7 +88,8 @@ class SubfigurePlacer
 public:
   explicit SubfigurePlacer(IGESControl_Reader& reader) : reader_(reader) {}
 
-  /// By its scale, its translation and, after these, its transformation (IGES 5.3, 4.104).
+  /// Places a subfigure by its scale, its translation and, after these, its transformation (IGES
+  /// 5.3, 4.104).
   void place(const Handle(IGESBasic_SingularSubfigure) & figure)
   {
     if (!seen_.insert(figure.get()).second)

@@ -10,11 +10,11 @@
 namespace cadrefine
 {
 
-/// Open CASCADE leaves out the transformation of a transformation: each matrix (124) that has one
-/// becomes the product of both.
+/// Replaces each matrix (124) that has a transformation by the product of both, as Open CASCADE
+/// leaves out the transformation of a transformation.
 void composeMatrices(const Handle(IGESData_IGESModel) & model);
 
-/// Shapes for those of the entities `numbers` (in the reader's model) that Open CASCADE reads
+/// Makes shapes for those of the entities `numbers` (in the reader's model) that Open CASCADE reads
 /// wrongly or not at all; the transfer then takes them:
 /// 1. Subfigures (408): it fails where they are scaled, and turns their place wrongly.
 /// 2. Offset surfaces (140): where the basis is not C1 it fits this within the offset distance

@@ -101,7 +101,7 @@ Places listAfter(const Walk& walk, std::size_t countAt, Places places = {}, std:
   return places;
 }
 
-/// Where the parameters of curves and surfaces point to others.
+/// The places of the parameters of curves and surfaces that point to others.
 Places placesInSurfaces(int type, const Walk& walk)
 {
   switch (type)
@@ -200,14 +200,14 @@ std::size_t countInSplineSurface(const Walk& walk)
   return 5 + m + n + 48 * m * n;
 }
 
-/// Knots, weights, points and the range of a spline curve (126).
+/// Number of parameters of a spline curve (126): knots, weights, points and the range.
 std::size_t countInCurve(const Walk& walk)
 {
   const std::size_t points = walk.count(1) + 1;
   return 7 + points + walk.count(2) + 1 + 4 * points + 2;
 }
 
-/// The same of a spline surface (128).
+/// Number of parameters of a spline surface (128): knots, weights, points and the ranges.
 std::size_t countInSurface(const Walk& walk)
 {
   const std::size_t m = walk.count(1) + 1;

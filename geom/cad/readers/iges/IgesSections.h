@@ -17,11 +17,12 @@ struct IgesSections
   std::vector<std::string> faults;
 };
 
-/// Lines may end in LF, CR or CR LF. Tabs become blanks, longer lines are cut, lines of no section
-/// are left out. The counts of the terminate section are compared with the lines found.
+/// Reads the sections of a file. Lines may end in LF, CR or CR LF. Tabs become blanks, longer lines
+/// are cut, lines of no section are left out. The counts of the terminate section are compared with
+/// the lines found.
 IgesSections readIgesSections(const std::string& path);
 
-/// A parameter line of 81 columns, whose section letter has moved.
+/// Whether this is a parameter line of 81 columns, whose section letter has moved.
 bool isShiftedIgesLine(const std::string& line);
 
 /// The integer in a field of 8 columns; fields count from 1.

@@ -87,7 +87,8 @@ Width widthOf(const std::string& line, int number)
   return line[igesDataColumns] == '0' ? Width::Unclear : Width::Wide;
 }
 
-using LineNumbers = std::vector<std::vector<std::size_t>>; ///< Of each entry.
+/// The numbers of the parameter lines of each entry.
+using LineNumbers = std::vector<std::vector<std::size_t>>;
 
 LineNumbers linesByDirectory(const IgesText& text, std::size_t count)
 {
@@ -173,7 +174,8 @@ void takeParameterLines(IgesEntry& entry, const std::vector<std::size_t>& number
   }
 }
 
-/// Where some lines surely run too far, the unclear ones do too.
+/// Takes the parameter lines of all entries. Where some lines surely run too far, the unclear ones
+/// do too.
 void takeAllParameters(IgesText& text, const std::vector<std::string>& lines)
 {
   const LineNumbers numbers = assignLines(text, lines);

@@ -57,7 +57,7 @@ struct IgesParameters
 };
 IgesParameters parametersOf(const IgesEntry& entry, const IgesText& text);
 
-/// Parameter lines of an entry anew, cut between the values where these fit.
+/// Makes the parameter lines of an entry anew, cut between the values where these fit.
 std::vector<std::string> wrapParameters(const IgesParameters& parameters, const IgesText& text);
 
 /// Writes the file; all lines are numbered and counted anew.

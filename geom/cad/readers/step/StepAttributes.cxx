@@ -34,7 +34,7 @@ std::string nameOf(const StepRepr_RepresentationItem& item)
   return text == "NONE" ? "" : text;
 }
 
-/// Of surfaces where the shape has faces, else of curves.
+/// The colour of a style: that of surfaces where the shape has faces, else that of curves.
 std::optional<std::array<float, 3>> colourOf(const STEPConstruct_Styles& styles,
   const Handle(StepVisual_StyledItem) & style, const TopoDS_Shape& shape)
 {

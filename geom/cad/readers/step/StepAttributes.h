@@ -11,8 +11,8 @@ namespace cadrefine
 /// The entity of this number in Open CASCADE's model: its instance number, and its type.
 FileEntity stepEntity(const XSControl_WorkSession& session, int number);
 
-/// Of all representation items that gave a shape: their names, and the colours of the styled items
-/// that refer to them.
+/// The attributes of all representation items that gave a shape: their names, and the colours of
+/// the styled items that refer to them.
 AttributeMap collectStepAttributes(const Handle(XSControl_WorkSession) & session);
 
 } // namespace cadrefine
