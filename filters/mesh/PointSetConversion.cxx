@@ -216,7 +216,7 @@ void turnWedges(RankExchange& exchange, Mesh& mesh)
     const double turn = determinant(up, at(1) - at(0), at(2) - at(0));
     turns += (turn > 0) - (turn < 0);
   }
-  mesh.wedgesAsDocumented = exchange.sum(turns) < 0;
+  mesh.wedgesAsDocumented = exchange.sum(turns) <= 0; // also those that refinement will make
   if (mesh.wedgesAsDocumented)
   {
     std::transform(mesh.wedges.begin(), mesh.wedges.end(), mesh.wedges.begin(), turned);

@@ -318,13 +318,14 @@ double sizeOf(vtkPointSet* data, const char* density)
   forEachLargest(data,
     [&](vtkCell* cell, vtkIdType number)
     {
-      const double value = values ? values->GetTuple1(number) : 1;
+      double ofCell = 0;
       for (const auto& [where, weight] : ruleOf(cell->GetCellType()))
       {
-        size += value * weight * jacobianAt(cell, where);
+        ofCell += weight * jacobianAt(cell, where);
       }
+      size += (values ? values->GetTuple1(number) : 1) * std::abs(ofCell); // wedges turn either way
     });
-  return std::abs(size);
+  return size;
 }
 
 } // namespace cadtest

@@ -404,7 +404,28 @@ TEST_F(FieldsUnderOperations, ofTrianglesKeepTheirIntegrals)
   expectKept(cadtest::sphereMesh(2, 0.05), cadtest::sphere(2));
 }
 
-/// Of hexahedra whose sides are not plane, some of which are cut into tetrahedra and pyramids.
+/// Whether the first triangle of every wedge faces out of it.
+bool areWedgesAsDocumented(vtkPointSet* mesh)
+{
+  for (vtkIdType c = 0; c < mesh->GetNumberOfCells(); ++c)
+  {
+    vtkPoints* points = mesh->GetCell(c)->GetPoints();
+    const auto at = [&](int corner)
+    {
+      Point3 point;
+      points->GetPoint(corner, point.data());
+      return point;
+    };
+    if (mesh->GetCellType(c) == VTK_WEDGE &&
+        dot(twofoldAreaVector(at(0), at(1), at(2)), at(3) - at(0)) >= 0)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Of hexahedra whose sides are not plane, some of which are cut into other cells.
 TEST_F(FieldsUnderOperations, ofHexahedraCutIntoOthersKeepTheirIntegrals)
 {
   if (exchange.rank() > 0)
@@ -424,11 +445,12 @@ TEST_F(FieldsUnderOperations, ofHexahedraCutIntoOthersKeepTheirIntegrals)
       filter->ProjectNewVerticesOff();
     });
   vtkUnsignedCharArray* types = vtkUnstructuredGrid::SafeDownCast(refined)->GetCellTypesArray();
-  for (const int type : { VTK_HEXAHEDRON, VTK_TETRA, VTK_PYRAMID })
+  for (const int type : { VTK_HEXAHEDRON, VTK_TETRA, VTK_PYRAMID, VTK_WEDGE })
   {
     EXPECT_GT(
       std::count(types->GetPointer(0), types->GetPointer(types->GetNumberOfValues()), type), 0);
   }
+  EXPECT_TRUE(areWedgesAsDocumented(vtkPointSet::SafeDownCast(refined)));
   const double held = cadtest::sizeOf(mesh, "Heat");
   EXPECT_NEAR(cadtest::sizeOf(refined, "Heat"), held, 1e-12 * cadtest::sizeOf(mesh));
 }
