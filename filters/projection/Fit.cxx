@@ -17,6 +17,9 @@ namespace
 
 constexpr double boxMargin = 1e-6; ///< Part of the CAD's size: its box is no more exact.
 constexpr double onCAD = 1e-7;     ///< Part of the CAD's size: nearer vertices lie on it.
+/// In parts of its longest edge, a vertex among others on the CAD is farther from it only if it
+/// belongs elsewhere, or is part of a coarse cut.
+constexpr double strayPart = 0.05;
 constexpr std::size_t mostFarthest = 10;
 constexpr std::size_t mostConflicts = 100;
 
@@ -200,7 +203,9 @@ public:
                           static_cast<double>(counts[place] + counts[place + entities_]);
       for (const Index vertex : facets[f])
       {
-        isStray[vertex] = isStray[vertex] || (isMostlyExact && !wasOnCAD(vertex));
+        const bool isOff =
+          result_.distancesBefore[vertex] > strayPart * task_.boundary.longestEdge[vertex];
+        isStray[vertex] = isStray[vertex] || (isMostlyExact && isOff);
       }
     }
     combineFlags(task_.exchange, task_.mesh.shared, isStray);

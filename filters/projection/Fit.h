@@ -46,7 +46,7 @@ struct Fit
   std::int64_t verticesOffCAD = 0;
   std::vector<OffPoint> farthest; ///< The ten farthest of these, in order.
   /// Vertices that were put onto faces (of a planar mesh, edges) on which three quarters of the
-  /// facets lay already, and were not there themselves, but for rounding.
+  /// facets lay already, and were not there themselves, by a twentieth of their longest edge.
   std::int64_t strays = 0;
   /// The farthest of these: where it is now, and how far it was from there.
   OffPoint farthestStray;
