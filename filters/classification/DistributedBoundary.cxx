@@ -248,10 +248,6 @@ BoundaryClasses classifyBoundary(RankExchange& exchange, const Mesh& mesh,
     }
     classes.known[f] = -1; // its neighbours may have changed
     record = makeRecord(projector, facet);
-    if (boundary.ofSurface)
-    {
-      record.onCAD = isClassified(facet);
-    }
     record.odd = !record.onCAD && facet.corners > 2 && isClassified(facet);
     if (boundary.kind == BoundaryKind::Faces)
     {

@@ -80,9 +80,7 @@ EntityId edgeOf(const CADModel& model, const ClosestPoint& middle);
 /// Which corners are classified, but have not reached the CAD.
 std::array<bool, 4> cornersOff(const Classification& classification, const Facet& facet);
 
-/// Classes of all boundary edges of a classified mesh, and records of its facets. In a mesh of area
-/// in space, every facet with classified corners is on the CAD: there is no inside that a wall
-/// could bound.
+/// Classes of all boundary edges of a classified mesh, and records of its facets.
 struct BoundaryClasses
 {
   std::vector<EdgeClass> ofEdges;

@@ -59,9 +59,9 @@ std::vector<KnownMidpoint> findKnown(const EdgeTable& table, const ClassifiedBou
   return known;
 }
 
-/// For each edge at which the CAD meets an outer facet of a mesh of volume that is not on it, the
-/// normal of that facet, or its opposite; zero for other edges. Empty where there are no such edges
-/// on any rank. Collective.
+/// For each edge at which the CAD meets an outer facet that is not on it, the normal of that facet,
+/// or its opposite; zero for other edges. Empty where there are no such edges on any rank.
+/// Collective.
 std::vector<Vector3> findWalls(
   RankExchange& exchange, const MarkedEdges& edges, const ClassifiedBoundary& classified)
 {
@@ -70,7 +70,7 @@ std::vector<Vector3> findWalls(
   for (std::size_t f = 0; f < boundary.facets.size(); ++f)
   {
     const FacetRecord& record = classified.classes.facets[f];
-    const bool isWall = !boundary.ofSurface && !record.onCAD && !record.free && !record.isInside;
+    const bool isWall = !record.onCAD && !record.free && !record.isInside;
     for (int k = 0; k < boundary.facets[f].edges() && isWall; ++k)
     {
       const Index edge = boundary.facetEdges[f][k];

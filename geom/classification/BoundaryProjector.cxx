@@ -227,6 +227,29 @@ std::int32_t BoundaryProjector::commonSmoothEdge(const std::array<Point3, 2>& po
   return -1;
 }
 
+/// A chord at the rim of the facets on the CAD, beside a wall that is not in it, may lead across a
+/// face from one side of a crease to the other, as in half a model across a flat end: that crease
+/// goes through the wall at both ends of the chord.
+bool BoundaryProjector::passesThroughWall(std::int32_t crease, const std::array<Point3, 2>& points,
+  const std::vector<FacetRecord>& facets) const
+{
+  if (facets.size() != 2 || facets[0].onCAD == facets[1].onCAD ||
+      model_.nurbs().edges[crease].faces.size() != 2)
+  {
+    return false;
+  }
+  const Vector3& wall = facets[facets[0].onCAD ? 1 : 0].normal;
+  return std::all_of(points.begin(), points.end(),
+    [&](const Point3& end)
+    {
+      const ClosestPoint where = nearestOn({ 1, crease }, end);
+      const Vector3 along = where.entity.dimension == 1
+                              ? model_.tangent(crease, where.parameters[0])
+                              : tangentAwayFrom(model_, crease, where.entity.index);
+      return std::abs(dot(along, wall)) > ClassificationTolerances::throughWall;
+    });
+}
+
 bool BoundaryProjector::isOnLineOf(std::int32_t crease, EntityId entity) const
 {
   const auto edges = entitiesAround(model_.nurbs(), entity, 1);
@@ -253,7 +276,8 @@ EdgeClass BoundaryProjector::classify(const std::array<Point3, 2>& points,
   const bool angle = std::any_of(pairs.begin(), pairs.end(), hasAngle);
   const std::int32_t common = angle ? commonCrease(points, entities, onCAD) : -1;
   const std::int32_t crease = common >= 0 ? common : edges_.findCrease(pairs).edge;
-  if (crease >= 0 && isOnLineOf(crease, entities[0]) && isOnLineOf(crease, entities[1]))
+  if (crease >= 0 && isOnLineOf(crease, entities[0]) && isOnLineOf(crease, entities[1]) &&
+      !passesThroughWall(crease, points, facets))
   {
     return { EdgeClass::OnEdge, crease };
   }

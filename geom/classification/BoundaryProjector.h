@@ -135,6 +135,8 @@ private:
     const std::array<EntityId, 2>& entities, const std::vector<FacetRecord>& onCAD) const;
   std::int32_t commonSmoothEdge(const std::array<Point3, 2>& points,
     const std::array<EntityId, 2>& entities, const std::vector<FacetRecord>& onCAD) const;
+  bool passesThroughWall(std::int32_t crease, const std::array<Point3, 2>& points,
+    const std::vector<FacetRecord>& facets) const;
   /// Whether the crease is part of a line of creases that the entity, an edge or a vertex, is on.
   bool isOnLineOf(std::int32_t crease, EntityId entity) const;
   ClosestPoint projectOnEdge(std::int32_t edge, const Point3& point) const;

@@ -36,6 +36,8 @@ struct ClassificationTolerances
   /// edges there.
   static inline const double followingCosine = cosineOfDegrees(30);
 
+  /// Sine of the angle (45 degrees) from which on a crease goes through a wall, not along it.
+  static inline const double throughWall = cosineOfDegrees(45);
   /// Sine of the angle between facets of one plane.
   static constexpr double samePlane = 1e-6;
 

@@ -15,6 +15,12 @@ import numpy as np
 RANKS = int(sys.argv.pop()) if sys.argv[-1].isdigit() else 1
 
 
+def facets_in(mesh, axis, place, tolerance):
+    """The triangles in a plane across the axis."""
+    triangles = mesh.cells_dict["triangle"]
+    return triangles[(np.abs(mesh.points[:, axis] - place) < tolerance)[triangles].all(axis=1)]
+
+
 class GmshMeshes(driver.Case):
     def generate(self, dimension, make_cad, make_mesh, size):
         gmsh.initialize()
@@ -177,16 +183,63 @@ class GmshMeshes(driver.Case):
 
         for body, size, height, walls in (cylinder, 0.4, 1, (0, 1)), (sphere, 0.5, 2.5, (0,)):
             self.generate(3, body, lambda body=body, height=height: around(body, height), size)
-            run = driver.Run(RANKS, self.path("mesh.msh"), self.path("cad.brep"), "--method", "uniform", "--steps", "1",
-                             "--output", self.path("fine.vtu"))
-            self.assertEqual(run.status, 0)
-            coarse, fine = meshio.read(self.path("mesh.msh")), meshio.read(self.path("fine.vtu"))
-            for wall in walls:
-                is_in = np.abs(coarse.points[:, 2] - wall) < 1e-9
-                facets = [facet for facet in coarse.cells_dict["triangle"] if all(is_in[facet])]
-                edges = {tuple(sorted((facet[k - 1], facet[k]))) for facet in facets for k in range(3)}
-                self.assertEqual(np.sum(np.abs(fine.points[:, 2] - wall) < 1e-12), sum(is_in) + len(edges))
+            self.expect_planes(2, walls)
             self.expect_on_cad(3.5)
+
+    def test_half_a_body_with_flat_ends(self):
+        """A chord of an end leads across it in the plane of symmetry, from one side of its rim to the other."""
+        occ = gmsh.model.occ
+
+        def fuselage():
+            rims = [occ.addCircle(0, 0, z, radius) for z, radius in ((0, 0.05), (1, 0.5), (2, 0.1))]
+            occ.rotate([(1, rim) for rim in rims], 0, 0, 0, 0, 0, 1, np.pi / 2)
+            occ.addThruSections([occ.addCurveLoop([rim]) for rim in rims])
+
+        def half_around():
+            fuselage()
+            occ.cut([(3, occ.addBox(-2, 0, -2, 4, 2, 6))], [(3, 1)])
+
+        self.generate(3, fuselage, half_around, 0.5)
+        self.expect_planes(1, (0,))
+        self.expect_on_cad(3.5)
+
+    def test_shell_with_walls_that_are_not_in_the_cad(self):
+        """A thin skin with a bulkhead in its middle and one at each end, whose triangles have all corners on the skin."""
+        occ = gmsh.model.occ
+
+        def skin():
+            for side in (1, -1):
+                arc = occ.addCircleArc(occ.addPoint(-0.5, 0, 0), occ.addPoint(0, side * -2, 0), occ.addPoint(0.5, 0, 0))
+                for z in (0, 1):
+                    part = occ.copy([(1, arc)])
+                    occ.translate(part, 0, 0, z)
+                    occ.extrude(part, 0, 0, 1)
+                    occ.remove(part)
+                occ.remove([(1, arc)])
+            occ.removeAllDuplicates()
+
+        def with_bulkheads():
+            skin()
+            for z in range(3):
+                occ.synchronize()
+                rim = [curve for _, curve in gmsh.model.getEntitiesInBoundingBox(-1, -1, z - 0.1, 1, 1, z + 0.1, 1)]
+                occ.addPlaneSurface([occ.addCurveLoop(rim)])
+            occ.removeAllDuplicates()
+
+        self.generate(2, skin, with_bulkheads, 0.25)
+        self.expect_planes(2, (0, 1, 2))
+        self.expect_on_cad(3.5)
+
+    def expect_planes(self, axis, places):
+        """After one level, these planes of the mesh have their vertices and the midpoints of their edges."""
+        run = driver.Run(RANKS, self.path("mesh.msh"), self.path("cad.brep"), "--method", "uniform", "--steps", "1",
+                         "--output", self.path("fine.vtu"))
+        self.assertEqual(run.status, 0)
+        coarse, fine = (meshio.read(self.path(name)) for name in ("mesh.msh", "fine.vtu"))
+        for place in places:
+            facets = facets_in(coarse, axis, place, 1e-9)
+            edges = {tuple(sorted((facet[k - 1], facet[k]))) for facet in facets for k in range(3)}
+            self.assertEqual(len(np.unique(facets_in(fine, axis, place, 1e-12))), len(np.unique(facets)) + len(edges))
 
     def test_layers_beside_the_end_of_a_body(self):
         """Planes of symmetry, which the ends of a solid cylinder continue. The lines of the layers lean, so that facets
