@@ -380,7 +380,10 @@ std::vector<Point3> PatchOptimiser::middlesRound(Index vertex, const Point3& poi
   return middles;
 }
 
-bool PatchOptimiser::staysAsClose(Index vertex, const Point3& next) const
+/// Whether the facets round a vertex that moves to `next` stay as close to the CAD as they may, or
+/// as they are now: `farthestNow` remembers how far that is, once it was needed.
+bool PatchOptimiser::staysAsClose(
+  Index vertex, const Point3& next, std::optional<double>& farthestNow) const
 {
   const Point3& now = patch_.mesh.points[vertex];
   const auto longest = [&](const Point3& from)
@@ -402,16 +405,20 @@ bool PatchOptimiser::staysAsClose(Index vertex, const Point3& next) const
     return std::all_of(middles.begin(), middles.end(),
       [&](const Point3& middle) { return projector_->nearest(middle, limit).entity; });
   };
-  if (areWithin(boundaries_[vertex].limit))
+  const double limit = boundaries_[vertex].limit;
+  if (!farthestNow)
   {
-    return true;
+    if (areWithin(limit))
+    {
+      return true;
+    }
+    farthestNow = 0;
+    for (const Point3& middle : middlesRound(vertex, now))
+    {
+      farthestNow = std::max(*farthestNow, distanceFromCAD(middle));
+    }
   }
-  double farthest = 0;
-  for (const Point3& middle : middlesRound(vertex, now))
-  {
-    farthest = std::max(farthest, distanceFromCAD(middle));
-  }
-  return areWithin(farthest);
+  return areWithin(std::max(limit, *farthestNow));
 }
 
 /// Moves a vertex by a step of Newton's method, halved until it gains something; where it does at
@@ -440,11 +447,12 @@ void PatchOptimiser::improve(Index vertex)
     return;
   }
   Point3 best = point;
+  std::optional<double> farthestNow;
   const auto gains = [&](double length)
   {
     const Point3 next = onItsEntity(vertex, point + length * step);
     const double value = energy.at(next);
-    if (!(value < lowest) || (entity && !staysAsClose(vertex, next)))
+    if (!(value < lowest) || (entity && !staysAsClose(vertex, next, farthestNow)))
     {
       return false;
     }

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace cadrefine
@@ -95,7 +96,7 @@ private:
   void findBoundaries();
   double distanceFromCAD(const Point3& point) const;
   std::vector<Point3> middlesRound(Index vertex, const Point3& point) const;
-  bool staysAsClose(Index vertex, const Point3& next) const;
+  bool staysAsClose(Index vertex, const Point3& next, std::optional<double>& farthestNow) const;
   void improve(Index vertex);
 
   Patch& patch_;
