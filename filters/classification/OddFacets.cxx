@@ -57,8 +57,10 @@ struct Common
 /// What surrounds a patch of odd facets that meet at edges.
 struct Surroundings
 {
-  unsigned char isWide = 0;     ///< It is a patch of several facets, or a quadrilateral.
-  unsigned char isOpen = 0;     ///< A facet off the CAD is beside it, or nothing.
+  unsigned char isWide = 0; ///< It is a patch of several facets, or a quadrilateral.
+  /// A facet off the CAD is beside it; or nothing, but on a surface in space, which may end
+  /// anywhere, two facets on the CAD at one edge, which goes on without it, as beside a rib.
+  unsigned char isOpen = 0;
   unsigned char isAtBorder = 0; ///< A CAD edge that bounds one face alone is beside it.
   unsigned char isTied = 0; ///< A facet from which it turns by less than 60 degrees is beside it.
   unsigned char isAmid = 0; ///< A facet without a CAD edge between them is beside it.
@@ -70,9 +72,13 @@ struct Surroundings
 
   /// Whether the patch is on the CAD. It is not where a mesh ends at the rim of a CAD face which it
   /// leaves out: there facets of other faces alone are round the patch, and the face goes on to
-  /// another rim.
-  bool isOnCAD(const NurbsModel& model) const
+  /// another rim. Nor is a bulkhead at the border of a surface in space.
+  bool isOnCAD(const NurbsModel& model, bool ofSurface) const
   {
+    if (ofSurface)
+    {
+      return !isOpen && !isAtBorder;
+    }
     const bool isEnd = face.value >= 0 && endsThere(model, face.value);
     const bool isBetween = edge.value >= 0 && sides == 3;
     const bool isBeyond = sides > 0 && (isAmid || isEnd || isBetween);
@@ -187,7 +193,8 @@ std::vector<Surroundings> findSurroundings(RankExchange& exchange,
         }
       }
       patch.isWide |= count > 1 || boundary.facets[facet].corners() == 4;
-      patch.isOpen |= ofEdges[edge].size() == 1;
+      patch.isOpen |=
+        boundary.ofSurface ? facetsOnCAD(ofEdges[edge]).size() > 1 : ofEdges[edge].size() == 1;
     });
   bool changes = true;
   while (exchange.any(changes))
@@ -246,7 +253,7 @@ bool joinOddFacets(RankExchange& exchange, const Mesh& mesh, const DistributedBo
     }
     face = isCommon(face) ? face : -1;
     const bool isEar = record.ear >= 0 && (patch.isTied || !patch.isWide);
-    record.onCAD = patch.isOnCAD(model.nurbs()) || (isEar && face >= 0);
+    record.onCAD = patch.isOnCAD(model.nurbs(), boundary.ofSurface) || (isEar && face >= 0);
     record.face = record.onCAD ? face : -1;
   }
   return true;

@@ -16,7 +16,9 @@ namespace cadrefine
 ///      there, in one of two ways. In the middle of a pipe of the CAD: the patch is turned by more
 ///      than 60 degrees from all facets beside it, and these are on the faces that it would be on.
 ///      At the rim of a pipe: a CAD edge that bounds a single face is beside the patch, or the
-///      faces beyond the edges beside it go on to another rim;
+///      faces beyond the edges beside it go on to another rim. In a mesh of area in space, which
+///      may end anywhere, a patch is on the CAD unless it is a rib, which two facets on the CAD
+///      meet at an edge, or ends at a CAD edge that bounds a single face, as a bulkhead does;
 ///   2. an ear (BoundaryProjector::earOf) beside a facet on the CAD is on the CAD too; one that is
 ///      part of a patch only if the patch turns by less than 60 degrees from such a facet.
 /// The face of a patch is the one beyond the CAD edges between it and the facets beside it; where
