@@ -177,7 +177,7 @@ std::string warningOfMisfit(const Fit& fit, const std::string& cadUnit, bool isW
   constexpr double little = 0.2;
   constexpr double nearlyAll = 0.9; // a box in another unit may share half of its sides
   constexpr double piece = 0.02;    // of the CAD; a cone fits one in any unit, but then less
-  const std::string shift = describeShift(fit);
+  std::string shift = describeShift(fit);
   if (fit.wasOnCurved >= half && fit.cadCovered.value_or(0) >= piece)
   {
     return shift;

@@ -13,8 +13,9 @@ namespace cadrefine
 /// What is to be said of a mesh that seems not to fit: less than half of its boundary on the CAD,
 /// or most of it in another place while the CAD is not covered (both where `isWhole`: no region was
 /// chosen), or boxes whose sizes compare like two units of length where the CAD is not covered and
-/// not nearly all of the boundary is on it, or that are alike but shifted. Names the units and what
-/// to do. Empty: nothing.
+/// not nearly all of the boundary is on it, or that are alike but shifted. Of a mesh that lies on
+/// curved faces (Fit::wasOnCurved) only the last is said: it is a part of the CAD. Names the units
+/// and what to do. Empty: nothing.
 std::string warningOfMisfit(const Fit& fit, const std::string& cadUnit, bool isWhole);
 
 /// What is to be said of vertices that were moved onto the CAD among others that lay on it: they
