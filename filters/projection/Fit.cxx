@@ -122,7 +122,7 @@ public:
     std::vector<double> onCADToo;
     // Parts of the entities' own measures in units of 2^-40, which sum up the same on any ranks.
     std::vector<std::int64_t> parts(entities_, 0);
-    places_.assign(task_.boundary.facets.size(), -1);
+    entityOfFacet_.assign(task_.boundary.facets.size(), -1);
     const auto& facets = task_.boundary.facets;
     for (std::size_t f = 0; f < facets.size(); ++f)
     {
@@ -131,8 +131,8 @@ public:
       if (record.onCAD)
       {
         onCADToo.push_back(measure);
-        places_[f] = task_.ofFaces() ? record.face : edgeOf(facets[f]);
-        addPart(parts, places_[f], measure);
+        entityOfFacet_[f] = task_.ofFaces() ? record.face : edgeOf(facets[f]);
+        addPart(parts, entityOfFacet_[f], measure);
       }
       // Listed ones inside the mesh need not be of the CAD.
       const bool isAsked = !record.free && !facets[f].isInside;
@@ -181,41 +181,14 @@ public:
 
   void findStrays()
   {
-    std::vector<std::int64_t> counts(2 * entities_, 0); // exact facets; others
-    const auto& facets = task_.boundary.facets;
-    for (std::size_t f = 0; f < facets.size(); ++f)
-    {
-      if (places_[f] >= 0)
-      {
-        const bool isExact = std::all_of(
-          facets[f].begin(), facets[f].end(), [&](Index vertex) { return wasOnCAD(vertex); });
-        ++counts[places_[f] + (isExact ? 0 : entities_)];
-      }
-    }
-    counts = task_.exchange.sum(counts);
-    std::vector<unsigned char> isStray(task_.points().size(), 0);
-    for (std::size_t f = 0; f < facets.size(); ++f)
-    {
-      const std::int32_t place = places_[f];
-      const bool isMostlyExact =
-        place >= 0 && static_cast<double>(counts[place]) >=
-                        ClassificationTolerances::sideMajority *
-                          static_cast<double>(counts[place] + counts[place + entities_]);
-      for (const Index vertex : facets[f])
-      {
-        const bool isOff =
-          result_.distancesBefore[vertex] > strayPart * task_.boundary.longestEdge[vertex];
-        isStray[vertex] = isStray[vertex] || (isMostlyExact && isOff);
-      }
-    }
-    combineFlags(task_.exchange, task_.mesh.shared, isStray);
+    const Mesh& mesh = task_.mesh.mesh();
+    const auto isStray = flagStrays();
     const auto owned = task_.mesh.shared.ownedHere(static_cast<Index>(isStray.size()));
     std::vector<Entry> strays;
     for (std::size_t v = 0; v < isStray.size(); ++v)
     {
       if (owned[v] && isStray[v])
       {
-        const auto& mesh = task_.mesh.mesh();
         strays.push_back(
           { result_.distancesBefore[v], static_cast<double>(mesh.ids[v]), mesh.points[v] });
       }
@@ -274,6 +247,43 @@ private:
     return fit_.cadBox.contains(p, boxMargin * task_.model().size());
   }
 
+  /// 1 for vertices that are counted in Fit::strays, on whatever rank. Collective.
+  std::vector<unsigned char> flagStrays() const
+  {
+    const auto& facets = task_.boundary.facets;
+    std::vector<std::int64_t> exact(entities_, 0); // facets
+    std::vector<std::int64_t> all(entities_, 0);
+    for (std::size_t f = 0; f < facets.size(); ++f)
+    {
+      if (entityOfFacet_[f] >= 0)
+      {
+        exact[entityOfFacet_[f]] += std::all_of(
+          facets[f].begin(), facets[f].end(), [&](Index vertex) { return wasOnCAD(vertex); });
+        ++all[entityOfFacet_[f]];
+      }
+    }
+    exact = task_.exchange.sum(exact);
+    all = task_.exchange.sum(all);
+    const auto isMostlyExact = [&](std::int32_t entity)
+    {
+      return entity >= 0 &&
+             static_cast<double>(exact[entity]) >=
+               ClassificationTolerances::sideMajority * static_cast<double>(all[entity]);
+    };
+    std::vector<unsigned char> isStray(task_.points().size(), 0);
+    for (std::size_t f = 0; f < facets.size(); ++f)
+    {
+      for (const Index vertex : facets[f])
+      {
+        const bool isOff =
+          result_.distancesBefore[vertex] > strayPart * task_.boundary.longestEdge[vertex];
+        isStray[vertex] = isStray[vertex] || (isOff && isMostlyExact(entityOfFacet_[f]));
+      }
+    }
+    combineFlags(task_.exchange, task_.mesh.shared, isStray);
+    return isStray;
+  }
+
   void addIfOff(std::vector<Entry>& off, std::size_t vertex, double distance) const
   {
     if (distance > onCAD * task_.model().size())
@@ -328,7 +338,7 @@ private:
   std::int8_t dimension_;
   std::size_t entities_;
   /// The CAD face of each facet (in the plane, its edge); -1: none.
-  std::vector<std::int32_t> places_;
+  std::vector<std::int32_t> entityOfFacet_;
 };
 
 /// Finds the vertices in conflict. Collective.
