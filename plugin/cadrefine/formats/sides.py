@@ -116,9 +116,11 @@ def check_pyramids(mesh):
     if not kinds & TETRAHEDRA or not kinds & WITH_QUADS or kinds & PYRAMIDS:
         return
     corners = all_sides(mesh, 3)[0]
-    classes, count = same_corners(corners)
-    corners = corners[np.bincount(classes, minlength=count)[classes] == 1]
-    quads, triangles = corners[corners[:, 3] >= 0], corners[corners[:, 3] < 0]
+    quads = alone(corners[corners[:, 3] >= 0])
+    is_corner = np.zeros(len(mesh.points), bool)
+    is_corner[quads] = True
+    triangles = corners[corners[:, 3] < 0]
+    triangles = alone(triangles[is_corner[triangles[:, :3]].sum(axis=1) >= 2])
     bases = np.concatenate([quads[:, [k, (k + 1) % 4]] for k in range(4)])
     edges = np.concatenate([triangles[:, [k, (k + 1) % 3]] for k in range(3)])
     apexes = np.concatenate([triangles[:, (k + 2) % 3] for k in range(3)])
@@ -134,6 +136,12 @@ def check_pyramids(mesh):
         raise BadFile(f"the mesh has no pyramids, but cavities where they should be, between quadrilaterals and "
                       f"tetrahedra: {cavities}; gmsh writes pyramids only to some formats, .msh and .su2 among them: "
                       "save the mesh in one of these")
+
+
+def alone(rows):
+    """The rows whose corners no other row has."""
+    classes, count = same_corners(rows)
+    return rows[np.bincount(classes, minlength=count)[classes] == 1]
 
 
 def once(mesh):
