@@ -313,19 +313,21 @@ double smallestSample(vtkPointSet* data, bool documented)
 
 double sizeOf(vtkPointSet* data, const char* density)
 {
-  double size = 0;
+  double ofWedges = 0; // which may turn either way, all alike
+  double ofOthers = 0;
   vtkDataArray* values = density ? data->GetCellData()->GetArray(density) : nullptr;
   forEachLargest(data,
     [&](vtkCell* cell, vtkIdType number)
     {
-      double ofCell = 0;
-      for (const auto& [where, weight] : ruleOf(cell->GetCellType()))
+      const double value = values ? values->GetTuple1(number) : 1;
+      const int type = cell->GetCellType();
+      double& size = type == VTK_WEDGE || type == VTK_QUADRATIC_WEDGE ? ofWedges : ofOthers;
+      for (const auto& [where, weight] : ruleOf(type))
       {
-        ofCell += weight * jacobianAt(cell, where);
+        size += value * weight * jacobianAt(cell, where);
       }
-      size += (values ? values->GetTuple1(number) : 1) * std::abs(ofCell); // wedges turn either way
     });
-  return size;
+  return std::abs(ofWedges) + std::abs(ofOthers);
 }
 
 } // namespace cadtest
