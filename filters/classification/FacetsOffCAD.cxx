@@ -36,7 +36,7 @@ std::vector<std::int32_t> findCovered(
 /// Whether a vertex is on the CAD already, but for rounding.
 bool liesOnCAD(const ProjectionTask& task, const std::vector<ClosestPoint>& hits, Index vertex)
 {
-  return hits[vertex].distance <= roundedDistance(task.model(), task.boundary.shortestEdge[vertex]);
+  return hits[vertex].distance <= task.rounded(vertex);
 }
 
 bool liesOnCAD(

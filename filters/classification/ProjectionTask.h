@@ -60,6 +60,11 @@ struct ProjectionTask
   {
     return exactDistance(model(), boundary.shortestEdge[vertex]);
   }
+  /// The distance up to which it lies there but for the few digits of a file's coordinates.
+  double rounded(std::size_t vertex) const
+  {
+    return roundedDistance(model(), boundary.shortestEdge[vertex]);
+  }
 };
 
 /// A few CAD entities of one dimension: the smallest indices of those that were added, ascending.

@@ -182,15 +182,13 @@ void judge(const PipelineContext& context, const Projection& projection,
     throw Error(reasonOfNone(projection, options, unit));
   }
   const bool isWhole = !options.region && options.faces.empty();
-  const std::string warning = warningOfMisfit(projection.fit, unit, isWhole);
-  if (!warning.empty())
+  for (const std::string& warning :
+    { warningOfMisfit(projection.fit, unit, isWhole), warningOfStrays(projection.fit) })
   {
-    context.warn(warning);
-  }
-  const std::string strays = warningOfStrays(projection.fit);
-  if (!strays.empty())
-  {
-    context.warn(strays);
+    if (!warning.empty())
+    {
+      context.warn(warning);
+    }
   }
 }
 

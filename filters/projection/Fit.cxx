@@ -76,7 +76,12 @@ bool isCurved(const CADModel& model, EntityId entity)
 {
   constexpr double alike = 1e-6;
   constexpr std::array<double, 3> places{ 0.2, 0.5, 0.8 };
-  std::vector<Vector3> directions;
+  std::optional<Vector3> first;
+  const auto turns = [&](const Vector3& direction)
+  {
+    first = first.value_or(direction);
+    return norm(cross(*first, direction)) > alike;
+  };
   if (entity.dimension == 2)
   {
     for (const BezierPatch& patch : model.nurbs().faces[entity.index].patches)
@@ -85,8 +90,11 @@ bool isCurved(const CADModel& model, EntityId entity)
       {
         for (const double v : places)
         {
-          directions.push_back(model.normal(entity.index,
-            { patch.u0 + u * (patch.u1 - patch.u0), patch.v0 + v * (patch.v1 - patch.v0) }));
+          if (turns(model.normal(entity.index,
+                { patch.u0 + u * (patch.u1 - patch.u0), patch.v0 + v * (patch.v1 - patch.v0) })))
+          {
+            return true;
+          }
         }
       }
     }
@@ -97,13 +105,14 @@ bool isCurved(const CADModel& model, EntityId entity)
     {
       for (const double t : places)
       {
-        directions.push_back(
-          model.tangent(entity.index, segment.t0 + t * (segment.t1 - segment.t0)));
+        if (turns(model.tangent(entity.index, segment.t0 + t * (segment.t1 - segment.t0))))
+        {
+          return true;
+        }
       }
     }
   }
-  return std::any_of(directions.begin(), directions.end(),
-    [&](const Vector3& other) { return norm(cross(directions.front(), other)) > alike; });
+  return false;
 }
 
 class FitSearch
@@ -238,8 +247,7 @@ public:
 private:
   bool wasOnCAD(std::size_t vertex) const
   {
-    return result_.distancesBefore[vertex] <=
-           roundedDistance(task_.model(), task_.boundary.shortestEdge[vertex]);
+    return result_.distancesBefore[vertex] <= task_.rounded(vertex);
   }
 
   bool isInBox(const Point3& p) const

@@ -43,6 +43,14 @@ protected:
     return cube.attempt<vtkProjectOntoCAD>(pieceOf(whole), [](vtkProjectOntoCAD*) {});
   }
 
+  /// A mesh in the plane, onto a disc of radius 1.
+  cadtest::Outcome projectOntoDisc(const Mesh& of) const
+  {
+    const cadtest::FilterRun disc(
+      cadtest::writeInto(folder, cadtest::discOfTwoArcs(1, 0), ".brep"), worldController());
+    return disc.attempt<vtkProjectOntoCAD>(pieceOf(cadtest::toGrid(of)), [](vtkProjectOntoCAD*) {});
+  }
+
   static double value(const cadtest::Outcome& outcome, const char* name)
   {
     return cadtest::fieldValue(outcome.pointSet(), name);
@@ -217,8 +225,6 @@ TEST_F(Fit, ofOneBodyTellsNoUnit)
 /// the circle at most, but its arc lies there.
 TEST_F(Fit, ofAPartTellsNoUnit)
 {
-  const cadtest::FilterRun disc(
-    cadtest::writeInto(folder, cadtest::discOfTwoArcs(1, 0), ".brep"), worldController());
   constexpr Index last = 16;
   Mesh segment;
   segment.dimension = 2;
@@ -239,36 +245,26 @@ TEST_F(Fit, ofAPartTellsNoUnit)
   segment.triangles.push_back({ last - 1, last, 2 * last - 1 });
   segment.ids.resize(segment.points.size());
   std::iota(segment.ids.begin(), segment.ids.end(), 0);
-  const auto projected = [&](const Mesh& of)
-  {
-    return disc.attempt<vtkProjectOntoCAD>(pieceOf(cadtest::toGrid(of)), [](vtkProjectOntoCAD*) {});
-  };
-  expectWarning(projected(segment), "");
+  expectWarning(projectOntoDisc(segment), "");
   for (Point3& p : segment.points)
   {
     p = 1.01 * p;
   }
-  expectWarning(projected(segment), "as if the mesh were in metres and the CAD in feet");
+  expectWarning(projectOntoDisc(segment), "as if the mesh were in metres and the CAD in feet");
 }
 
 TEST_F(Fit, tellsAVertexOffAmongOthersOnTheCAD)
 {
-  const cadtest::FilterRun disc(
-    cadtest::writeInto(folder, cadtest::discOfTwoArcs(1, 0), ".brep"), worldController());
   Mesh polygon = cadtest::discMesh(1, 0, 48);
   polygon.points[6] = 0.98 * polygon.points[6];
-  const auto project = [&]
-  {
-    return disc.attempt<vtkProjectOntoCAD>(
-      pieceOf(cadtest::toGrid(polygon)), [](vtkProjectOntoCAD*) {});
-  };
-  expectWarning(project(), "moved onto the CAD where nearly all others lay on it already: 1, the "
-                           "farthest by 0.02 to (0.707107, 0.707107, 0)");
+  expectWarning(projectOntoDisc(polygon),
+    "moved onto the CAD where nearly all others lay on it already: 1, the "
+    "farthest by 0.02 to (0.707107, 0.707107, 0)");
   for (int corner = 0; corner < 48; corner += 2) // now the mesh is no exact one
   {
     polygon.points[corner] = 0.98 * polygon.points[corner];
   }
-  expectWarning(project(), "");
+  expectWarning(projectOntoDisc(polygon), "");
 }
 
 TEST_F(Fit, tellsAShift)

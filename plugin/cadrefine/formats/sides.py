@@ -10,7 +10,6 @@ from cadrefine.formats.grid import PHYSICAL, tag_array
 from cadrefine.formats.groups import BOUNDARY, is_list, set_groups, unused
 
 WIDTH = 4  # Most corners of a side.
-TETRAHEDRA, PYRAMIDS, WITH_QUADS = {10, 24}, {14, 27}, {12, 13, 25, 26}  # VTK's types of cells.
 IN_PLANE = 2e-7  # A planar mesh leaves its plane by less, in parts of its extent: the filters take it for one, too.
 
 
@@ -112,8 +111,8 @@ def cells_of(mesh, dimension):
 
 def check_pyramids(mesh):
     """Throws BadFile where pyramids are missing between quadrilaterals and tetrahedra."""
-    kinds = {kind for kind, nodes in mesh.blocks if len(nodes)}
-    if not kinds & TETRAHEDRA or not kinds & WITH_QUADS or kinds & PYRAMIDS:
+    corners = {CORNERS[kind] for kind, nodes in mesh.blocks if len(nodes) and TYPES[kind][1] == 3}
+    if 4 not in corners or 5 in corners or len(corners) == 1:  # Tetrahedra, and hexahedra or wedges, but no pyramids.
         return
     corners = all_sides(mesh, 3)[0]
     quads = alone(corners[corners[:, 3] >= 0])
