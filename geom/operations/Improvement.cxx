@@ -240,10 +240,9 @@ private:
   /// Whether a vertex is inside the mesh: it may go anywhere.
   bool isInside(Index vertex) const
   {
-    return Dimension == 3
-             ? mesh_.freedomOf(vertex) == EditableMesh::Freedom::Space
-             : mesh_.kind() != EditableMesh::Kind::Surface && !mesh_.vertex(vertex).entity &&
-                 mesh_.freedomOf(vertex) != EditableMesh::Freedom::None;
+    using Freedom = EditableMesh::Freedom;
+    return mesh_.kind() != EditableMesh::Kind::Surface && !mesh_.vertex(vertex).entity &&
+           mesh_.freedomOf(vertex) == (Dimension == 3 ? Freedom::Space : Freedom::Facet);
   }
 
   /// Whether a vertex may go along the CAD: where it has got there.

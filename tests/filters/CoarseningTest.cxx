@@ -74,11 +74,13 @@ protected:
 TEST_P(Coarsening, undoesUniformRefinement)
 {
   const double target = errorOf(coarse);
+  const double size = cadtest::measureOf(cadtest::toMesh(coarse));
   const auto fine = filters.refineUniformly(coarse);
   const auto back = coarsen(filters, fine, 1, target);
   EXPECT_NEAR(fieldValue(back, "GlobalCells"), fieldValue(coarse, "GlobalCells"),
     GetParam().share * fieldValue(coarse, "GlobalCells"));
   EXPECT_LE(errorOf(back), target);
+  EXPECT_NEAR(cadtest::measureOf(cadtest::toMesh(back)), size, 2 * target);
   EXPECT_EQ(fieldValue(back, "UnprojectedVertices"), 0);
   EXPECT_EQ(fieldValue(back, "InvalidCells"), 0);
   EXPECT_GE(fieldValue(back, "MinimumQuality"), 0.1);
@@ -214,6 +216,24 @@ TEST(CoarseningHexahedra, isAnErrorWithoutSimplices)
     << outcome.errors[0];
 }
 
+/// Straight boundary that is not in the CAD, in the plane.
+TEST(CoarseningWalls, keepsTheirShape)
+{
+  const FilterRun filters(CADREFINE_DATA "/three_arcs.igs");
+  const auto start = filters.project(cadtest::readGrid(CADREFINE_DATA "/three_arcs_coarse.vtu"));
+  const auto adapted = filters.run<vtkAdaptToCAD>(start,
+    [](vtkAdaptToCAD* filter)
+    {
+      filter->SetStartProjected(true);
+      filter->SetMaximumSteps(3);
+      filter->SetCoarseningFraction(0.1);
+    });
+  const auto errorOf = [&](vtkPointSet* mesh)
+  { return fieldValue(filters.measure(mesh, 0), "GlobalGeometricError"); };
+  EXPECT_NEAR(cadtest::measureOf(cadtest::toMesh(adapted)),
+    cadtest::measureOf(cadtest::toMesh(start)), errorOf(start) + errorOf(adapted));
+}
+
 /// A solver's indicator that moves through the mesh: fine there, coarse behind it.
 TEST(CoarseningFront, keepsTheNumberOfCells)
 {
@@ -221,6 +241,7 @@ TEST(CoarseningFront, keepsTheNumberOfCells)
   FilterRun::Data mesh = filters.refineUniformly(
     filters.project(cadtest::readGrid(CADREFINE_DATA "/naca0012_coarse.vtu")));
   const double target = fieldValue(filters.measure(mesh, 0), "GlobalGeometricError");
+  const double area = cadtest::measureOf(cadtest::toMesh(mesh));
   std::vector<double> cells;
   for (int step = 0; step < 20; ++step)
   {
@@ -249,6 +270,7 @@ TEST(CoarseningFront, keepsTheNumberOfCells)
         filter->SetTargetError(target);
       });
     EXPECT_LE(fieldValue(mesh, "GlobalGeometricError"), target) << step;
+    EXPECT_NEAR(cadtest::measureOf(cadtest::toMesh(mesh)), area, 2 * target) << step;
     EXPECT_EQ(fieldValue(mesh, "InvalidCells"), 0) << step;
     cells.push_back(fieldValue(mesh, "GlobalCells"));
   }

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <random>
 
 namespace
@@ -25,8 +26,9 @@ constexpr double pi = 3.14159265358979323846;
 const Vector3 upward{ 0, 0, 1 };
 
 /// A square with inner vertices at random, so far as cells stay valid; materials 0 and 1 on either
-/// side of a row of vertices. Its border stays.
-EditableMesh spoiltSquare(unsigned seed)
+/// side of a row of vertices. Its border stays; with a label, as that of boundary off the CAD,
+/// vertices may go along it.
+EditableMesh spoiltSquare(unsigned seed, std::optional<Index> borderLabel = {})
 {
   const Mesh boxes = cadtest::squareMesh(8, 0.1, seed);
   EditableMesh mesh(Kind::Plane, upward);
@@ -38,6 +40,16 @@ EditableMesh spoiltSquare(unsigned seed)
   {
     mesh.addFacet({ boxes.triangles[c], static_cast<Index>(2 * c / boxes.triangles.size()),
       static_cast<Index>(c) });
+  }
+  for (const auto& corners : boxes.triangles)
+  {
+    for (const auto& [i, j] : triangleEdges)
+    {
+      if (borderLabel && mesh.facets().at(corners[i], corners[j]).size() == 1)
+      {
+        mesh.addSegment({ { corners[i], corners[j] }, *borderLabel });
+      }
+    }
   }
   mesh.closeFacets();
   std::mt19937 random(seed);
@@ -142,6 +154,33 @@ TEST(TriangleImprovement, makesBadCellsBetter)
     EXPECT_EQ(result.counts.faceRemovals, 0);
     EXPECT_EQ(countEdges(mesh).at(1), 32) << "the border stays";
     EXPECT_EQ(countEdges(mesh).size(), 2u) << "and no edge has more than two triangles";
+  }
+}
+
+TEST(TriangleImprovement, keepsBoundaryOffTheCAD)
+{
+  constexpr Index wall = -2;
+  for (unsigned seed = 0; seed < 20; ++seed)
+  {
+    EditableMesh mesh = spoiltSquare(seed, wall);
+    const EditableMesh start = mesh;
+    const Summary before = summaryOf(mesh);
+    const OperationResult result = improveCells(mesh, nullptr, { 0.4, 0.1 });
+    const Summary after = summaryOf(mesh);
+    EXPECT_GT(result.counts.moves, 0);
+    EXPECT_GT(after.worst, before.worst);
+    for (const int material : { 0, 1 })
+    {
+      EXPECT_NEAR(after.areas[material], before.areas[material], 1e-14);
+    }
+    for (std::size_t v = 0; v < start.vertexCount(); ++v)
+    {
+      const auto vertex = static_cast<Index>(v);
+      if (!start.segments().at(vertex).empty())
+      {
+        EXPECT_EQ(mesh.vertex(vertex).point, start.vertex(vertex).point) << "seed " << seed;
+      }
+    }
   }
 }
 
