@@ -3,6 +3,8 @@
 #include <cadrefine/base/IndicesWhere.h>
 #include <cadrefine/base/LargeMemory.h>
 #include <cadrefine/base/PieceLimit.h>
+#include <cadrefine/mesh/CellJacobian.h>
+#include <cadrefine/mesh/CellState.h>
 #include <cadrefine/refinement/CellCutting.h>
 
 namespace cadrefine
@@ -26,22 +28,40 @@ void forCornersOfCells(const Mesh& mesh, const Midpoints& midpoints, const Use& 
     });
 }
 
-/// The weights of a cell's corners in the vertex in its middle: all the same, except that a
-/// pyramid's vertex is higher over its base than the mean of the corners, as a base that is not
-/// plane rises; in one whose edges are equal it is as far from all sides.
+/// The weights of a cell's corners in the vertex in its middle: all the same, but for a pyramid.
 template<std::size_t Corners>
-constexpr std::array<double, Corners> partsInMiddle(const std::array<Index, Corners>&)
+std::array<double, Corners> partsInMiddle(
+  const std::array<Index, Corners>&, const std::vector<Point3>&)
 {
-  if constexpr (Corners == shapes::Pyramid::corners)
-  {
-    return { 5.0 / 32, 5.0 / 32, 5.0 / 32, 5.0 / 32, 3.0 / 8 };
-  }
   std::array<double, Corners> parts{};
-  for (double& part : parts)
-  {
-    part = 1.0 / static_cast<double>(Corners);
-  }
+  parts.fill(1.0 / static_cast<double>(Corners));
   return parts;
+}
+
+/// A pyramid's vertex is higher over its base than the mean of the corners, as a base that is not
+/// plane rises: 3/8 of the way to the apex, where that of a pyramid of equal edges is as far from
+/// all sides; or, from there, half of the rest of the way and again, until each corner of the base
+/// is convex as seen from it, and so all that the base is cut into. The apex sees a valid pyramid's
+/// base like that, so a vertex near enough to it does.
+std::array<double, 5> partsInMiddle(
+  const std::array<Index, 5>& pyramid, const std::vector<Point3>& points)
+{
+  constexpr double nearest = 1 - 1e-9;
+  Pyramid below = cornersOf(pyramid, points);
+  const Point3 apex = below[4];
+  const Point3 base = 0.25 * (below[0] + below[1] + below[2] + below[3]);
+  double part = 3.0 / 8;
+  const auto seesBase = [&]
+  {
+    below[4] = (1 - part) * base + part * apex;
+    return hasPositiveJacobian(below);
+  };
+  while (!seesBase() && part < nearest)
+  {
+    part = 0.5 * (1 + part);
+  }
+  const double ofBase = 0.25 * (1 - part);
+  return { ofBase, ofBase, ofBase, ofBase, part };
 }
 
 void addQuadMidpoints(const QuadTable& quads, const EdgeMarks& marks, Midpoints& midpoints)
@@ -148,7 +168,7 @@ WeightedRows rowsInMiddle(const Mesh& mesh, const Midpoints& midpoints)
   forCornersOfCells(mesh, midpoints,
     [&](const auto& corners)
     {
-      const auto parts = partsInMiddle(corners);
+      const auto parts = partsInMiddle(corners, mesh.points);
       for (std::size_t k = 0; k < corners.size(); ++k)
       {
         rows.add(corners[k], parts[k]);

@@ -16,7 +16,8 @@ namespace cadrefine
 
 /// New vertices: at the midpoints of the marked edges, then in quadrilaterals all of whose edges
 /// are marked, then in hexahedra all of whose edges are, then in the middle of the corners of cells
-/// that are cut round one (see CellCutting); that of a pyramid is 3/8 of the way to its apex.
+/// that are cut round one (see CellCutting); that of a pyramid is on the way from the mean of the
+/// base's corners to the apex, where it sees all of the base.
 struct Midpoints
 {
   Index firstVertex = 0;

@@ -44,9 +44,9 @@ SplitMesh splitMarked(const Mesh& mesh, const EdgeTable& table, const QuadTable&
 
 /// The valid cells of volume that are not simplices of which splitMarked, or `uniform`,
 /// splitUniformly makes some that are not valid, in their numbers among those of the mesh's own
-/// dimension. Of most cells both make parts cut straight; but not where a vertex in the middle does
-/// not see all sides, where a quadrilateral is cut in triangles, and of pyramids whose base is far
-/// from plane, of which alone there are such cells in uniform splitting.
+/// dimension. Of most cells both make parts cut straight; but not where a vertex in the middle of a
+/// hexahedron or wedge does not see all sides, where a quadrilateral is cut in triangles, and, in
+/// uniform splitting, of pyramids whose base is far from plane.
 std::vector<Index> cellsCutBadly(const Mesh& mesh, const EdgeTable& table, const QuadTable& quads,
   const EdgeMarks& marks, bool uniform);
 

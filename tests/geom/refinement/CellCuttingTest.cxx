@@ -318,6 +318,36 @@ TEST(CellCutting, aPyramidOnAWarpedBaseIsCutIntoValidCells)
   EXPECT_NEAR(cadtest::measureOf(split.mesh), cadtest::measureOf(mesh), 1e-15);
 }
 
+/// Valid pyramids of any shape, many with a base that is far from flat.
+TEST(CellCutting, everyValidPyramidIsCutIntoValidCells)
+{
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> place(0, 1);
+  Mesh mesh;
+  mesh.points.resize(5);
+  mesh.ids = { 0, 1, 2, 3, 4 };
+  mesh.pyramids = { { 0, 1, 2, 3, 4 } };
+  int tried = 0;
+  while (tried < 300)
+  {
+    std::generate(mesh.points.begin(), mesh.points.end(),
+      [&] {
+        return Point3{ place(random), place(random), place(random) };
+      });
+    if (!cadtest::isValid(mesh))
+    {
+      continue;
+    }
+    ++tried;
+    for (unsigned subset = 0; subset < 256; ++subset)
+    {
+      const Cut cut(shapes::Pyramid{}, mesh, subset);
+      EXPECT_TRUE(
+        !cut.isClosed || cellsCutBadly(mesh, cut.table, cut.quads, cut.marks, false).empty());
+    }
+  }
+}
+
 /// Two cells that share a side, corner k of the one's at corner (turn - k) of the other's; points
 /// and ids are at random, since neither validity nor size counts here.
 template<class First, class Second>
