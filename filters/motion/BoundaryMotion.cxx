@@ -8,11 +8,13 @@
 #include "motion/Untangling.h"
 
 #include <cadrefine/base/IndicesWhere.h>
+#include <cadrefine/mesh/ThinCells.h>
 #include <cadrefine/mesh/VertexFlags.h>
 
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <type_traits>
 #include <utility>
 
 namespace cadrefine
@@ -36,6 +38,14 @@ constexpr double fairQuality = 0.3;
 constexpr double leastMoveOfWalls = 1e-3;
 constexpr double noQuality = std::numeric_limits<double>::infinity();
 
+/// Where a vertex of cells that are neither simplices nor pyramids makes no way.
+enum class Hold : unsigned char
+{
+  None,
+  OnCAD,
+  Everywhere ///< In layers: where one of these cells is thin.
+};
+
 /// A mesh on its way onto the CAD.
 struct Motion
 {
@@ -48,22 +58,28 @@ struct Motion
   const std::vector<Point3> start; ///< Points of the unmoved mesh.
   Moves moves; ///< Targets of all vertices; of those that have none, where they are.
   std::vector<unsigned char> slid; ///< Vertices on the CAD whose target has changed.
-  /// 1 for vertices of wedges, hexahedra and quadrilaterals, which make no way; none: there are
-  /// no other cells than simplices.
-  std::vector<unsigned char> held;
+  std::vector<Hold> held;          ///< Empty: there are no other cells than simplices.
   LayerColumns columns;
   std::vector<Index> aimed; ///< Vertices that are to reach the CAD; some more than once.
   std::vector<unsigned char> ends = {}; ///< 1 for fixed vertices that make way; none: none do.
 
   Mesh& mesh() const { return distributed.mesh(); }
   bool isStuck(Index vertex) const { return mesh().points[vertex] != moves.targets[vertex]; }
-  bool isHeld(std::size_t vertex) const { return !held.empty() && held[vertex]; }
+  Hold holdOf(std::size_t vertex) const { return held.empty() ? Hold::None : held[vertex]; }
   bool isInterior(std::size_t vertex) const
   {
     const bool makesWay = !settings.fixed[vertex] || (!ends.empty() && ends[vertex]);
     return makesWay && !classification.entities[vertex];
   }
-  bool canSlide(std::size_t vertex) const { return classification.entities[vertex].dimension > 0; }
+  bool canSlide(std::size_t vertex) const
+  {
+    return classification.entities[vertex].dimension > 0 && holdOf(vertex) == Hold::None;
+  }
+  /// Whether an interior vertex may make way: it does not go along with a wall.
+  bool canMakeWay(std::size_t vertex) const
+  {
+    return isInterior(vertex) && holdOf(vertex) != Hold::Everywhere && moves.fractions[vertex] == 0;
+  }
 };
 
 std::vector<Index> movingVertices(const Moves& moves)
@@ -92,28 +108,31 @@ std::vector<Index> invalidCells(
     [&](std::size_t c) { return isInvalid(mesh, plane, static_cast<Index>(c)); });
 }
 
-/// 1 for vertices of cells that are not simplices (see Motion::held). Collective.
-std::vector<unsigned char> findHeld(RankExchange& exchange, const DistributedMesh& mesh)
+/// How each vertex makes way (see Motion::held). Collective.
+std::vector<Hold> findHeld(RankExchange& exchange, const DistributedMesh& mesh)
 {
   const Mesh& piece = mesh.mesh();
   if (!exchange.any(piece.hasNonSimplices()))
   {
     return {};
   }
-  std::vector<unsigned char> held(piece.points.size(), 0);
+  std::vector<Hold> held(piece.points.size(), Hold::None);
   visitOwnShapes(piece,
     [&](auto shape, const auto& cells)
     {
-      const bool makesWay = isSimplex(shape) || decltype(shape)::corners == 5; // a pyramid
-      for (const auto& cell : cells)
+      if constexpr (!isSimplex(shape) && !std::is_same_v<decltype(shape), shapes::Pyramid>)
       {
-        for (const Index vertex : cell)
+        for (const auto& cell : cells)
         {
-          held[vertex] = held[vertex] || !makesWay;
+          const bool isOfLayer = isThin(shape, cornersOf(cell, piece.points));
+          for (const Index vertex : cell)
+          {
+            held[vertex] = std::max(held[vertex], isOfLayer ? Hold::Everywhere : Hold::OnCAD);
+          }
         }
       }
     });
-  combineFlags(exchange, mesh.shared, held);
+  combineLargest(exchange, mesh.shared, held);
   return held;
 }
 
@@ -216,8 +235,7 @@ Region untangleRound(const Motion& motion, std::vector<unsigned char> flags,
   for (std::size_t v = 0; v < flags.size(); ++v)
   {
     const bool stays = wanted[v] != motion.moves.targets[v]; // stopped, and not to try again
-    flags[v] = flags[v] && !stays && !motion.isHeld(v) &&
-               (motion.isInterior(v) || (sliding && motion.canSlide(v)));
+    flags[v] = flags[v] && !stays && (motion.canMakeWay(v) || (sliding && motion.canSlide(v)));
   }
   const MovingVertices vertices{ std::move(flags), motion.classification.entities, wanted,
     motion.start, cells, fair };

@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
+#include <type_traits>
 #include <unordered_map>
 
 namespace cadrefine
@@ -49,37 +51,46 @@ LocalPatch makePatch(const Mesh& mesh, const MovingVertices& vertices, const Vec
     }
     return vertex;
   };
-  const auto add = [&](auto cell, auto& ofPatch)
+  const auto add = [&](auto simplex, bool keepsShape)
   {
-    if (std::any_of(cell.begin(), cell.end(), [&](Index v) { return vertices.free[v] != 0; }))
+    if (std::any_of(simplex.begin(), simplex.end(), [&](Index v) { return vertices.free[v] != 0; }))
     {
-      std::transform(cell.begin(), cell.end(), cell.begin(), patchVertex);
-      ofPatch.push_back(cell);
+      std::transform(simplex.begin(), simplex.end(), simplex.begin(), patchVertex);
+      if constexpr (simplex.size() == 4)
+      {
+        patch.mesh.tetrahedra.push_back(simplex);
+      }
+      else
+      {
+        patch.mesh.triangles.push_back(simplex);
+      }
+      patch.keepsShape.push_back(keepsShape);
     }
   };
-  if (mesh.dimension == 3)
-  {
-    for (const Index c : cellsOfShape(vertices.cells, 0, mesh.tetrahedra.size()))
+  std::size_t first = 0;
+  visitOwnShapes(mesh,
+    [&](auto shape, const auto& cells)
     {
-      add(mesh.tetrahedra[c], patch.mesh.tetrahedra);
-    }
-    for (const Index c : cellsOfShape(vertices.cells, mesh.tetrahedra.size(), mesh.pyramids.size()))
-    {
-      const auto& [a, b, d, e, apex] = mesh.pyramids[c];
-      for (const auto& tetrahedron :
-        { std::array{ a, b, e, apex }, { b, d, a, apex }, { d, e, b, apex }, { e, a, d, apex } })
+      for (const Index c : cellsOfShape(vertices.cells, first, cells.size()))
       {
-        add(tetrahedron, patch.mesh.tetrahedra);
+        if constexpr (isSimplex(shape))
+        {
+          add(cells[c], false);
+        }
+        else
+        {
+          constexpr bool isPyramid = std::is_same_v<decltype(shape), shapes::Pyramid>;
+          for (const auto& corners : decltype(shape)::cornerSimplices)
+          {
+            std::array<Index, decltype(shape)::dimension + 1> simplex;
+            std::transform(std::begin(corners), std::end(corners), simplex.begin(),
+              [&](int corner) { return cells[c][corner]; });
+            add(simplex, !isPyramid);
+          }
+        }
       }
-    }
-  }
-  else
-  {
-    for (const Index c : cellsOfShape(vertices.cells, 0, mesh.triangles.size()))
-    {
-      add(mesh.triangles[c], patch.mesh.triangles);
-    }
-  }
+      first += cells.size();
+    });
   return local;
 }
 
@@ -90,12 +101,14 @@ struct CellRecord
   std::array<Point3, 4> wanted{};
   std::array<Point3, 4> start{};
   std::array<unsigned char, 4> free{};
+  std::int64_t keepsShape = 0;
 };
 
 template<std::size_t Corners>
-CellRecord recordOf(const std::array<Index, Corners>& cell, const Patch& patch)
+CellRecord recordOf(const std::array<Index, Corners>& cell, bool keepsShape, const Patch& patch)
 {
   CellRecord record;
+  record.keepsShape = keepsShape;
   for (std::size_t k = 0; k < Corners; ++k)
   {
     const Index vertex = cell[k];
@@ -114,10 +127,10 @@ void collectRecords(const Cells<Corners>& cells, const Patch& patch,
   const std::vector<std::vector<int>>& neighboursOf, std::vector<std::vector<CellRecord>>& toOthers)
 {
   std::vector<int> receivers;
-  for (const auto& cell : cells)
+  for (std::size_t c = 0; c < cells.size(); ++c)
   {
     receivers.clear();
-    for (const Index vertex : cell)
+    for (const Index vertex : cells[c])
     {
       const auto& neighbours = neighboursOf[vertex];
       receivers.insert(receivers.end(), neighbours.begin(), neighbours.end());
@@ -125,7 +138,7 @@ void collectRecords(const Cells<Corners>& cells, const Patch& patch,
     sortUniquely(receivers);
     for (const int n : receivers)
     {
-      toOthers[n].push_back(recordOf(cell, patch));
+      toOthers[n].push_back(recordOf(cells[c], patch.keepsShape[c] != 0, patch));
     }
   }
 }
@@ -147,8 +160,8 @@ std::vector<std::vector<CellRecord>> cellsForOthers(
     }
   }
   std::vector<std::vector<CellRecord>> toOthers(shared.neighbours.size());
-  collectRecords(local.patch.mesh.tetrahedra, local.patch, neighboursOf, toOthers);
-  collectRecords(local.patch.mesh.triangles, local.patch, neighboursOf, toOthers);
+  visitOwnSimplices(local.patch.mesh,
+    [&](const auto& cells) { collectRecords(cells, local.patch, neighboursOf, toOthers); });
   return toOthers;
 }
 
@@ -188,6 +201,7 @@ void appendCells(const std::vector<std::vector<CellRecord>>& fromOthers, Patch& 
     for (const CellRecord& record : records)
     {
       visitOwnSimplices(patch.mesh, [&](auto& cells) { append(record, cells); });
+      patch.keepsShape.push_back(record.keepsShape != 0);
     }
   }
 }

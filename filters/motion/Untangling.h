@@ -33,9 +33,9 @@ struct VertexPlace
 /// sweeps of PatchOptimiser. Returns the places of this rank's free vertices, also of those at
 /// which it has no cell.
 ///
-///   1. Each rank takes its cells at free vertices, of a pyramid the tetrahedra at the corners of
-///      its base, which decide whether it is valid, and sends each neighbour those at free vertices
-///      that both hold, 232 bytes a cell.
+///   1. Each rank takes its cells at free vertices, of others than simplices the simplices at their
+///      corners (of a pyramid, at those of its base), which are to keep their shape, but for those
+///      of pyramids. It sends each neighbour those at free vertices that both hold, 240 bytes each.
 ///   2. The holders of the vertices of these patches are found (see findSharedVertices).
 ///   3. The sweeps: each costs a reduction, and for every time that vertices wait for other ranks
 ///      an exchange of 32 bytes a shared free vertex and one reduction; the chains are O(log n)

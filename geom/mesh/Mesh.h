@@ -85,7 +85,8 @@ constexpr int tetrahedronFaceEdges[4][3] = { { 3, 5, 4 }, { 2, 5, 1 }, { 0, 4, 2
 constexpr int triangleEdges[3][2] = { { 0, 1 }, { 1, 2 }, { 2, 0 } };
 
 /// The shapes of cells. Edges come in the order of VTK's mid nodes but for tetrahedra; faces with
-/// their normals outward, triangles with a fourth corner of -1.
+/// their normals outward, triangles with a fourth corner of -1. A corner's simplex is that of the
+/// edges at it, which is positive where the cell's Jacobian is; the corner comes first.
 namespace shapes
 {
 
@@ -120,6 +121,10 @@ struct Quadrilateral
   static constexpr int edges[4][2] = { { 0, 1 }, { 1, 2 }, { 2, 3 }, { 3, 0 } };
   /// Local edges of its quadrilaterals: here of itself.
   static constexpr int quadEdges[1][4] = { { 0, 1, 2, 3 } };
+  /// Its edges in each direction.
+  static constexpr int directions[2][2] = { { 0, 2 }, { 1, 3 } };
+  static constexpr int cornerSimplices[4][3] = { { 0, 1, 3 }, { 1, 2, 0 }, { 2, 3, 1 },
+    { 3, 0, 2 } };
 };
 
 struct Tetrahedron
@@ -142,6 +147,9 @@ struct Pyramid
   static constexpr int faces[5][4] = { { 0, 3, 2, 1 }, { 0, 1, 4, -1 }, { 1, 2, 4, -1 },
     { 2, 3, 4, -1 }, { 3, 0, 4, -1 } };
   static constexpr int quadEdges[1][4] = { { 3, 2, 1, 0 } };
+  /// At the corners of the base alone, which decide whether it is valid.
+  static constexpr int cornerSimplices[4][4] = { { 0, 1, 3, 4 }, { 1, 2, 0, 4 }, { 2, 3, 1, 4 },
+    { 3, 0, 2, 4 } };
 };
 
 struct Wedge
@@ -155,6 +163,8 @@ struct Wedge
     { 1, 2, 5, 4 }, { 2, 0, 3, 5 } };
   /// Local edges of its quadrilaterals: of faces 2, 3, 4.
   static constexpr int quadEdges[3][4] = { { 0, 7, 3, 6 }, { 1, 8, 4, 7 }, { 2, 6, 5, 8 } };
+  static constexpr int cornerSimplices[6][4] = { { 0, 1, 2, 3 }, { 1, 2, 0, 4 }, { 2, 0, 1, 5 },
+    { 3, 5, 4, 0 }, { 4, 3, 5, 1 }, { 5, 4, 3, 2 } };
 };
 
 struct Hexahedron
@@ -169,6 +179,10 @@ struct Hexahedron
   /// Edges of its faces, in the same order: opposite faces are 0 and 1, 2 and 4, 3 and 5.
   static constexpr int quadEdges[6][4] = { { 3, 2, 1, 0 }, { 4, 5, 6, 7 }, { 0, 9, 4, 8 },
     { 1, 10, 5, 9 }, { 2, 11, 6, 10 }, { 3, 8, 7, 11 } };
+  /// Its edges in each direction.
+  static constexpr int directions[3][4] = { { 0, 2, 4, 6 }, { 1, 3, 5, 7 }, { 8, 9, 10, 11 } };
+  static constexpr int cornerSimplices[8][4] = { { 0, 1, 3, 4 }, { 1, 2, 0, 5 }, { 2, 3, 1, 6 },
+    { 3, 0, 2, 7 }, { 4, 7, 5, 0 }, { 5, 4, 6, 1 }, { 6, 5, 7, 2 }, { 7, 6, 4, 3 } };
 };
 
 } // namespace shapes

@@ -131,8 +131,10 @@ void PatchOptimiser::prepare(const Cells<Corners>& cells)
   {
     sorted[c] = static_cast<Index>(c);
     keys.push_back(sortedIds(cells[c], patch_.mesh.ids));
-    sizes_.push_back(
-      equilateralMeasure(static_cast<int>(Corners) - 1, squaredLengths(cells[c], patch_.start)));
+    const double size = keepsShape(c) ? measure(cells[c], patch_.start) : 0;
+    sizes_.push_back(size > 0 ? size
+                              : equilateralMeasure(static_cast<int>(Corners) - 1,
+                                  squaredLengths(cells[c], patch_.start)));
     for (const Index vertex : cells[c])
     {
       ++firstOfStar_[vertex + 1];
@@ -162,15 +164,13 @@ Vector3 PatchOptimiser::normalAt(const std::array<Index, 3>& triangle) const
            : normalized(twofoldAreaVector(p[triangle[0]], p[triangle[1]], p[triangle[2]]));
 }
 
-double PatchOptimiser::measure(const std::array<Index, 4>& cell) const
+double PatchOptimiser::measure(const std::array<Index, 4>& cell, const std::vector<Point3>& p) const
 {
-  const auto& p = patch_.mesh.points;
   return sixfoldVolume(p[cell[0]], p[cell[1]], p[cell[2]], p[cell[3]]);
 }
 
-double PatchOptimiser::measure(const std::array<Index, 3>& cell) const
+double PatchOptimiser::measure(const std::array<Index, 3>& cell, const std::vector<Point3>& p) const
 {
-  const auto& p = patch_.mesh.points;
   return dot(normalAt(cell), twofoldAreaVector(p[cell[0]], p[cell[1]], p[cell[2]]));
 }
 
@@ -179,8 +179,8 @@ double PatchOptimiser::smallestMeasure() const
   double smallest = 1;
   for (std::size_t c = 0; c < sizes_.size(); ++c)
   {
-    const double size =
-      visitOwnSimplices(patch_.mesh, [&](const auto& cells) { return measure(cells[c]); });
+    const double size = visitOwnSimplices(
+      patch_.mesh, [&](const auto& cells) { return measure(cells[c], patch_.mesh.points); });
     smallest = sizes_[c] > 0 ? std::min(smallest, size / sizes_[c]) : smallest;
   }
   return smallest;
@@ -235,6 +235,7 @@ ShapeEnergy PatchOptimiser::energyAt(Index vertex) const
 {
   const Mesh& mesh = patch_.mesh;
   const auto& p = mesh.points;
+  const auto& reference = patch_.start;
   ShapeEnergy energy(mesh.dimension);
   for (std::size_t s = firstOfStar_[vertex]; s < firstOfStar_[vertex + 1]; ++s)
   {
@@ -245,13 +246,21 @@ ShapeEnergy PatchOptimiser::energyAt(Index vertex) const
       const auto& cell = mesh.tetrahedra[c];
       const auto& face = faceOppositeTo(vertex, cell);
       // The faces' normals point away from the vertex.
-      energy.addTetrahedron(p[cell[face[0]]], p[cell[face[2]]], p[cell[face[1]]], delta);
+      const auto& [i, k, j] = std::array{ cell[face[0]], cell[face[1]], cell[face[2]] };
+      keepsShape(c) ? energy.addTetrahedron(p[i], p[j], p[k], delta,
+                        { reference[i], reference[j], reference[k], reference[vertex] })
+                    : energy.addTetrahedron(p[i], p[j], p[k], delta);
     }
     else
     {
       const auto& cell = mesh.triangles[c];
-      const auto k = std::find(cell.begin(), cell.end(), vertex) - cell.begin();
-      energy.addTriangle(p[cell[(k + 1) % 3]], p[cell[(k + 2) % 3]], normalAt(cell), delta);
+      const auto place = std::find(cell.begin(), cell.end(), vertex) - cell.begin();
+      const Index i = cell[(place + 1) % 3];
+      const Index j = cell[(place + 2) % 3];
+      const Vector3 normal = normalAt(cell);
+      keepsShape(c) ? energy.addTriangle(p[i], p[j], normal, delta,
+                        { reference[i], reference[j], reference[vertex] })
+                    : energy.addTriangle(p[i], p[j], normal, delta);
     }
   }
   return energy;

@@ -17,11 +17,14 @@
 namespace cadrefine
 {
 
-/// Cells and what may be done with their vertices: an entry in each list for each vertex.
+/// Simplices and what may be done with their vertices: an entry in each list for each vertex.
 struct Patch
 {
-  Mesh mesh;                 ///< Points: where the vertices stand, or are to stand; may be tangled.
-  std::vector<Point3> start; ///< Where they stood in the mesh; gives the size of a cell.
+  Mesh mesh; ///< Points: where the vertices stand, or are to stand; may be tangled.
+  /// For each simplex 1: it is to keep the shape that it has in `start`, as the corner of a cell of
+  /// another shape; 0: it is to be equilateral. Empty: all are.
+  std::vector<unsigned char> keepsShape;
+  std::vector<Point3> start;           ///< Where they stood in the mesh; gives the size of a cell.
   std::vector<unsigned char> free;     ///< 1: it may move.
   std::vector<unsigned char> complete; ///< 1: all cells of the whole mesh round it are here.
   std::vector<EntityId> entities;      ///< The CAD entity to which a free vertex keeps.
@@ -57,8 +60,8 @@ public:
   explicit PatchOptimiser(Patch& patch, const BoundaryProjector* projector = nullptr,
     ParallelFor parallelFor = serialFor);
 
-  /// The smallest measure of a cell of the patch, 1 for the equilateral cell of its size in
-  /// `start`, negative where it is inverted. 1 where there are no cells.
+  /// The smallest measure of a cell of the patch, 1 for the cell of its size in `start` that has
+  /// the shape that it is to have, negative where it is inverted. 1 where there are no cells.
   double smallestMeasure() const;
 
   /// Begins a sweep, given the smallest measure over all ranks.
@@ -80,8 +83,12 @@ private:
     double limit = 0;
   };
 
-  double measure(const std::array<Index, 4>& cell) const;
-  double measure(const std::array<Index, 3>& cell) const;
+  bool keepsShape(std::size_t cell) const
+  {
+    return !patch_.keepsShape.empty() && patch_.keepsShape[cell];
+  }
+  double measure(const std::array<Index, 4>& cell, const std::vector<Point3>& points) const;
+  double measure(const std::array<Index, 3>& cell, const std::vector<Point3>& points) const;
   Vector3 normalAt(const std::array<Index, 3>& triangle) const;
   template<std::size_t Corners>
   void prepare(const Cells<Corners>& cells);
@@ -102,7 +109,8 @@ private:
   Patch& patch_;
   const BoundaryProjector* projector_;
   ParallelFor parallelFor_;
-  std::vector<double> sizes_; ///< Measure of the equilateral cell of each cell's size in `start`.
+  /// Measure of the cell of each cell's size in `start` that has the shape that it is to have.
+  std::vector<double> sizes_;
   std::vector<std::size_t> firstOfStar_; ///< Cells round vertex v: from firstOfStar_[v] on.
   std::vector<Index> stars_;
   std::vector<Boundary> boundaries_; ///< The boundary at each free vertex on the CAD.

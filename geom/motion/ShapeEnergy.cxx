@@ -126,12 +126,49 @@ void ShapeEnergy::addTriangle(const Point3& a, const Point3& b, const Vector3& n
   terms_.push_back({ { a, b, {} }, squaredNorm(b - a), cross(normal, b - a), delta });
 }
 
+/// L is the sum of the squared edges by weights -n_i . n_j, n_i the gradient of the barycentric
+/// coordinate of corner i in the reference: the squared Frobenius norm of the map, up to a factor.
+void ShapeEnergy::addTetrahedron(const Point3& a, const Point3& b, const Point3& c, double delta,
+  const std::array<Point3, 4>& reference)
+{
+  const auto& [o, p, q, r] = reference;
+  const double size = sixfoldVolume(o, p, q, r);
+  if (!(size > 0))
+  {
+    return addTetrahedron(a, b, c, delta);
+  }
+  const std::array<Vector3, 4> slopes{ twofoldAreaVector(p, r, q), twofoldAreaVector(o, q, r),
+    twofoldAreaVector(o, r, p), twofoldAreaVector(o, p, q) };
+  const double factor = std::pow(size, powerOf(3) - 2) / (3 * scaleOf(3));
+  const auto weight = [&](int i, int j) { return -factor * dot(slopes[i], slopes[j]); };
+  terms_.push_back({ { a, b, c },
+    weight(0, 1) * squaredNorm(b - a) + weight(1, 2) * squaredNorm(c - b) +
+      weight(0, 2) * squaredNorm(c - a),
+    twofoldAreaVector(a, b, c), delta, { weight(0, 3), weight(1, 3), weight(2, 3) } });
+}
+
+void ShapeEnergy::addTriangle(const Point3& a, const Point3& b, const Vector3& normal, double delta,
+  const std::array<Point3, 3>& reference)
+{
+  const auto& [o, p, q] = reference;
+  const double size = dot(normal, twofoldAreaVector(o, p, q));
+  if (!(size > 0))
+  {
+    return addTriangle(a, b, normal, delta);
+  }
+  const std::array<Vector3, 3> opposite{ q - p, o - q, p - o };
+  const auto weight = [&, factor = 1 / (2 * scaleOf(2) * size)](int i, int j)
+  { return -factor * dot(opposite[i], opposite[j]); };
+  terms_.push_back({ { a, b, {} }, weight(0, 1) * squaredNorm(b - a), cross(normal, b - a), delta,
+    { weight(0, 2), weight(1, 2), 0 } });
+}
+
 double ShapeEnergy::lengths(const Term& term, const Point3& x) const
 {
   double sum = term.otherLengths;
   for (int k = 0; k < dimension_; ++k)
   {
-    sum += squaredNorm(x - term.others[k]);
+    sum += term.weights[k] * squaredNorm(x - term.others[k]);
   }
   return sum;
 }
@@ -189,9 +226,11 @@ ShapeEnergy::Derivatives ShapeEnergy::derivativesAt(const Point3& x) const
     const double length = lengths(term, x);
     const double eta = inverseRatio(dimension_, length, regularised(s, term.delta));
     Vector3 lengthSlope{};
+    double weights = 0;
     for (int k = 0; k < dimension_; ++k)
     {
-      lengthSlope = lengthSlope + 2.0 * (x - term.others[k]);
+      lengthSlope = lengthSlope + 2.0 * term.weights[k] * (x - term.others[k]);
+      weights += term.weights[k];
     }
     const Vector3 ofLength = (1 / length) * lengthSlope;
     const Vector3 ofMeasure = (1 / r) * term.slope; // no powers of r, which overflow
@@ -200,7 +239,7 @@ ShapeEnergy::Derivatives ShapeEnergy::derivativesAt(const Point3& x) const
     for (int i = 0; i < 3; ++i)
     {
       sum.gradient[i] += factor * slope[i];
-      sum.hessian[i][i] += factor * 2 * dimension_ / length;
+      sum.hessian[i][i] += factor * 2 * weights / length;
       for (int j = 0; j < 3; ++j)
       {
         sum.hessian[i][j] += factor * (exponent_ * slope[i] * slope[j] - ofLength[i] * ofLength[j] +

@@ -28,7 +28,10 @@ struct Directions
 ///     eta = L(x) / h(s(x))^p,     h(s) = (s + sqrt(s^2 + 4 delta^2)) / 2,
 ///
 /// with L the sum of a cell's squared edge lengths and s its signed measure, both scaled so that
-/// eta is 1 for an equilateral cell; p is 2/3 for tetrahedra, 1 for triangles. With delta = 0 it is
+/// eta is 1 for an equilateral cell; p is 2/3 for tetrahedra, 1 for triangles. A simplex that is to
+/// keep the shape of a reference is measured in the same way against this: with weights in L that
+/// make eta the squared norm of the map from the reference, over its determinant to the power p,
+/// which is 1 where the map is a scaled rotation. With delta = 0 it is
 /// infinite where a cell is inverted or flat; with delta > 0 it is finite and smooth, and inverted
 /// cells pull x to where they are valid (J. M. Escobar, E. Rodriguez, R. Montenegro, G. Montero,
 /// J. M. Gonzalez-Yuste, "Simultaneous untangling and smoothing of tetrahedral meshes", CMAME 192,
@@ -44,6 +47,12 @@ public:
   void addTetrahedron(const Point3& a, const Point3& b, const Point3& c, double delta);
   /// Adds a triangle (a, b, x), seen from the end of the unit vector `normal`.
   void addTriangle(const Point3& a, const Point3& b, const Vector3& normal, double delta);
+  /// Adds simplices that are to have the shape of `reference`, in the same order, x last. Against a
+  /// reference that is inverted or flat they are to be equilateral.
+  void addTetrahedron(const Point3& a, const Point3& b, const Point3& c, double delta,
+    const std::array<Point3, 4>& reference);
+  void addTriangle(const Point3& a, const Point3& b, const Vector3& normal, double delta,
+    const std::array<Point3, 3>& reference);
 
   double at(const Point3& x) const;
   /// The largest regularised inverse mean ratio of a cell with the vertex at x.
@@ -61,9 +70,10 @@ private:
   struct Term
   {
     std::array<Point3, 3> others;
-    double otherLengths = 0; ///< Squared lengths of the edges away from x.
+    double otherLengths = 0; ///< Squared lengths of the edges away from x, by their weights.
     Vector3 slope{};         ///< s = slope . (x - others[0]).
     double delta = 0;
+    std::array<double, 3> weights{ 1, 1, 1 }; ///< Of the squared lengths of the edges at x.
   };
   struct Derivatives
   {

@@ -1,6 +1,7 @@
 #include <cadrefine/refinement/LongestEdgeMarking.h>
 
 #include <cadrefine/base/DisjointSets.h>
+#include <cadrefine/mesh/ThinCells.h>
 
 #include <algorithm>
 
@@ -35,36 +36,24 @@ constexpr LocalTriangle wedgeTriangles[2] = { { 0, 1, 2 }, { 3, 4, 5 } };
 constexpr LocalTriangle pyramidTriangles[4] = { { 0, 5, 4 }, { 1, 6, 5 }, { 2, 7, 6 },
   { 3, 4, 7 } };
 
-/// The edges of a hexahedron in each of its directions.
-constexpr int hexahedronDirections[3][4] = { { 0, 2, 4, 6 }, { 1, 3, 5, 7 }, { 8, 9, 10, 11 } };
 /// Pairs of edges that lie over each other, seen along each direction.
 constexpr int hexahedronPairs[3][4][2] = { { { 3, 1 }, { 7, 5 }, { 8, 9 }, { 11, 10 } },
   { { 0, 2 }, { 4, 6 }, { 8, 11 }, { 9, 10 } }, { { 0, 4 }, { 1, 5 }, { 2, 6 }, { 3, 7 } } };
-constexpr int quadrilateralDirections[2][2] = { { 0, 2 }, { 1, 3 } };
 
-/// The direction in which a cell is less than half as long as in each other one, or -1.
+/// The direction in which a cell is thin, or -1.
 template<std::size_t Edges, std::size_t Directions, std::size_t Parallel>
 int thinDirection(const EdgeTable& table, const std::array<Index, Edges>& edges,
   const int (&directions)[Directions][Parallel])
 {
-  constexpr double thin = 4; // squares
-  std::array<double, Directions> sums{};
+  std::array<double, Directions> meanSquares{};
   for (std::size_t d = 0; d < Directions; ++d)
   {
     for (const int edge : directions[d])
     {
-      sums[d] += table.squaredLengths[edges[edge]];
+      meanSquares[d] += table.squaredLengths[edges[edge]] / Parallel;
     }
   }
-  const auto least = std::min_element(sums.begin(), sums.end()) - sums.begin();
-  for (std::size_t d = 0; d < Directions; ++d)
-  {
-    if (static_cast<std::ptrdiff_t>(d) != least && thin * sums[least] >= sums[d])
-    {
-      return -1;
-    }
-  }
-  return static_cast<int>(least);
+  return cadrefine::thinDirection(meanSquares);
 }
 
 /// Marks all edges of a marked cell, except those in the direction in which it is thin if layers
@@ -103,11 +92,11 @@ void markLongestEdges(const Mesh& mesh, const EdgeTable& table,
         }
         if constexpr (corners == shapes::Hexahedron::corners)
         {
-          markAcross(table, edgesOf[c], hexahedronDirections, keepLayers, marks);
+          markAcross(table, edgesOf[c], shapes::Hexahedron::directions, keepLayers, marks);
         }
         else if constexpr (corners == 4 && decltype(shape)::dimension == 2)
         {
-          markAcross(table, edgesOf[c], quadrilateralDirections, keepLayers, marks);
+          markAcross(table, edgesOf[c], shapes::Quadrilateral::directions, keepLayers, marks);
         }
         else if constexpr (corners == shapes::Wedge::corners)
         {
@@ -331,7 +320,7 @@ void MarkClosure::lookAt(const std::array<Index, 12>& hexahedron)
 {
   if (keepLayers_ && isPartlyMarked(marks_, hexahedron))
   {
-    const int thin = thinDirection(table_, hexahedron, hexahedronDirections);
+    const int thin = thinDirection(table_, hexahedron, shapes::Hexahedron::directions);
     for (int k = 0; thin >= 0 && k < 4; ++k)
     {
       const auto& [edge, over] = hexahedronPairs[thin][k];
@@ -345,7 +334,7 @@ void MarkClosure::lookAt(const std::array<Index, 4>& quadrilateral)
 {
   if (keepLayers_ && dimension_ == 2 && isPartlyMarked(marks_, quadrilateral))
   {
-    const int thin = thinDirection(table_, quadrilateral, quadrilateralDirections);
+    const int thin = thinDirection(table_, quadrilateral, shapes::Quadrilateral::directions);
     if (thin >= 0)
     {
       markTogether(quadrilateral[1 - thin], quadrilateral[3 - thin]);

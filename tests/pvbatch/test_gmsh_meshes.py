@@ -315,6 +315,24 @@ class GmshMeshes(driver.Case):
         self.assertEqual(len(meshio.read(self.path("mesh.msh")).cells_dict["hexahedron"]), 12)
         self.expect_on_cad(3.9)
 
+    def test_cells_swept_round_a_bend(self):
+        """The CAD bulges over them by a quarter of their thickness, and by as much on the other side of the pipe."""
+        occ = gmsh.model.occ
+
+        def bend(**options):
+            ring = occ.cut([(2, occ.addDisk(2, 0, 0, 0.5, 0.5))], [(2, occ.addDisk(2, 0, 0, 0.2, 0.2))])[0]
+            occ.revolve(ring, 0, 0, 0, 0, 1, 0, np.pi / 2, **options)
+
+        def of_cells(recombined):
+            bend(numElements=[6], recombine=True)
+            gmsh.option.setNumber("Mesh.RecombineAll", recombined)
+
+        for recombined, shape in ((1, "hexahedron"), (0, "wedge")):
+            self.generate(3, bend, lambda recombined=recombined: of_cells(recombined), 0.1)
+            self.assertEqual(list(meshio.read(self.path("mesh.msh")).cells_dict)[-1], shape)
+            steps = self.expect_on_cad(3.6)["steps"]
+            self.assertGreater(steps[-1]["minimum_quality"], 0.75 * steps[0]["minimum_quality"])
+
     def test_one_cell_high(self):
         """Wedges on either side of an interface that is in the CAD, which is listed either way round: all of its
         vertices are on the CAD's edges."""

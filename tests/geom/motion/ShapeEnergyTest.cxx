@@ -117,6 +117,48 @@ TEST_P(OneCell, isLowestWhereTheCellIsEquilateral)
   }
 }
 
+/// With the side in place, the map from a reference is a shear that moves the apex: its squared
+/// Frobenius norm is d + 2 v . w + |v|^2 |w|^2, its determinant 1 + v . w, where v is how far the
+/// apex is from that of the reference, and w the normal of the side over the reference's height.
+TEST_P(OneCell, keepsTheShapeOfAReference)
+{
+  const int d = GetParam();
+  for (const double heights : { 0.02, 0.5, 30.0 })
+  {
+    const Point3 reference = apex(heights) + Vector3{ 0.4, 0, 0 };
+    ShapeEnergy of(d);
+    if (d == 3)
+    {
+      of.addTetrahedron(a, b, c, 0, { a, b, c, reference });
+    }
+    else
+    {
+      of.addTriangle(a, b, up, 0, { a, b, reference });
+    }
+    EXPECT_NEAR(of.at(reference), 1, 1e-12);
+    const Vector3 normal = d == 3 ? Vector3{ 0, 0, 1 } : Vector3{ 0, 1, 0 };
+    const Vector3 w = (1 / dot(normal, reference - a)) * normal;
+    for (const double part : { 0.3, 1.0, 4.0 })
+    {
+      const Point3 x = apex(part * heights) - Vector3{ 0.2, 0, 0 };
+      const Vector3 v = x - reference;
+      const double eta = (d + 2 * dot(v, w) + squaredNorm(v) * squaredNorm(w)) /
+                         (d * std::pow(1 + dot(v, w), 2.0 / d));
+      EXPECT_NEAR(of.at(x), eta * eta, 1e-11 * eta * eta) << heights << ' ' << part;
+    }
+    EXPECT_LT(distance(minimised(apex(2 * heights), of), reference), 1e-6 * (1 + heights));
+  }
+}
+
+TEST_P(OneCell, isToBeEquilateralAgainstAFlatReference)
+{
+  ShapeEnergy of(GetParam());
+  GetParam() == 3 ? of.addTetrahedron(a, b, c, 0, { a, b, c, apex(-0.1) })
+                  : of.addTriangle(a, b, up, 0, { a, b, apex(0) });
+  const Point3 x = apex(0.7);
+  EXPECT_EQ(of.at(x), energy(0).at(x));
+}
+
 /// As far as squares of volumes are numbers.
 TEST_P(OneCell, scalesWithItsSize)
 {
