@@ -8,10 +8,8 @@ namespace cadrefine
 {
 
 ColumnClimb::ColumnClimb(const DistributedMesh& mesh, const CellStacks& stacks,
-  const ColumnNodes& nodes, const Moves& moves, const std::vector<unsigned char>& onInnerWalls,
-  bool onSurface)
-  : mesh_(mesh), nodes_(nodes), stacks_(stacks), moves_(moves), onInnerWalls_(onInnerWalls),
-    onSurface_(onSurface)
+  const ColumnNodes& nodes, const Moves& moves, const InnerWalls& walls, bool onSurface)
+  : mesh_(mesh), nodes_(nodes), stacks_(stacks), moves_(moves), walls_(walls), onSurface_(onSurface)
 {
   for (const Index vertex : mesh.shared.all)
   {
@@ -88,9 +86,10 @@ void ColumnClimb::climb(Facet side, Front front)
 
 bool ColumnClimb::endsAt(const Facet& side, Index node) const
 {
-  return (onSurface_ || moves_.fractions[node] > 0) &&
-         std::all_of(
-           side.begin(), side.end(), [&](Index vertex) { return onInnerWalls_[vertex] != 0; });
+  const auto isOf = [&](const std::vector<unsigned char>& wall) {
+    return std::all_of(side.begin(), side.end(), [&](Index vertex) { return wall[vertex] != 0; });
+  };
+  return isOf(walls_.staying) || ((onSurface_ || moves_.fractions[node] > 0) && isOf(walls_.onCAD));
 }
 
 void ColumnClimb::goBeyond(const Facet& side, const Front& front)

@@ -42,6 +42,13 @@ struct ColumnNodes
   }
 };
 
+/// Walls inside a mesh, at which columns end: for each vertex 1 where it is of one, over all ranks.
+struct InnerWalls
+{
+  std::vector<unsigned char> onCAD;   ///< Columns end there on a surface, else where a node moves.
+  std::vector<unsigned char> staying; ///< Off the CAD and not beside it, as layers' ends are.
+};
+
 /// A node that a column comes to, and its height above the wall.
 struct ColumnVisit
 {
@@ -55,10 +62,8 @@ struct ColumnVisit
 class ColumnClimb
 {
 public:
-  /// `onInnerWalls`: 1 for vertices of walls inside the mesh, over all ranks. Columns end at such
-  /// walls, on a surface at each, else where a node of theirs moves itself.
   ColumnClimb(const DistributedMesh& mesh, const CellStacks& stacks, const ColumnNodes& nodes,
-    const Moves& moves, const std::vector<unsigned char>& onInnerWalls, bool onSurface);
+    const Moves& moves, const InnerWalls& walls, bool onSurface);
 
   /// Starts columns that stand on this node of a facet (see ColumnNodes::at), on both sides of it,
   /// on a surface in the facet's own cell, and end at the height `reach`; none where the first cell
@@ -94,7 +99,7 @@ private:
   const ColumnNodes& nodes_;
   const CellStacks& stacks_;
   const Moves& moves_;
-  const std::vector<unsigned char>& onInnerWalls_;
+  const InnerWalls& walls_;
   bool onSurface_;
   std::vector<std::pair<GlobalId, Index>> vertexOf_; ///< Shared vertices by their ids, ascending.
   std::vector<std::vector<Front>> outgoing_;

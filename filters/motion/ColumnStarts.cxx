@@ -1,5 +1,6 @@
 #include "motion/ColumnStarts.h"
 
+#include "comm/CollectiveErrors.h"
 #include "mesh/BoundaryFacets.h"
 
 #include <cadrefine/classification/ClassificationTolerances.h>
@@ -51,25 +52,44 @@ std::vector<Facet> findSidesOnEdges(const Columns& columns)
   return sides;
 }
 
-/// 1 for vertices of facets between two cells all of whose nodes are on the CAD. Collective.
-std::vector<unsigned char> findInnerWalls(RankExchange& exchange, const Columns& columns)
+/// The walls inside the mesh, facets between two cells: on the CAD, or not even beside it. A wall
+/// of the latter kind stays, and counts as an outer one from then on. Collective.
+InnerWalls findInnerWalls(RankExchange& exchange, Columns& columns)
 {
   const ColumnNodes& nodes = columns.nodes;
-  std::vector<unsigned char> flags(columns.mesh.mesh().points.size(), 0);
-  for (const Facet& facet : columns.facets)
+  const Mesh& mesh = columns.mesh.mesh();
+  InnerWalls walls{ std::vector<unsigned char>(mesh.points.size(), 0),
+    std::vector<unsigned char>(mesh.points.size(), 0) };
+  const auto look = [&](Facet& facet)
   {
-    bool isWall = facet.isInside;
-    for (int k = 0; k < nodes.count(facet) && isWall; ++k)
+    bool isOnCAD = true;
+    for (int k = 0; k < nodes.count(facet) && isOnCAD; ++k)
     {
-      isWall = static_cast<bool>(nodes.entities[nodes.at(facet, k)]);
+      isOnCAD = static_cast<bool>(nodes.entities[nodes.at(facet, k)]);
     }
+    const bool stays =
+      !isOnCAD && !columns.projector.isBesideCAD(pointsOf(mesh, facet), facet.corners());
     for (const Index vertex : facet)
     {
-      flags[vertex] = flags[vertex] || isWall;
+      walls.onCAD[vertex] = walls.onCAD[vertex] || isOnCAD;
+      walls.staying[vertex] = walls.staying[vertex] || stays;
     }
-  }
-  combineFlags(exchange, columns.mesh.shared, flags);
-  return flags;
+    facet.isInside = !stays;
+  };
+  agreeOnFailure(exchange,
+    [&]
+    {
+      for (Facet& facet : columns.facets)
+      {
+        if (facet.isInside)
+        {
+          look(facet);
+        }
+      }
+    });
+  combineFlags(exchange, columns.mesh.shared, walls.onCAD);
+  combineFlags(exchange, columns.mesh.shared, walls.staying);
+  return walls;
 }
 
 std::array<GlobalId, 4> sortedIdsOf(const Mesh& mesh, const Facet& facet)
@@ -114,8 +134,8 @@ ColumnStarts startColumns(RankExchange& exchange, const Moves& moves,
   columns.facets = columns.onSurface() ? findSidesOnEdges(columns)
                                        : findBoundaryFacets(exchange, columns.mesh, fixed);
   const auto best = findBestFacets(exchange, columns, moves);
-  const auto onInnerWalls = findInnerWalls(exchange, columns);
-  ColumnClimb climb(columns.mesh, stacks, nodes, moves, onInnerWalls, columns.onSurface());
+  const InnerWalls walls = findInnerWalls(exchange, columns);
+  ColumnClimb climb(columns.mesh, stacks, nodes, moves, walls, columns.onSurface());
   for (const Facet& facet : columns.facets)
   {
     for (int k = 0; k < nodes.count(facet); ++k)

@@ -23,9 +23,13 @@ inline Vector3 twofoldAreaVector(const std::array<Point3, 4>& p, int corners)
   return corners == 4 ? cross(p[2] - p[0], p[3] - p[1]) : twofoldAreaVector(p[0], p[1], p[2]);
 }
 
-/// The mean of the first `corners` points.
+/// The mean of the first `corners` points, of which there are 2 to 4.
 inline Point3 centroidOf(const std::array<Point3, 4>& p, int corners)
 {
+  if (corners == 2)
+  {
+    return 0.5 * (p[0] + p[1]);
+  }
   return corners == 4 ? 0.25 * (p[0] + p[1] + p[2] + p[3]) : (1.0 / 3.0) * (p[0] + p[1] + p[2]);
 }
 

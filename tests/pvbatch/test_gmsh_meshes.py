@@ -15,10 +15,10 @@ import numpy as np
 RANKS = int(sys.argv.pop()) if sys.argv[-1].isdigit() else 1
 
 
-def facets_in(mesh, axis, place, tolerance):
-    """The triangles in a plane across the axis."""
-    triangles = mesh.cells_dict["triangle"]
-    return triangles[(np.abs(mesh.points[:, axis] - place) < tolerance)[triangles].all(axis=1)]
+def facets_in(mesh, axis, place, tolerance, shape="triangle"):
+    """The facets of this shape in a plane across the axis."""
+    facets = mesh.cells_dict[shape]
+    return facets[(np.abs(mesh.points[:, axis] - place) < tolerance)[facets].all(axis=1)]
 
 
 class GmshMeshes(driver.Case):
@@ -230,16 +230,18 @@ class GmshMeshes(driver.Case):
         self.expect_planes(2, (0, 1, 2))
         self.expect_on_cad(3.5)
 
-    def expect_planes(self, axis, places):
-        """After one level, these planes of the mesh have their vertices and the midpoints of their edges."""
+    def expect_planes(self, axis, places, shape="triangle"):
+        """After one level, these planes of the mesh have their vertices, the midpoints of their edges and, in
+        quadrilaterals, one more."""
         run = driver.Run(RANKS, self.path("mesh.msh"), self.path("cad.brep"), "--method", "uniform", "--steps", "1",
                          "--output", self.path("fine.vtu"))
         self.assertEqual(run.status, 0)
         coarse, fine = (meshio.read(self.path(name)) for name in ("mesh.msh", "fine.vtu"))
         for place in places:
-            facets = facets_in(coarse, axis, place, 1e-9)
-            edges = {tuple(sorted((facet[k - 1], facet[k]))) for facet in facets for k in range(3)}
-            self.assertEqual(len(np.unique(facets_in(fine, axis, place, 1e-12))), len(np.unique(facets)) + len(edges))
+            facets = facets_in(coarse, axis, place, 1e-9, shape)
+            edges = {tuple(sorted((facet[k - 1], facet[k]))) for facet in facets for k in range(len(facet))}
+            vertices = len(np.unique(facets)) + len(edges) + (len(facets) if shape == "quad" else 0)
+            self.assertEqual(len(np.unique(facets_in(fine, axis, place, 1e-12, shape))), vertices)
 
     def test_layers_beside_the_end_of_a_body(self):
         """Planes of symmetry, which the ends of a solid cylinder continue. The lines of the layers lean, so that facets
@@ -332,6 +334,20 @@ class GmshMeshes(driver.Case):
             self.assertEqual(list(meshio.read(self.path("mesh.msh")).cells_dict)[-1], shape)
             steps = self.expect_on_cad(3.6)["steps"]
             self.assertGreater(steps[-1]["minimum_quality"], 0.75 * steps[0]["minimum_quality"])
+
+    def test_flat_interface_between_hexahedra(self):
+        """Columns from the wall end at it, as it is not in the CAD."""
+        occ = gmsh.model.occ
+
+        def with_interface():
+            halves = [(2, occ.addRectangle(-2, *side)) for side in ((-2, 0, 4, 2.8), (0.8, 0, 4, 1.2))]
+            pieces = occ.cut(occ.fragment(halves[:1], halves[1:])[0], [(2, occ.addDisk(0, 0, 0, 0.5, 0.5))])[0]
+            occ.extrude(pieces, 0, 0, 1, numElements=[3], recombine=True)
+            gmsh.option.setNumber("Mesh.RecombineAll", 1)
+
+        self.generate(3, lambda: occ.extrude([(1, occ.addCircle(0, 0, 0, 0.5))], 0, 0, 1), with_interface, 0.3)
+        self.expect_planes(1, (0.8,), "quad")
+        self.expect_on_cad(3.6)
 
     def test_one_cell_high(self):
         """Wedges on either side of an interface that is in the CAD, which is listed either way round: all of its
