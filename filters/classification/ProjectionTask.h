@@ -30,6 +30,8 @@ struct ProjectionOptions
   bool mendCells = false;
   /// The minimum of improveMesh; none: no local operations.
   std::optional<double> minimumQuality;
+  /// 1 for vertices that make no way (see verticesBetweenTags); empty: all may.
+  std::vector<unsigned char> held = {};
 
   bool inRegion(const Point3& p) const
   {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "comm/RankExchange.h"
+#include "mesh/DistributedMesh.h"
 
 #include <cadrefine/base/MeshTypes.h>
 #include <cadrefine/mesh/Mesh.h>
@@ -43,6 +44,12 @@ std::vector<std::uint64_t> findNumberings(
 /// same for cells with the same tags, on whatever rank.
 std::vector<std::uint64_t> tagHashesOf(
   vtkCellData* data, const CellRange& cells, const std::vector<std::uint64_t>& numberings);
+
+/// 1 for vertices that separate what is tagged, given hashes of the tags of the cells of the mesh's
+/// own dimension: those between cells of different tags, of listed lines in a mesh of volume, and
+/// listed points; over all ranks. Collective.
+std::vector<unsigned char> verticesBetweenTags(
+  RankExchange& exchange, const DistributedMesh& mesh, const std::vector<std::uint64_t>& tags);
 
 /// For each cell of the range a number, from 0 on, that is the same for cells of this rank with the
 /// same hash (see tagHashesOf).

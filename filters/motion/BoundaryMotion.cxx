@@ -388,6 +388,15 @@ void record(const Motion& motion, Classification& classification)
 
 } // namespace
 
+std::vector<unsigned char> withHeld(
+  std::vector<unsigned char> onBoundary, const std::vector<unsigned char>& held)
+{
+  std::transform(onBoundary.begin(), onBoundary.end(), held.begin(), onBoundary.begin(),
+    [](unsigned char on, unsigned char isHeld) -> unsigned char
+    { return on ? on : (isHeld ? 2 : 0); });
+  return onBoundary;
+}
+
 void moveOntoCAD(RankExchange& exchange, DistributedMesh& mesh, Moves moves,
   Classification& classification, const MoveSettings& settings)
 {

@@ -33,6 +33,10 @@ struct MoveSettings
   const std::vector<std::array<Index, 2>>* parents = nullptr;
 };
 
+/// The flags of MoveSettings::fixed, given those of the boundary and 1 for others that are held.
+std::vector<unsigned char> withHeld(
+  std::vector<unsigned char> onBoundary, const std::vector<unsigned char>& held);
+
 /// Moves the vertices of `moves` as far to their targets as all cells stay valid, on all ranks;
 /// writes the new positions into the mesh, and the distances that are left into the classification.
 ///

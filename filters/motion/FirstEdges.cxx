@@ -105,7 +105,7 @@ std::vector<FirstEdge> findFirstEdges(RankExchange& exchange, const CellStacks& 
       const Index node = nodes.at(facet, k);
       const Index first = nodes.at(above, k);
       const Vector3 up = nodes.points[first] - nodes.points[node];
-      edges[node] = shorter(edges[node], { up, norm(up), onBoundary[first] != 0, up });
+      edges[node] = shorter(edges[node], { up, norm(up), onBoundary[first] == 1, up });
     }
   }
   combineShared(exchange, nodes.shared, edges, shorter);

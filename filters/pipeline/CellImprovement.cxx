@@ -1,5 +1,6 @@
 #include "pipeline/CellImprovement.h"
 
+#include "fields/CellTags.h"
 #include "mesh/MeshPlane.h"
 #include "motion/BoundaryMotion.h"
 #include "pipeline/LocalOperations.h"
@@ -336,11 +337,12 @@ private:
     {
       return;
     }
-    const std::vector<unsigned char> onBoundary = onBoundaryOf(context_, state_);
+    const auto fixed = withHeld(onBoundaryOf(context_, state_),
+      verticesBetweenTags(exchange_, state_.mesh, tagsOfCells(exchange_, state_)));
     const std::vector<Point3> before = pointsToKeep(state_);
     Moves moves = movesOntoCAD(mesh(), projector_, classification);
     moveOntoCAD(exchange_, state_.mesh, std::move(moves), classification,
-      { projector_, onBoundary, false, true, smoothWorst });
+      { projector_, fixed, false, true, smoothWorst });
     meshHasChanged(state_);
     scaleDensities(exchange_, state_, before);
   }

@@ -71,6 +71,15 @@ void findNumberings(RankExchange& exchange, MeshState& state)
   }
 }
 
+std::vector<std::uint64_t> tagsOfCells(RankExchange& exchange, MeshState& state)
+{
+  const Mesh& mesh = state.mesh.mesh();
+  findNumberings(exchange, state);
+  return state.numberings
+           ? tagHashesOf(state.arrays.ofCells, cellsOf(mesh, mesh.dimension), *state.numberings)
+           : std::vector<std::uint64_t>{};
+}
+
 std::int64_t operateOnMesh(const PipelineContext& context, MeshState& state,
   const std::vector<unsigned char>& flags, const BlockSettings& settings, const BlockWork& work)
 {

@@ -14,6 +14,9 @@ namespace cadrefine
 /// changes. See findNumberings of fields/CellTags.h. Collective.
 void findNumberings(RankExchange& exchange, MeshState& state);
 
+/// Hashes of the tags of the cells of the mesh's own dimension (see tagHashesOf). Collective.
+std::vector<std::uint64_t> tagsOfCells(RankExchange& exchange, MeshState& state);
+
 /// Does `work` with blocks of the cells round flagged vertices (1; see findOperationBlocks), which
 /// are brought to one rank each, and takes arrays and classification along. Cells and listed
 /// triangles are told apart by their tags (see labelsOf). The mesh must be classified. Returns the

@@ -33,46 +33,10 @@ struct Projection
   Fit fit;
 };
 
-/// Vertices of this rank, inside the mesh, between cells of different tags. Collective.
-std::vector<Index> verticesBetweenTags(RankExchange& exchange, MeshState& state)
-{
-  const Mesh& mesh = state.mesh.mesh();
-  findNumberings(exchange, state);
-  const auto tags =
-    tagHashesOf(state.arrays.ofCells, cellsOf(mesh, mesh.dimension), *state.numberings);
-  if (!exchange.any(
-        std::any_of(tags.begin(), tags.end(), [](std::uint64_t tag) { return tag != 0; })))
-  {
-    return {};
-  }
-  std::vector<std::uint64_t> smallest(
-    mesh.points.size(), std::numeric_limits<std::uint64_t>::max());
-  std::vector<std::uint64_t> largest(mesh.points.size(), 0);
-  auto tag = tags.begin();
-  visitOwnShapes(mesh,
-    [&](auto, const auto& cells)
-    {
-      for (const auto& cell : cells)
-      {
-        for (const Index v : cell)
-        {
-          smallest[v] = std::min(smallest[v], *tag);
-          largest[v] = std::max(largest[v], *tag);
-        }
-        ++tag;
-      }
-    });
-  combineSmallest(exchange, state.mesh.shared, smallest);
-  combineLargest(exchange, state.mesh.shared, largest);
-  const auto owned = state.mesh.shared.ownedHere(static_cast<Index>(mesh.points.size()));
-  return indicesWhere(mesh.points.size(),
-    [&](std::size_t v) { return owned[v] && !state.onBoundary[v] && smallest[v] < largest[v]; });
-}
-
 /// Warns where cells of different tags meet on curved CAD faces (of a planar mesh: edges), but the
 /// mesh lists no cells between them: there its vertices and facets are not taken for those of the
 /// CAD. Looks at about a thousand vertices at most. Collective.
-void warnOfUnlistedInterface(const PipelineContext& context, MeshState& state,
+void warnOfUnlistedInterface(const PipelineContext& context, const MeshState& state,
   const BoundaryProjector& projector, const ProjectionOptions& options)
 {
   constexpr std::int64_t most = 1000;
@@ -81,7 +45,9 @@ void warnOfUnlistedInterface(const PipelineContext& context, MeshState& state,
   constexpr std::int64_t fewest = 3;
   const CADModel& model = context.model;
   const Mesh& mesh = state.mesh.mesh();
-  const auto vertices = verticesBetweenTags(context.exchange, state);
+  const auto owned = state.mesh.shared.ownedHere(static_cast<Index>(mesh.points.size()));
+  const auto vertices = indicesWhere(mesh.points.size(),
+    [&](std::size_t v) { return owned[v] && !state.onBoundary[v] && options.held[v]; });
   const auto stride = static_cast<std::uint64_t>(1 + context.exchange.sum(vertices.size()) / most);
   std::map<EntityId, Vector3> first;
   std::int64_t count = 0;
@@ -125,6 +91,8 @@ Projection projectCells(const PipelineContext& context, MeshState& state, Projec
   const BoundaryProjector projector(context.model, boundary.kind);
   state.onBoundary = boundary.onBoundary;
   options.mendCells = warnOfInvalidCells(context, state);
+  options.held =
+    verticesBetweenTags(context.exchange, state.mesh, tagsOfCells(context.exchange, state));
   Projection projection;
   projection.result = projectBoundary(context.exchange, state.mesh, projector, boundary, options);
   steps.begin(0.9, 1);

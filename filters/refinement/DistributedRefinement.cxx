@@ -4,6 +4,7 @@
 #include "comm/CollectiveErrors.h"
 #include "comm/GlobalNumbering.h"
 #include "comm/WorkSteps.h"
+#include "fields/CellTags.h"
 #include "mesh/PieceCheck.h"
 #include "motion/BoundaryMotion.h"
 #include "refinement/FacetMarking.h"
@@ -343,7 +344,7 @@ RefinementTrace refine(RankExchange& exchange, DistributedMesh& mesh, const Refi
 
 RefinementTrace refineOntoCAD(RankExchange& exchange, DistributedMesh& mesh,
   const RefinementPlan& plan, const ClassifiedBoundary& classified, Classification& classification,
-  NewVertices newVertices, RunStatistics& statistics)
+  NewVertices newVertices, const std::vector<std::uint64_t>& tags, RunStatistics& statistics)
 {
   WorkSteps steps(exchange.progress(), statistics);
   steps.begin(0.2, 0.5, "seconds projection");
@@ -376,8 +377,12 @@ RefinementTrace refineOntoCAD(RankExchange& exchange, DistributedMesh& mesh,
   {
     moves.add(static_cast<Index>(oldCount + hit.place), hit.where.point);
   }
+  std::vector<std::uint64_t> tagsOfChildren(mesh.mesh().cellCount(mesh.mesh().dimension));
+  trace.visitChildren(mesh.mesh().dimension,
+    [&](Index parent, Index child) { tagsOfChildren[child] = tags[parent]; });
+  const auto fixed = withHeld(onBoundary, verticesBetweenTags(exchange, mesh, tagsOfChildren));
   moveOntoCAD(exchange, mesh, std::move(moves), classification,
-    { projector, onBoundary, newVertices == NewVertices::MoveAndMend, true, plan.withOperations,
+    { projector, fixed, newVertices == NewVertices::MoveAndMend, true, plan.withOperations,
       &trace.parentEdges });
   trace.onBoundary = std::move(onBoundary);
   return trace;

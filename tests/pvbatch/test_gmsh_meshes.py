@@ -349,6 +349,31 @@ class GmshMeshes(driver.Case):
         self.expect_planes(1, (0.8,), "quad")
         self.expect_on_cad(3.6)
 
+    def test_flat_interface_that_cells_alone_tell(self):
+        """Physical groups of volumes, none of surfaces: so no triangles are listed."""
+        occ = gmsh.model.occ
+
+        def two_materials():
+            boxes = [(3, occ.addBox(-1, -1, *side)) for side in ((-1, 2, 2, 1.6), (0.6, 2, 2, 0.4))]
+            occ.cut(occ.fragment(boxes[:1], boxes[1:])[0], [(3, occ.addSphere(0, 0, 0, 0.5))])
+            occ.synchronize()
+            for tag, (_, volume) in enumerate(gmsh.model.getEntities(3), 1):
+                gmsh.model.addPhysicalGroup(3, [volume], tag)
+
+        self.generate(3, lambda: occ.addSphere(0, 0, 0, 0.5), two_materials, 0.3)
+        self.assertEqual(list(meshio.read(self.path("mesh.msh")).cells_dict), ["tetra"])
+        for steps in (("--steps", "3"), ("--method", "uniform", "--steps", "1")):
+            run = driver.Run(RANKS, self.path("mesh.msh"), self.path("cad.brep"), *steps, "--no-boundary-cells",
+                             "--output", self.path("fine.vtu"))
+            self.assertEqual(run.status, 0)
+            fine = meshio.read(self.path("fine.vtu"))
+            corners = fine.points[fine.cells_dict["tetra"]]
+            volumes = np.linalg.det(corners[:, 1:] - corners[:, :1]) / 6
+            tags = fine.cell_data_dict["gmsh:physical"]["tetra"]
+            above = [volumes[tags == tag].sum() for tag in (1, 2) if corners[tags == tag][..., 2].max() > 0.9]
+            self.assertEqual(len(above), 1)
+            self.assertAlmostEqual(above[0], 1.6, delta=1e-12)
+
     def test_one_cell_high(self):
         """Wedges on either side of an interface that is in the CAD, which is listed either way round: all of its
         vertices are on the CAD's edges."""
