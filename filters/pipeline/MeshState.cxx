@@ -187,11 +187,12 @@ std::int64_t cut(const PipelineContext& context, MeshState& state, const Refinem
   const std::vector<double> sizes = keepsDensities && state.mesh.mesh().hasNonSimplices()
                                       ? sizesOfCells(state.mesh.mesh(), before)
                                       : std::vector<double>{};
-  RefinementTrace trace = state.classification
-                            ? refineOntoCAD(context.exchange, state.mesh, plan,
-                                boundaryOf(context, state), *state.classification, newVertices,
-                                tagsOfCells(context.exchange, state), context.statistics)
-                            : refine(context.exchange, state.mesh, plan, context.statistics);
+  RefinementTrace trace =
+    state.classification
+      ? refineOntoCAD(context.exchange, state.mesh, plan, boundaryOf(context, state),
+          *state.classification, { newVertices, tagsOfCells(context.exchange, state) },
+          context.statistics)
+      : refine(context.exchange, state.mesh, plan, context.statistics);
   meshHasChanged(state);
   state.onBoundary = std::move(trace.onBoundary);
   const std::int64_t projectedPoints = trace.projectedPoints;

@@ -344,7 +344,7 @@ RefinementTrace refine(RankExchange& exchange, DistributedMesh& mesh, const Refi
 
 RefinementTrace refineOntoCAD(RankExchange& exchange, DistributedMesh& mesh,
   const RefinementPlan& plan, const ClassifiedBoundary& classified, Classification& classification,
-  NewVertices newVertices, const std::vector<std::uint64_t>& tags, RunStatistics& statistics)
+  const CutSettings& settings, RunStatistics& statistics)
 {
   WorkSteps steps(exchange.progress(), statistics);
   steps.begin(0.2, 0.5, "seconds projection");
@@ -365,7 +365,7 @@ RefinementTrace refineOntoCAD(RankExchange& exchange, DistributedMesh& mesh,
   onBoundary.resize(mesh.mesh().points.size(), 0); // others are inside cells
   steps.begin(0.7, 1, "seconds moves");
   trace.projectedPoints = countHits(exchange, mesh.shared, oldCount, hits);
-  if (newVertices == NewVertices::StayStraight)
+  if (settings.newVertices == NewVertices::StayStraight)
   {
     classifyMidpoints(hits, mesh.mesh().points.size(), classification);
     trace.onBoundary = std::move(onBoundary);
@@ -379,10 +379,10 @@ RefinementTrace refineOntoCAD(RankExchange& exchange, DistributedMesh& mesh,
   }
   std::vector<std::uint64_t> tagsOfChildren(mesh.mesh().cellCount(mesh.mesh().dimension));
   trace.visitChildren(mesh.mesh().dimension,
-    [&](Index parent, Index child) { tagsOfChildren[child] = tags[parent]; });
+    [&](Index parent, Index child) { tagsOfChildren[child] = settings.tags[parent]; });
   const auto fixed = withHeld(onBoundary, verticesBetweenTags(exchange, mesh, tagsOfChildren));
   moveOntoCAD(exchange, mesh, std::move(moves), classification,
-    { projector, fixed, newVertices == NewVertices::MoveAndMend, true, plan.withOperations,
+    { projector, fixed, settings.newVertices == NewVertices::MoveAndMend, true, plan.withOperations,
       &trace.parentEdges });
   trace.onBoundary = std::move(onBoundary);
   return trace;

@@ -68,15 +68,22 @@ enum class NewVertices
   StayStraight ///< The new vertices are classified, and keep their distance from the CAD.
 };
 
+struct CutSettings
+{
+  NewVertices newVertices;
+  /// Hashes of the tags of the cells of the mesh's own dimension; what they tell apart makes no way
+  /// (see verticesBetweenTags).
+  std::vector<std::uint64_t> tags;
+};
+
 /// Cuts the mesh as `refine` does, and classifies the new vertices of classified edges: each
 /// belongs onto the entity of its edge in `classified`, the boundary of the mesh (S. Strunk, KTH
 /// 2013, Algorithm 4.3). MoveOntoCAD moves them there as far as all cells stay valid; vertices that
-/// stopped on the way earlier try again. `tags`: hashes of the tags of the cells of the mesh's own
-/// dimension; what they tell apart makes no way (see verticesBetweenTags). Adds to "seconds
-/// projection" and "seconds moves" too. Collective.
+/// stopped on the way earlier try again. Adds to "seconds projection" and "seconds moves" too.
+/// Collective.
 RefinementTrace refineOntoCAD(RankExchange& exchange, DistributedMesh& mesh,
   const RefinementPlan& plan, const ClassifiedBoundary& classified, Classification& classification,
-  NewVertices newVertices, const std::vector<std::uint64_t>& tags, RunStatistics& statistics);
+  const CutSettings& settings, RunStatistics& statistics);
 
 /// The moves of all vertices that are not at their places on the CAD to these places, which are
 /// found anew.
