@@ -30,7 +30,7 @@ struct ProjectionOptions
   bool mendCells = false;
   /// The minimum of improveMesh; none: no local operations.
   std::optional<double> minimumQuality;
-  /// 1 for vertices that make no way (see verticesBetweenTags); empty: all may.
+  /// 1 for vertices that make no way (see verticesBetweenTags).
   std::vector<unsigned char> held = {};
 
   bool inRegion(const Point3& p) const

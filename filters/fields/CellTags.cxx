@@ -213,6 +213,11 @@ std::vector<unsigned char> verticesBetweenTags(
   {
     flag(piece.segments);
   }
+  combineFlags(exchange, mesh.shared, flags);
+  if (!exchange.any(!tags.empty()))
+  {
+    return flags;
+  }
   std::vector<std::uint64_t> smallest(
     piece.points.size(), std::numeric_limits<std::uint64_t>::max());
   std::vector<std::uint64_t> largest(piece.points.size(), 0);
@@ -236,7 +241,6 @@ std::vector<unsigned char> verticesBetweenTags(
   {
     flags[v] = flags[v] || smallest[v] < largest[v];
   }
-  combineFlags(exchange, mesh.shared, flags);
   return flags;
 }
 

@@ -46,8 +46,9 @@ std::vector<std::uint64_t> tagHashesOf(
   vtkCellData* data, const CellRange& cells, const std::vector<std::uint64_t>& numberings);
 
 /// 1 for vertices that separate what is tagged, given hashes of the tags of the cells of the mesh's
-/// own dimension: those between cells of different tags, of listed lines in a mesh of volume, and
-/// listed points; over all ranks. Collective.
+/// own dimension (none on any rank: there are no tags): those between cells of different tags, of
+/// listed lines in a mesh of volume, and listed points; over all ranks. Collective. Work: one look
+/// at each cell where there are tags.
 std::vector<unsigned char> verticesBetweenTags(
   RankExchange& exchange, const DistributedMesh& mesh, const std::vector<std::uint64_t>& tags);
 

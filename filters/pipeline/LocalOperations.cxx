@@ -75,9 +75,12 @@ std::vector<std::uint64_t> tagsOfCells(RankExchange& exchange, MeshState& state)
 {
   const Mesh& mesh = state.mesh.mesh();
   findNumberings(exchange, state);
-  return state.numberings
-           ? tagHashesOf(state.arrays.ofCells, cellsOf(mesh, mesh.dimension), *state.numberings)
-           : std::vector<std::uint64_t>{};
+  auto tags = state.numberings ? tagHashesOf(state.arrays.ofCells, cellsOf(mesh, mesh.dimension),
+                                   *state.numberings)
+                               : std::vector<std::uint64_t>{};
+  const bool isTagged =
+    std::any_of(tags.begin(), tags.end(), [](std::uint64_t tag) { return tag != 0; });
+  return exchange.any(isTagged) ? tags : std::vector<std::uint64_t>{};
 }
 
 std::int64_t operateOnMesh(const PipelineContext& context, MeshState& state,

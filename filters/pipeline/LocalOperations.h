@@ -14,7 +14,8 @@ namespace cadrefine
 /// changes. See findNumberings of fields/CellTags.h. Collective.
 void findNumberings(RankExchange& exchange, MeshState& state);
 
-/// Hashes of the tags of the cells of the mesh's own dimension (see tagHashesOf). Collective.
+/// Hashes of the tags of the cells of the mesh's own dimension (see tagHashesOf); none where no
+/// rank has tags. Collective.
 std::vector<std::uint64_t> tagsOfCells(RankExchange& exchange, MeshState& state);
 
 /// Does `work` with blocks of the cells round flagged vertices (1; see findOperationBlocks), which

@@ -111,11 +111,10 @@ void leaveOut(const ProjectionTask& task, const EntitySelection& chosen,
 /// 1 for vertices of the boundary, 2 for those outside the region, and others that are held.
 std::vector<unsigned char> findFixed(const ProjectionTask& task)
 {
-  std::vector<unsigned char> fixed = task.boundary.onBoundary;
+  std::vector<unsigned char> fixed = withHeld(task.boundary.onBoundary, task.options.held);
   for (std::size_t v = 0; v < fixed.size(); ++v)
   {
-    const bool isHeld = !fixed[v] && !task.options.held.empty() && task.options.held[v];
-    fixed[v] = task.options.inRegion(task.points()[v]) && !isHeld ? fixed[v] : 2;
+    fixed[v] = task.options.inRegion(task.points()[v]) ? fixed[v] : 2;
   }
   return fixed;
 }

@@ -213,6 +213,20 @@ void closeMarks(
   } while (plan.quads.any && markBadlyCut(exchange, mesh, plan));
 }
 
+/// The tags of the parents; none where there are none.
+std::vector<std::uint64_t> tagsOfChildren(
+  int dimension, const RefinementTrace& trace, const std::vector<std::uint64_t>& tags)
+{
+  std::vector<std::uint64_t> result;
+  if (!tags.empty())
+  {
+    result.resize(trace.firstChildren[dimension].back());
+    trace.visitChildren(
+      dimension, [&](Index parent, Index child) { result[child] = tags[parent]; });
+  }
+  return result;
+}
+
 } // namespace
 
 std::array<std::vector<GlobalId>, 4> numberChildren(
@@ -377,10 +391,8 @@ RefinementTrace refineOntoCAD(RankExchange& exchange, DistributedMesh& mesh,
   {
     moves.add(static_cast<Index>(oldCount + hit.place), hit.where.point);
   }
-  std::vector<std::uint64_t> tagsOfChildren(mesh.mesh().cellCount(mesh.mesh().dimension));
-  trace.visitChildren(mesh.mesh().dimension,
-    [&](Index parent, Index child) { tagsOfChildren[child] = settings.tags[parent]; });
-  const auto fixed = withHeld(onBoundary, verticesBetweenTags(exchange, mesh, tagsOfChildren));
+  const auto tags = tagsOfChildren(mesh.mesh().dimension, trace, settings.tags);
+  const auto fixed = withHeld(onBoundary, verticesBetweenTags(exchange, mesh, tags));
   moveOntoCAD(exchange, mesh, std::move(moves), classification,
     { projector, fixed, settings.newVertices == NewVertices::MoveAndMend, true, plan.withOperations,
       &trace.parentEdges });

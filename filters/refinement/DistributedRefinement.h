@@ -71,8 +71,8 @@ enum class NewVertices
 struct CutSettings
 {
   NewVertices newVertices;
-  /// Hashes of the tags of the cells of the mesh's own dimension; what they tell apart makes no way
-  /// (see verticesBetweenTags).
+  /// Hashes of the tags of the cells of the mesh's own dimension (none on any rank: there are no
+  /// tags); what they tell apart makes no way (see verticesBetweenTags).
   std::vector<std::uint64_t> tags;
 };
 
