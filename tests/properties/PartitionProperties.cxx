@@ -130,7 +130,7 @@ TEST_F(PartitionProperty, meshesAreTheSame)
   forEachSeed(12, [this](Random& random) { expectSameAsOnOneRank(random, FilterProblem(random)); });
 }
 
-/// A pyramid on a base that rises over its apex cannot be cut.
+/// A pyramid on a base that rises over its apex cannot be refined uniformly.
 bool isRefused(const std::exception& error)
 {
   return std::string(error.what()).find("too distorted to be cut") != std::string::npos;

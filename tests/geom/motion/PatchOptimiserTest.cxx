@@ -3,6 +3,7 @@
 
 #include <cadrefine/motion/PatchOptimiser.h>
 
+#include "HexahedralMeshes.h"
 #include "TestMeshes.h"
 #include "TestShapes.h"
 
@@ -13,7 +14,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <limits>
 
 namespace
@@ -165,55 +165,50 @@ TEST_P(MakingWay, untanglesInvertedCells)
   EXPECT_GT(lowestQuality(patch.mesh), 0.3);
 }
 
-/// Boxes ten times as long as thick, of which one side bulges by half a box: the others follow,
-/// each a bit less, and none is sheared much.
+/// Boxes ten times as long as thick, into one of which the side bulges by half of its thickness:
+/// those over it make way, each a bit less.
 TEST(MakingWayOfHexahedra, keepsTheirShape)
 {
   constexpr int boxes = 4;
-  constexpr int corners = boxes + 1;
-  const auto numberOf = [](int i, int j, int k) { return i + corners * (j + corners * k); };
-  Patch patch;
-  for (int n = 0; n < corners * corners * corners; ++n)
+  Mesh mesh = cadtest::hexahedraMesh(boxes, 0, 1);
+  for (const auto& cell : mesh.hexahedra)
   {
-    const int i = n % corners;
-    const int j = n / corners % corners;
-    const int k = n / (corners * corners);
-    patch.mesh.ids.push_back(n);
-    patch.start.push_back({ 10.0 * i, 10.0 * j, 1.0 * k });
-    const bool isInner = i % boxes != 0 && j % boxes != 0 && k % boxes != 0;
-    patch.free.push_back(isInner);
-  }
-  patch.mesh.points = patch.start;
-  patch.mesh.points[numberOf(2, 2, 0)][2] = 0.5;
-  patch.complete.assign(patch.start.size(), 1);
-  patch.entities.resize(patch.start.size());
-  for (int n = 0; n < boxes * boxes * boxes; ++n)
-  {
-    const int i = n % boxes;
-    const int j = n / boxes % boxes;
-    const int k = n / (boxes * boxes);
-    const std::array<Index, 8> cell{ numberOf(i, j, k), numberOf(i + 1, j, k),
-      numberOf(i + 1, j + 1, k), numberOf(i, j + 1, k), numberOf(i, j, k + 1),
-      numberOf(i + 1, j, k + 1), numberOf(i + 1, j + 1, k + 1), numberOf(i, j + 1, k + 1) };
     for (const auto& [a, b, c, d] : shapes::Hexahedron::cornerSimplices)
     {
-      patch.mesh.tetrahedra.push_back({ cell[a], cell[b], cell[c], cell[d] });
+      mesh.tetrahedra.push_back({ cell[a], cell[b], cell[c], cell[d] });
     }
   }
+  mesh.hexahedra.clear();
+  Patch patch = patchOf(mesh); // whose vertices inside the unit cube are free
+  for (Point3& point : patch.start)
+  {
+    point[2] *= 0.1;
+  }
+  patch.mesh.points = patch.start;
+  const double thickness = 0.1 / boxes;
+  const auto vertexOver = [&](int box)
+  {
+    const Point3 place{ 0.5, 0.5, 1.0 * box / boxes };
+    return std::find(mesh.points.begin(), mesh.points.end(), place) - mesh.points.begin();
+  };
+  patch.mesh.points[vertexOver(0)][2] = 0.5 * thickness;
   patch.keepsShape.assign(patch.mesh.tetrahedra.size(), 1);
   optimise(patch, 20);
-  double last = 0.5;
-  for (int k = 1; k < boxes; ++k)
+  double last = 0.5 * thickness;
+  for (int box = 1; box < boxes; ++box)
   {
-    const double moved = patch.mesh.points[numberOf(2, 2, k)][2] - k;
-    EXPECT_GT(moved, 0.4 * last) << k;
-    EXPECT_LT(moved, last) << k;
+    const double moved = patch.mesh.points[vertexOver(box)][2] - patch.start[vertexOver(box)][2];
+    EXPECT_GT(moved, 0.4 * last) << box;
+    EXPECT_LT(moved, last) << box;
     last = moved;
   }
   // Without anything to make way for, nothing moves.
   patch.mesh.points = patch.start;
   optimise(patch, 1);
-  EXPECT_EQ(patch.mesh.points, patch.start);
+  for (std::size_t v = 0; v < patch.start.size(); ++v)
+  {
+    EXPECT_EQ(patch.mesh.points[v], patch.start[v]);
+  }
 }
 
 TEST_P(MakingWay, doesNotDependOnTheOrderOfCells)

@@ -323,23 +323,15 @@ TEST(CellCutting, everyValidPyramidIsCutIntoValidCells)
 {
   std::mt19937_64 random(11);
   std::uniform_real_distribution<double> place(0, 1);
-  Mesh mesh;
-  mesh.points.resize(5);
-  mesh.ids = { 0, 1, 2, 3, 4 };
-  mesh.pyramids = { { 0, 1, 2, 3, 4 } };
-  int tried = 0;
-  while (tried < 300)
+  for (int tried = 0; tried < 300;)
   {
-    std::generate(mesh.points.begin(), mesh.points.end(),
-      [&] {
+    const Mesh mesh = oneCell(shapes::Pyramid{},
+      [&](const Point3&) {
         return Point3{ place(random), place(random), place(random) };
       });
-    if (!cadtest::isValid(mesh))
-    {
-      continue;
-    }
-    ++tried;
-    for (unsigned subset = 0; subset < 256; ++subset)
+    const unsigned subsets = cadtest::isValid(mesh) ? 256 : 0;
+    tried += subsets > 0;
+    for (unsigned subset = 0; subset < subsets; ++subset)
     {
       const Cut cut(shapes::Pyramid{}, mesh, subset);
       EXPECT_TRUE(
