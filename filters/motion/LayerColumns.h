@@ -30,8 +30,9 @@ namespace cadrefine
 /// symmetry, goes with a column that does so too. On a surface in space the walls are its CAD
 /// edges, where columns also end.
 ///
-/// Work: linear in the cells that are not simplices. Messages: one to and from each neighbour for
-/// every time that columns cross between ranks, and a few more.
+/// Work: linear in the cells that are not simplices, and one closest point for each listed facet
+/// inside the mesh that is off the CAD. Messages: one to and from each neighbour for every time
+/// that columns cross between ranks, and a few more.
 class LayerColumns
 {
 public:

@@ -146,7 +146,7 @@ template<std::size_t Corners>
          << ", with " << Corners << " vertices, at (" << place[0] << ", " << place[1] << ", "
          << place[2]
          << "), is too distorted to be cut into valid cells; improve the mesh there, or refine "
-            "only other cells";
+            "by longest edge bisection";
   throw Error(reason.str());
 }
 

@@ -17,12 +17,12 @@ namespace cadrefine
 /// A valid cell accepts moves after which it is still valid and its quality (see CellState) is at
 /// least `qualityFloor`, or at least half of what it was in the reference state and not below
 /// `lowestQuality`; a pyramid's at least `pyramidFloor`, as worse ones may be too distorted to be
-/// cut (see cellsCutBadly). A cell that is worse than that in the reference state, inverted or flat
-/// accepts moves that make it no worse. With the state before all moves as reference, no number of
-/// moves in a row wears cells down. Halving the way of the vertices of every cell that does not
-/// accept, at once and until all do, ends in a state that does not depend on the order of cells:
-/// the unmoved state is accepted by all. Over ranks take the minimum of the fractions of shared
-/// vertices after each sweep, until no rank changes any.
+/// refined uniformly (see cellsCutBadly). A cell that is worse than that in the reference state,
+/// inverted or flat accepts moves that make it no worse. With the state before all moves as
+/// reference, no number of moves in a row wears cells down. Halving the way of the vertices of
+/// every cell that does not accept, at once and until all do, ends in a state that does not depend
+/// on the order of cells: the unmoved state is accepted by all. Over ranks take the minimum of the
+/// fractions of shared vertices after each sweep, until no rank changes any.
 class MoveGuard
 {
 public:

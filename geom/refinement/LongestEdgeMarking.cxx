@@ -42,7 +42,7 @@ constexpr int hexahedronPairs[3][4][2] = { { { 3, 1 }, { 7, 5 }, { 8, 9 }, { 11,
 
 /// The direction in which a cell is thin, or -1.
 template<std::size_t Edges, std::size_t Directions, std::size_t Parallel>
-int thinDirection(const EdgeTable& table, const std::array<Index, Edges>& edges,
+int thinDirectionIn(const EdgeTable& table, const std::array<Index, Edges>& edges,
   const int (&directions)[Directions][Parallel])
 {
   std::array<double, Directions> meanSquares{};
@@ -53,7 +53,7 @@ int thinDirection(const EdgeTable& table, const std::array<Index, Edges>& edges,
       meanSquares[d] += table.squaredLengths[edges[edge]] / Parallel;
     }
   }
-  return cadrefine::thinDirection(meanSquares);
+  return thinDirection(meanSquares);
 }
 
 /// Marks all edges of a marked cell, except those in the direction in which it is thin if layers
@@ -62,7 +62,7 @@ template<std::size_t Edges, std::size_t Directions, std::size_t Parallel>
 void markAcross(const EdgeTable& table, const std::array<Index, Edges>& edges,
   const int (&directions)[Directions][Parallel], bool keepLayers, EdgeMarks& marks)
 {
-  const int thin = keepLayers ? thinDirection(table, edges, directions) : -1;
+  const int thin = keepLayers ? thinDirectionIn(table, edges, directions) : -1;
   for (int d = 0; d < static_cast<int>(Directions); ++d)
   {
     for (const int edge : directions[d])
@@ -320,7 +320,7 @@ void MarkClosure::lookAt(const std::array<Index, 12>& hexahedron)
 {
   if (keepLayers_ && isPartlyMarked(marks_, hexahedron))
   {
-    const int thin = thinDirection(table_, hexahedron, shapes::Hexahedron::directions);
+    const int thin = thinDirectionIn(table_, hexahedron, shapes::Hexahedron::directions);
     for (int k = 0; thin >= 0 && k < 4; ++k)
     {
       const auto& [edge, over] = hexahedronPairs[thin][k];
@@ -334,7 +334,7 @@ void MarkClosure::lookAt(const std::array<Index, 4>& quadrilateral)
 {
   if (keepLayers_ && dimension_ == 2 && isPartlyMarked(marks_, quadrilateral))
   {
-    const int thin = thinDirection(table_, quadrilateral, shapes::Quadrilateral::directions);
+    const int thin = thinDirectionIn(table_, quadrilateral, shapes::Quadrilateral::directions);
     if (thin >= 0)
     {
       markTogether(quadrilateral[1 - thin], quadrilateral[3 - thin]);
