@@ -263,6 +263,11 @@ MeshError measureError(RankExchange& exchange, const DistributedMesh& mesh,
   if (remember && !mesh.converted.midNodes)
   {
     cache = BoundaryCache(piece, classification, classified, answers.values, levels);
+    classified.classes.known.assign(boundary.facets.size(), -1);
+    for (std::size_t i = 0; i < facets.size(); ++i)
+    {
+      classified.classes.known[facets[i]] = static_cast<Index>(i);
+    }
   }
   const auto angles = neighbourAngles(exchange, mesh, classified, classification);
 

@@ -234,6 +234,24 @@ TEST(CoarseningWalls, keepsTheirShape)
     cadtest::measureOf(cadtest::toMesh(start)), errorOf(start) + errorOf(adapted));
 }
 
+/// Steps that mark no cell, so that the boundary is measured and then coarsened as it is.
+TEST(CoarseningAlone, measuresWhatItMakes)
+{
+  const FilterRun filters(CADREFINE_DATA "/cylinder.brep");
+  const auto coarsened =
+    filters.run<vtkAdaptToCAD>(cadtest::readGrid(CADREFINE_DATA "/cylinder_coarse.vtu"),
+      [](vtkAdaptToCAD* filter)
+      {
+        filter->SetMaximumSteps(3);
+        filter->SetErrorMarking(vtkAdaptToCAD::OFF);
+        filter->SetNormalAngle(170);
+        filter->SetTargetError(1e-3);
+        filter->SetCoarseningFraction(0.9);
+      });
+  EXPECT_EQ(fieldValue(coarsened, "GlobalGeometricError"),
+    fieldValue(filters.measure(coarsened, 0), "GlobalGeometricError"));
+}
+
 /// A solver's indicator that moves through the mesh: fine there, coarse behind it.
 TEST(CoarseningFront, keepsTheNumberOfCells)
 {
