@@ -30,8 +30,8 @@ struct ProjectionOptions
   bool mendCells = false;
   /// The minimum of improveMesh; none: no local operations.
   std::optional<double> minimumQuality;
-  /// 1 for vertices that make no way (see verticesBetweenTags).
-  std::vector<unsigned char> held = {};
+  /// See MoveSettings.
+  std::vector<std::uint64_t> tags = {};
 
   bool inRegion(const Point3& p) const
   {

@@ -169,38 +169,105 @@ Facet interiorFacet(const Listed& listed)
   return { listed.corners, listed.cell, true };
 }
 
-/// Removes the facets that another rank meets too, but for listed ones whose cell has the smaller
-/// id.
-void settleShared(RankExchange& exchange, const DistributedMesh& mesh, bool anyListed,
-  const std::vector<Listed>& all, std::vector<Facet>& facets)
+/// The cells that meet a side, over all ranks.
+struct Meeting
 {
-  const auto idOf = [&](const Facet& facet)
-  { return mesh.converted.cellIds[mesh.mesh().dimension][facet.cell]; };
+  GlobalId smallest; ///< Smallest id of these cells.
+  std::uint64_t leastTag;
+  std::uint64_t largestTag;
+};
+
+Meeting joined(const Meeting& a, const Meeting& b)
+{
+  return { std::min(a.smallest, b.smallest), std::min(a.leastTag, b.leastTag),
+    std::max(a.largestTag, b.largestTag) };
+}
+
+bool areDifferent(std::uint64_t tag, std::uint64_t other)
+{
+  return tag != 0 && other != 0 && tag != other;
+}
+
+/// Removes the facets that another rank meets too, but for those that are listed, or between cells
+/// of different tags, where this rank's cell has the smaller id.
+void settleShared(RankExchange& exchange, const DistributedMesh& mesh, bool areMet,
+  const std::vector<Listed>& all, const std::vector<std::uint64_t>& tags,
+  std::vector<Facet>& facets)
+{
+  const auto meetingOf = [&](const Facet& facet) -> Meeting
+  {
+    const std::uint64_t tag = tags.empty() ? 0 : tags[facet.cell];
+    return { mesh.converted.cellIds[mesh.mesh().dimension][facet.cell], tag, tag };
+  };
   std::vector<Corners> corners(facets.size());
   std::transform(facets.begin(), facets.end(), corners.begin(),
     [](const Facet& facet) { return facet.vertices; });
   const SharedItems shared = findSharedCells(exchange, mesh.shared, mesh.mesh().ids, corners);
-  std::vector<GlobalId> smallest;
-  if (anyListed)
+  std::vector<Meeting> meetings;
+  if (areMet)
   {
-    smallest.resize(facets.size());
-    std::transform(facets.begin(), facets.end(), smallest.begin(), idOf);
-    combineSmallest(exchange, shared, smallest);
+    std::transform(facets.begin(), facets.end(), std::back_inserter(meetings), meetingOf);
+    combineShared(exchange, shared, meetings, joined);
   }
   std::vector<Facet> interior;
   for (const Index f : shared.all)
   {
-    const std::size_t listed = findListed(all, keyOf(mesh.mesh(), corners[f]));
-    if (listed < all.size() && smallest[f] == idOf(facets[f]))
+    Facet& facet = facets[f];
+    if (areMet && meetings[f].smallest == meetingOf(facet).smallest)
     {
-      interior.push_back(interiorFacet(all[listed]));
+      const std::size_t listed = findListed(all, keyOf(mesh.mesh(), corners[f]));
+      if (listed < all.size())
+      {
+        interior.push_back(interiorFacet(all[listed]));
+      }
+      else if (areDifferent(meetings[f].leastTag, meetings[f].largestTag))
+      {
+        interior.push_back({ facet.vertices, facet.cell, true });
+      }
     }
-    facets[f].cell = -1;
+    facet.cell = -1;
   }
   facets.erase(
     std::remove_if(facets.begin(), facets.end(), [](const Facet& facet) { return facet.cell < 0; }),
     facets.end());
   facets.insert(facets.end(), interior.begin(), interior.end());
+}
+
+/// Appends the sides between two cells of this piece of different tags that are not listed.
+void addBetweenTags(const DistributedMesh& mesh, const std::vector<unsigned char>& among,
+  const std::vector<Listed>& all, const std::vector<std::uint64_t>& tags,
+  std::vector<Facet>& facets)
+{
+  struct Side
+  {
+    Ids key;
+    GlobalId cell;
+    Facet facet;
+  };
+  std::vector<Side> sides;
+  const auto& ids = mesh.converted.cellIds[mesh.mesh().dimension];
+  forEachSide(mesh.mesh(),
+    [&](const Facet& side)
+    {
+      if (std::all_of(side.begin(), side.end(), [&](Index vertex) { return among[vertex] != 0; }))
+      {
+        sides.push_back({ keyOf(mesh.mesh(), side.vertices), ids[side.cell],
+          { side.vertices, side.cell, true } });
+      }
+    });
+  std::sort(sides.begin(), sides.end(),
+    [](const Side& a, const Side& b)
+    { return std::pair(a.key, a.cell) < std::pair(b.key, b.cell); });
+  for (std::size_t k = 1; k < sides.size(); ++k)
+  {
+    const Side& first = sides[k - 1];
+    if (first.key == sides[k].key &&
+        areDifferent(tags[first.facet.cell], tags[sides[k].facet.cell]) &&
+        findListed(all, first.key) == all.size())
+    {
+      facets.push_back(first.facet);
+    }
+  }
 }
 
 } // namespace
@@ -213,8 +280,8 @@ std::array<GlobalId, 4> idsOf(const Mesh& mesh, const std::array<Index, 4>& corn
   return ids;
 }
 
-std::vector<Facet> findBoundaryFacets(
-  RankExchange& exchange, const DistributedMesh& mesh, const std::vector<unsigned char>& among)
+std::vector<Facet> findBoundaryFacets(RankExchange& exchange, const DistributedMesh& mesh,
+  const std::vector<unsigned char>& among, const std::vector<std::uint64_t>& tags)
 {
   std::vector<Facet> facets = findOuterFacets(mesh.mesh(), among, forOnThreads(exchange));
   const bool anyListed = exchange.any(mesh.mesh().cellCount(mesh.mesh().dimension - 1) > 0);
@@ -224,7 +291,12 @@ std::vector<Facet> findBoundaryFacets(
     all = gatherListed(exchange, mesh);
     meetListed(mesh, all);
   }
-  settleShared(exchange, mesh, anyListed, all, facets);
+  const bool areTagged = exchange.any(!tags.empty());
+  settleShared(exchange, mesh, anyListed || areTagged, all, tags, facets);
+  if (!tags.empty())
+  {
+    addBetweenTags(mesh, among, all, tags, facets);
+  }
   for (const Listed& listed : all)
   {
     if (listed.met > 1)

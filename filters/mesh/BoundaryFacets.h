@@ -6,6 +6,7 @@
 #include <cadrefine/mesh/Facets.h>
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 namespace cadrefine
@@ -20,13 +21,16 @@ std::array<GlobalId, 4> idsOf(const Mesh& mesh, const std::array<Index, 4>& corn
 ///   - interior ones, between two cells, where a cell of one dimension less is listed in the mesh:
 ///     two materials, a baffle. They are with the cell of the smaller global id, and have the order
 ///     of the listed cell (of several, the one whose ids come first), whichever rank that is on.
+///     With `tags`, hashes of the tags of the cells of the mesh's own dimension (none on any rank:
+///     there are no tags), also sides between cells of different ones that are not 0.
 ///
 /// With `among`, a flag for each vertex that may be on the boundary, others are not looked at (see
-/// findOuterFacets). Collective. Work: that of findOuterFacets; where there are listed cells, a
-/// look at each side. One reduction and one message to and from each neighbour with the sides that
-/// it may have too; where there are listed cells, two more, of N ids for each listed cell all of
-/// whose N vertices the neighbour holds, and of one number for each side in common.
-std::vector<Facet> findBoundaryFacets(
-  RankExchange& exchange, const DistributedMesh& mesh, const std::vector<unsigned char>& among);
+/// findOuterFacets). Collective. Work: that of findOuterFacets; where there are listed cells or
+/// tags, a look at each side. One reduction and one message to and from each neighbour with the
+/// sides that it may have too; where there are listed cells, two more, of N ids for each listed
+/// cell all of whose N vertices the neighbour holds, and, as where there are tags, of 24 bytes for
+/// each side in common.
+std::vector<Facet> findBoundaryFacets(RankExchange& exchange, const DistributedMesh& mesh,
+  const std::vector<unsigned char>& among, const std::vector<std::uint64_t>& tags = {});
 
 } // namespace cadrefine

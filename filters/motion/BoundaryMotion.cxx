@@ -2,6 +2,7 @@
 
 #include "comm/CollectiveErrors.h"
 #include "comm/Threads.h"
+#include "fields/CellTags.h"
 #include "mesh/BoundaryFacets.h"
 #include "mesh/MeshPlane.h"
 #include "motion/LayerColumns.h"
@@ -55,7 +56,8 @@ struct Motion
   const MoveSettings& settings;
   const ParallelFor parallelFor;
   const Vector3 plane;
-  const std::vector<Point3> start; ///< Points of the unmoved mesh.
+  const std::vector<unsigned char> fixed; ///< See findFixed.
+  const std::vector<Point3> start;        ///< Points of the unmoved mesh.
   Moves moves; ///< Targets of all vertices; of those that have none, where they are.
   std::vector<unsigned char> slid; ///< Vertices on the CAD whose target has changed.
   std::vector<Hold> held;          ///< Empty: there are no other cells than simplices.
@@ -68,7 +70,7 @@ struct Motion
   Hold holdOf(std::size_t vertex) const { return held.empty() ? Hold::None : held[vertex]; }
   bool isInterior(std::size_t vertex) const
   {
-    const bool makesWay = !settings.fixed[vertex] || (!ends.empty() && ends[vertex]);
+    const bool makesWay = !fixed[vertex] || (!ends.empty() && ends[vertex]);
     return makesWay && !classification.entities[vertex];
   }
   bool canSlide(std::size_t vertex) const
@@ -141,7 +143,7 @@ std::vector<unsigned char> findEndsOfLayers(const Motion& motion)
 {
   const Mesh& mesh = motion.mesh();
   const auto& entities = motion.classification.entities;
-  const auto& fixed = motion.settings.fixed;
+  const auto& fixed = motion.fixed;
   const auto facets = findBoundaryFacets(motion.exchange, motion.distributed, fixed);
   std::vector<unsigned char> ends(mesh.points.size(), 0);
   std::vector<unsigned char> others(mesh.points.size(), 0);
@@ -165,6 +167,18 @@ std::vector<unsigned char> findEndsOfLayers(const Motion& motion)
     ends[v] = ends[v] && !others[v] && fixed[v] == 1;
   }
   return ends;
+}
+
+/// The flags of MoveSettings::fixed, and 2 for vertices that separate what is tagged. Collective.
+std::vector<unsigned char> findFixed(
+  RankExchange& exchange, const DistributedMesh& mesh, const MoveSettings& settings)
+{
+  std::vector<unsigned char> fixed = settings.fixed;
+  const auto held = verticesBetweenTags(exchange, mesh, settings.tags);
+  std::transform(fixed.begin(), fixed.end(), held.begin(), fixed.begin(),
+    [](unsigned char isFixed, unsigned char isHeld) -> unsigned char
+    { return isFixed ? isFixed : (isHeld ? 2 : 0); });
+  return fixed;
 }
 
 ColumnNodes verticesOf(const DistributedMesh& mesh, const Classification& classification,
@@ -388,15 +402,6 @@ void record(const Motion& motion, Classification& classification)
 
 } // namespace
 
-std::vector<unsigned char> withHeld(
-  std::vector<unsigned char> onBoundary, const std::vector<unsigned char>& held)
-{
-  std::transform(onBoundary.begin(), onBoundary.end(), held.begin(), onBoundary.begin(),
-    [](unsigned char on, unsigned char isHeld) -> unsigned char
-    { return on ? on : (isHeld ? 2 : 0); });
-  return onBoundary;
-}
-
 void moveOntoCAD(RankExchange& exchange, DistributedMesh& mesh, Moves moves,
   Classification& classification, const MoveSettings& settings)
 {
@@ -407,11 +412,12 @@ void moveOntoCAD(RankExchange& exchange, DistributedMesh& mesh, Moves moves,
   const std::vector<Index> aimed = movingVertices(moves);
   Left left{ aimed, settings.mendCells ? invalidCells(mesh.mesh(), plane, forOnThreads(exchange))
                                        : std::vector<Index>{} };
-  Motion motion{ exchange, mesh, classification, settings, forOnThreads(exchange), plane,
+  auto fixed = findFixed(exchange, mesh, settings);
+  Motion motion{ exchange, mesh, classification, settings, forOnThreads(exchange), plane, fixed,
     mesh.mesh().points, Moves(mesh.mesh().points),
     std::vector<unsigned char>(mesh.mesh().points.size(), 0), findHeld(exchange, mesh),
     LayerColumns(exchange, mesh, verticesOf(mesh, classification, settings.parents), moves,
-      settings.projector, settings.fixed, plane),
+      settings.projector, { fixed, settings.tags }, plane),
     aimed };
   motion.moves = std::move(moves);
 
@@ -462,8 +468,8 @@ std::vector<Point3> wantedPoints(RankExchange& exchange, const DistributedMesh& 
     moves.add(
       vertex, projector.nearestOn(classification.entities[vertex], piece.points[vertex]).point);
   }
-  LayerColumns columns(exchange, mesh, verticesOf(mesh, classification), moves, projector, fixed,
-    planeNormal(exchange, piece, projector.kind() == BoundaryKind::Edges));
+  LayerColumns columns(exchange, mesh, verticesOf(mesh, classification), moves, projector,
+    { fixed, {} }, planeNormal(exchange, piece, projector.kind() == BoundaryKind::Edges));
   if (columns.any())
   {
     columns.follow(exchange, moves);

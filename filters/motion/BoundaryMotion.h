@@ -8,6 +8,7 @@
 #include <cadrefine/motion/MoveGuard.h>
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 namespace cadrefine
@@ -21,6 +22,9 @@ struct MoveSettings
   /// are at the end of a layer: only at facets between two cells, off the CAD and beside it. 2 for
   /// other vertices that do not make way.
   const std::vector<unsigned char>& fixed;
+  /// Hashes of the tags of the cells of the mesh's own dimension (none on any rank: there are no
+  /// tags). What they tell apart makes no way (see verticesBetweenTags).
+  const std::vector<std::uint64_t>& tags;
   /// Cells that are inverted or flat at the start are to be mended too.
   bool mendCells = false;
   /// Cells that lost much of their shape are smoothed even if all vertices are at their targets.
@@ -32,10 +36,6 @@ struct MoveSettings
   /// vertices.
   const std::vector<std::array<Index, 2>>* parents = nullptr;
 };
-
-/// The flags of MoveSettings::fixed, given those of the boundary and 1 for others that are held.
-std::vector<unsigned char> withHeld(
-  std::vector<unsigned char> onBoundary, const std::vector<unsigned char>& held);
 
 /// Moves the vertices of `moves` as far to their targets as all cells stay valid, on all ranks;
 /// writes the new positions into the mesh, and the distances that are left into the classification.

@@ -41,7 +41,7 @@ class ColumnPlanning
 public:
   explicit ColumnPlanning(Columns& columns) : columns_(columns) {}
 
-  void run(RankExchange& exchange, const Moves& moves, const std::vector<unsigned char>& fixed);
+  void run(RankExchange& exchange, const Moves& moves, const BoundarySearch& boundary);
 
 private:
   /// Which column has a node: the one that is lowest there, of these the smallest one; -1: the node
@@ -87,18 +87,17 @@ private:
   std::vector<unsigned char> yields_; ///< 1: a node that goes with a column, wherever it was to go.
 };
 
-void ColumnPlanning::run(
-  RankExchange& exchange, const Moves& moves, const std::vector<unsigned char>& fixed)
+void ColumnPlanning::run(RankExchange& exchange, const Moves& moves, const BoundarySearch& boundary)
 {
   const CellStacks stacks(columns_.mesh.mesh());
-  const ColumnStarts starts = startColumns(exchange, moves, fixed, stacks, columns_);
+  const ColumnStarts starts = startColumns(exchange, moves, boundary, stacks, columns_);
   listMembers(exchange, starts.visits, moves);
   columns_.lifts.assign(columns_.ids.size(), Vector3{});
   if (columns_.nodes.parents)
   {
     findLifts(exchange, moves,
-      findFirstEdges(
-        exchange, stacks, columns_.nodes, columns_.facets, moves, columns_.projector, fixed));
+      findFirstEdges(exchange, stacks, columns_.nodes, columns_.facets, moves, columns_.projector,
+        boundary.among));
   }
   findYielding(exchange, moves, starts.cosines);
   const auto claims =
@@ -372,10 +371,10 @@ std::vector<ColumnPlanning::Span> ColumnPlanning::findSpans(
 
 } // namespace
 
-void planColumns(RankExchange& exchange, const Moves& moves,
-  const std::vector<unsigned char>& fixed, Columns& columns)
+void planColumns(
+  RankExchange& exchange, const Moves& moves, const BoundarySearch& boundary, Columns& columns)
 {
-  ColumnPlanning(columns).run(exchange, moves, fixed);
+  ColumnPlanning(columns).run(exchange, moves, boundary);
 }
 
 } // namespace cadrefine

@@ -7,8 +7,7 @@ namespace cadrefine
 {
 
 /// Fills in the columns over the moving nodes (see LayerColumns); `columns` has the mesh, its
-/// nodes, the projector and the plane. `moves`: of the nodes. `fixed`: 1 for vertices on the
-/// boundary, over all ranks. Collective.
+/// nodes, the projector and the plane. `moves`: of the nodes. Collective.
 ///
 /// 1. From each moving node of a wall a column climbs from the facet whose normal is nearest to its
 ///    move, until the stack ends or is a hundred moves high (ColumnClimb).
@@ -19,7 +18,7 @@ namespace cadrefine
 /// 4. A node that several columns come to is of the one that is lowest there.
 /// 5. Columns that end at each other's walls, near enough, become pairs.
 /// 6. How far up a column's move fades out, and so the part of it that each node takes.
-void planColumns(RankExchange& exchange, const Moves& moves,
-  const std::vector<unsigned char>& fixed, Columns& columns);
+void planColumns(
+  RankExchange& exchange, const Moves& moves, const BoundarySearch& boundary, Columns& columns);
 
 } // namespace cadrefine

@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <iterator>
+#include <type_traits>
 
 namespace cadrefine
 {
@@ -50,6 +52,23 @@ std::vector<Facet> findSidesOnEdges(const Columns& columns)
       }
     });
   return sides;
+}
+
+/// The tags of cells that columns may go through; 0 for others, where the stacks of cells end.
+std::vector<std::uint64_t> tagsInStacks(const Mesh& mesh, std::vector<std::uint64_t> tags)
+{
+  auto tag = tags.begin();
+  visitOwnShapes(mesh,
+    [&](auto shape, const auto& cells)
+    {
+      const auto end = tag + (tags.empty() ? 0 : static_cast<std::ptrdiff_t>(cells.size()));
+      if constexpr (isSimplex(shape) || std::is_same_v<decltype(shape), shapes::Pyramid>)
+      {
+        std::fill(tag, end, 0);
+      }
+      tag = end;
+    });
+  return tags;
 }
 
 /// The walls inside the mesh, facets between two cells: on the CAD, or not even beside it. A wall
@@ -128,11 +147,12 @@ std::vector<BestFacet> findBestFacets(
 } // namespace
 
 ColumnStarts startColumns(RankExchange& exchange, const Moves& moves,
-  const std::vector<unsigned char>& fixed, const CellStacks& stacks, Columns& columns)
+  const BoundarySearch& boundary, const CellStacks& stacks, Columns& columns)
 {
   const ColumnNodes& nodes = columns.nodes;
   columns.facets = columns.onSurface() ? findSidesOnEdges(columns)
-                                       : findBoundaryFacets(exchange, columns.mesh, fixed);
+                                       : findBoundaryFacets(exchange, columns.mesh, boundary.among,
+                                           tagsInStacks(columns.mesh.mesh(), boundary.tags));
   const auto best = findBestFacets(exchange, columns, moves);
   const InnerWalls walls = findInnerWalls(exchange, columns);
   ColumnClimb climb(columns.mesh, stacks, nodes, moves, walls, columns.onSurface());

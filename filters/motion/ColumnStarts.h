@@ -22,9 +22,8 @@ struct ColumnStarts
 };
 
 /// Finds the facets of the walls, `columns.facets`, and lets columns climb from those at moving
-/// nodes: of several the one whose normal is nearest to the move. `fixed`: 1 for vertices on the
-/// boundary, over all ranks. Collective.
+/// nodes: of several the one whose normal is nearest to the move. Collective.
 ColumnStarts startColumns(RankExchange& exchange, const Moves& moves,
-  const std::vector<unsigned char>& fixed, const CellStacks& stacks, Columns& columns);
+  const BoundarySearch& boundary, const CellStacks& stacks, Columns& columns);
 
 } // namespace cadrefine

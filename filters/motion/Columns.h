@@ -8,10 +8,18 @@
 #include <cadrefine/classification/BoundaryProjector.h>
 #include <cadrefine/mesh/Facets.h>
 
+#include <cstdint>
 #include <vector>
 
 namespace cadrefine
 {
+
+/// Where the mesh has its boundary, see findBoundaryFacets.
+struct BoundarySearch
+{
+  const std::vector<unsigned char>& among;
+  const std::vector<std::uint64_t>& tags;
+};
 
 /// A node that a column comes to, see ColumnVisit.
 struct ColumnMember

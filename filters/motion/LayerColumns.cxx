@@ -22,14 +22,14 @@ struct Place
 } // namespace
 
 LayerColumns::LayerColumns(RankExchange& exchange, const DistributedMesh& mesh, ColumnNodes nodes,
-  const Moves& moves, const BoundaryProjector& projector, const std::vector<unsigned char>& fixed,
+  const Moves& moves, const BoundaryProjector& projector, const BoundarySearch& boundary,
   const Vector3& plane)
   : columns_{ mesh, std::move(nodes), projector, plane },
     any_(exchange.any(mesh.mesh().hasNonSimplices()))
 {
   if (any_)
   {
-    planColumns(exchange, moves, fixed, columns_);
+    planColumns(exchange, moves, boundary, columns_);
   }
 }
 

@@ -30,17 +30,17 @@ namespace cadrefine
 /// symmetry, goes with a column that does so too. On a surface in space the walls are its CAD
 /// edges, where columns also end.
 ///
-/// Work: linear in the cells that are not simplices, and one closest point for each listed facet
-/// inside the mesh that is off the CAD. Messages: one to and from each neighbour for every time
-/// that columns cross between ranks, and a few more.
+/// Work: linear in the cells that are not simplices, and one closest point for each facet inside
+/// the mesh (see findBoundaryFacets) that is off the CAD. Messages: one to and from each neighbour
+/// for every time that columns cross between ranks, and a few more.
 class LayerColumns
 {
 public:
   /// Finds the columns: none, unless some rank has cells that are not simplices. `plane`: see
-  /// planeNormal. `moves`: of the nodes. `fixed`: 1 for vertices on the boundary, over all ranks.
-  /// Keeps references to the mesh and to what the nodes refer to. Collective.
+  /// planeNormal. `moves`: of the nodes. Keeps references to the mesh and to what the nodes refer
+  /// to. Collective.
   LayerColumns(RankExchange& exchange, const DistributedMesh& mesh, ColumnNodes nodes,
-    const Moves& moves, const BoundaryProjector& projector, const std::vector<unsigned char>& fixed,
+    const Moves& moves, const BoundaryProjector& projector, const BoundarySearch& boundary,
     const Vector3& plane);
 
   /// Whether there may be columns, on any rank.

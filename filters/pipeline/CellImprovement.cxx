@@ -1,6 +1,5 @@
 #include "pipeline/CellImprovement.h"
 
-#include "fields/CellTags.h"
 #include "mesh/MeshPlane.h"
 #include "motion/BoundaryMotion.h"
 #include "pipeline/LocalOperations.h"
@@ -337,12 +336,11 @@ private:
     {
       return;
     }
-    const auto fixed = withHeld(onBoundaryOf(context_, state_),
-      verticesBetweenTags(exchange_, state_.mesh, tagsOfCells(exchange_, state_)));
+    const auto tags = tagsOfCells(exchange_, state_);
     const std::vector<Point3> before = pointsToKeep(state_);
     Moves moves = movesOntoCAD(mesh(), projector_, classification);
     moveOntoCAD(exchange_, state_.mesh, std::move(moves), classification,
-      { projector_, fixed, false, true, smoothWorst });
+      { projector_, onBoundaryOf(context_, state_), tags, false, true, smoothWorst });
     meshHasChanged(state_);
     scaleDensities(exchange_, state_, before);
   }

@@ -46,8 +46,9 @@ void warnOfUnlistedInterface(const PipelineContext& context, const MeshState& st
   const CADModel& model = context.model;
   const Mesh& mesh = state.mesh.mesh();
   const auto owned = state.mesh.shared.ownedHere(static_cast<Index>(mesh.points.size()));
+  const auto between = verticesBetweenTags(context.exchange, state.mesh, options.tags);
   const auto vertices = indicesWhere(mesh.points.size(),
-    [&](std::size_t v) { return owned[v] && !state.onBoundary[v] && options.held[v]; });
+    [&](std::size_t v) { return owned[v] && !state.onBoundary[v] && between[v]; });
   const auto stride = static_cast<std::uint64_t>(1 + context.exchange.sum(vertices.size()) / most);
   std::map<EntityId, Vector3> first;
   std::int64_t count = 0;
@@ -91,8 +92,7 @@ Projection projectCells(const PipelineContext& context, MeshState& state, Projec
   const BoundaryProjector projector(context.model, boundary.kind);
   state.onBoundary = boundary.onBoundary;
   options.mendCells = warnOfInvalidCells(context, state);
-  options.held =
-    verticesBetweenTags(context.exchange, state.mesh, tagsOfCells(context.exchange, state));
+  options.tags = tagsOfCells(context.exchange, state);
   Projection projection;
   projection.result = projectBoundary(context.exchange, state.mesh, projector, boundary, options);
   steps.begin(0.9, 1);

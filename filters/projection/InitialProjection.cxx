@@ -108,10 +108,10 @@ void leaveOut(const ProjectionTask& task, const EntitySelection& chosen,
     task.exchange, [&] { forEachIndex(parallelFor, records.size(), coarseGrain, decide); });
 }
 
-/// 1 for vertices of the boundary, 2 for those outside the region, and others that are held.
+/// 1 for vertices of the boundary, 2 for those outside the region.
 std::vector<unsigned char> findFixed(const ProjectionTask& task)
 {
-  std::vector<unsigned char> fixed = withHeld(task.boundary.onBoundary, task.options.held);
+  std::vector<unsigned char> fixed = task.boundary.onBoundary;
   for (std::size_t v = 0; v < fixed.size(); ++v)
   {
     fixed[v] = task.options.inRegion(task.points()[v]) ? fixed[v] : 2;
@@ -161,7 +161,7 @@ ProjectionResult projectBoundary(RankExchange& exchange, DistributedMesh& mesh,
     }
   }
   moveOntoCAD(exchange, mesh, std::move(moves), result.classification,
-    { projector, findFixed(task), options.mendCells });
+    { projector, findFixed(task), options.tags, options.mendCells });
   result.projectedPoints = nearest.asked;
   result.slowPoints = nearest.slow;
   result.balance = nearest.balance;

@@ -65,7 +65,7 @@ public:
     const std::vector<unsigned char> held = findHeld();
     LayerColumns columns(exchange_, mesh_,
       { nodes_.points, nodes_.ids, sharedEdges_, entities, held, leastMove, &nodes_.table }, moves_,
-      classified_.projector, classified_.boundary.onBoundary, plane_);
+      classified_.projector, { classified_.boundary.onBoundary, {} }, plane_);
     if (columns.any())
     {
       columns.follow(exchange_, moves_);

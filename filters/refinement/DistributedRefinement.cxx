@@ -4,7 +4,6 @@
 #include "comm/CollectiveErrors.h"
 #include "comm/GlobalNumbering.h"
 #include "comm/WorkSteps.h"
-#include "fields/CellTags.h"
 #include "mesh/PieceCheck.h"
 #include "motion/BoundaryMotion.h"
 #include "refinement/FacetMarking.h"
@@ -392,10 +391,9 @@ RefinementTrace refineOntoCAD(RankExchange& exchange, DistributedMesh& mesh,
     moves.add(static_cast<Index>(oldCount + hit.place), hit.where.point);
   }
   const auto tags = tagsOfChildren(mesh.mesh().dimension, trace, settings.tags);
-  const auto fixed = withHeld(onBoundary, verticesBetweenTags(exchange, mesh, tags));
   moveOntoCAD(exchange, mesh, std::move(moves), classification,
-    { projector, fixed, settings.newVertices == NewVertices::MoveAndMend, true, plan.withOperations,
-      &trace.parentEdges });
+    { projector, onBoundary, tags, settings.newVertices == NewVertices::MoveAndMend, true,
+      plan.withOperations, &trace.parentEdges });
   trace.onBoundary = std::move(onBoundary);
   return trace;
 }

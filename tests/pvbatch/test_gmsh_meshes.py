@@ -336,18 +336,42 @@ class GmshMeshes(driver.Case):
             self.assertGreater(steps[-1]["minimum_quality"], 0.75 * steps[0]["minimum_quality"])
 
     def test_flat_interface_between_hexahedra(self):
-        """Columns from the wall end at it, as it is not in the CAD."""
+        """Columns from the wall end at it, as it is not in the CAD: also where cells alone tell it."""
         occ = gmsh.model.occ
 
-        def with_interface():
+        def with_interface(is_listed):
             halves = [(2, occ.addRectangle(-2, *side)) for side in ((-2, 0, 4, 2.8), (0.8, 0, 4, 1.2))]
             pieces = occ.cut(occ.fragment(halves[:1], halves[1:])[0], [(2, occ.addDisk(0, 0, 0, 0.5, 0.5))])[0]
             occ.extrude(pieces, 0, 0, 1, numElements=[3], recombine=True)
             gmsh.option.setNumber("Mesh.RecombineAll", 1)
+            occ.synchronize()
+            for tag, (_, volume) in enumerate(gmsh.model.getEntities(3) * (not is_listed), 1):
+                gmsh.model.addPhysicalGroup(3, [volume], tag)
 
-        self.generate(3, lambda: occ.extrude([(1, occ.addCircle(0, 0, 0, 0.5))], 0, 0, 1), with_interface, 0.3)
+        def tunnel():
+            occ.extrude([(1, occ.addCircle(0, 0, 0, 0.5))], 0, 0, 1)
+
+        self.generate(3, tunnel, lambda: with_interface(True), 0.3)
         self.expect_planes(1, (0.8,), "quad")
         self.expect_on_cad(3.6)
+        self.generate(3, tunnel, lambda: with_interface(False), 0.3)
+        self.expect_interface("hexahedron", 1, 0.8)
+
+    def expect_interface(self, shape, axis, place):
+        """Expects a mesh that lists no facets; between its two materials it is flat, also when it is refined."""
+        self.assertEqual(list(meshio.read(self.path("mesh.msh")).cells_dict), [shape])
+        for steps in (("--steps", "3"), ("--method", "uniform", "--steps", "1")):
+            run = driver.Run(RANKS, self.path("mesh.msh"), self.path("cad.brep"), *steps, "--no-boundary-cells",
+                             "--output", self.path("fine.vtu"))
+            self.assertEqual(run.status, 0)
+            fine = meshio.read(self.path("fine.vtu"))
+            of_tags = [set(), set()]
+            for block, tags in zip(fine.cells, fine.cell_data["gmsh:physical"]):
+                for tag in (1, 2):
+                    of_tags[tag - 1].update(block.data[tags == tag].ravel())
+            between = sorted(of_tags[0] & of_tags[1])
+            self.assertGreater(len(between), 9)
+            self.assertAlmostEqual(np.abs(fine.points[between, axis] - place).max(), 0, delta=1e-12)
 
     def test_flat_interface_that_cells_alone_tell(self):
         """Physical groups of volumes, none of surfaces: so no triangles are listed."""
@@ -361,18 +385,7 @@ class GmshMeshes(driver.Case):
                 gmsh.model.addPhysicalGroup(3, [volume], tag)
 
         self.generate(3, lambda: occ.addSphere(0, 0, 0, 0.5), two_materials, 0.3)
-        self.assertEqual(list(meshio.read(self.path("mesh.msh")).cells_dict), ["tetra"])
-        for steps in (("--steps", "3"), ("--method", "uniform", "--steps", "1")):
-            run = driver.Run(RANKS, self.path("mesh.msh"), self.path("cad.brep"), *steps, "--no-boundary-cells",
-                             "--output", self.path("fine.vtu"))
-            self.assertEqual(run.status, 0)
-            fine = meshio.read(self.path("fine.vtu"))
-            corners = fine.points[fine.cells_dict["tetra"]]
-            volumes = np.linalg.det(corners[:, 1:] - corners[:, :1]) / 6
-            tags = fine.cell_data_dict["gmsh:physical"]["tetra"]
-            above = [volumes[tags == tag].sum() for tag in (1, 2) if corners[tags == tag][..., 2].max() > 0.9]
-            self.assertEqual(len(above), 1)
-            self.assertAlmostEqual(above[0], 1.6, delta=1e-12)
+        self.expect_interface("tetra", 2, 0.6)
 
     def test_one_cell_high(self):
         """Wedges on either side of an interface that is in the CAD, which is listed either way round: all of its
