@@ -50,7 +50,8 @@ struct ErrorScope
 /// mesh of second order curvedError, and the classification has entries for mid nodes after those
 /// of vertices). Automatic depth: the extrapolation (see extrapolatedMeasure) of a small one. The
 /// global sum is bit for bit the same for every partition. Fills classified.midpoints. `cache` is
-/// that of the boundary before; with `remember` it becomes that of this one (not of second order).
+/// that to which classified.classes.known refers; with `remember` it becomes that of this boundary
+/// (not of second order).
 ///
 /// Collective. Work: the projections of geometricErrors, or of curvedError, shared out evenly over
 /// ranks and threads. Messages: those of mapBalanced for each level of depth, and a few reductions

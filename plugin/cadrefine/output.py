@@ -21,7 +21,7 @@ NOT_KEPT = {
     ".e": "arrays, but for groups",
     ".inp": "arrays, but for groups",
     ".cgns": "arrays, but for groups of cells, facets and edges",
-    ".bdf": "arrays, but for the first group of each cell",
+    ".bdf": "arrays, but for the first group of each cell; edges of second order",
     ".unv": "arrays, but for groups of cells, facets and edges",
     ".mesh": "arrays, but for the number of the first group of each cell",
     ".su2": "arrays, but for groups of facets on the boundary",

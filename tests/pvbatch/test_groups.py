@@ -16,11 +16,12 @@ import numpy as np
 sys.path.insert(0, os.path.join(driver.ROOT, "plugin"))
 
 from cadrefine import pieces
-from cadrefine.formats import BadFile, abaqus, exodus, exodus_writing, grid, med, msh, msh_writing, nastran, openfoam
-from cadrefine.formats import openfoam_writing, su2, unv, xdmf
+from cadrefine.formats import BadFile, abaqus, cgns, cgns_writing, exodus, exodus_writing, grid, med, msh, msh_writing
+from cadrefine.formats import nastran, openfoam, openfoam_writing, su2, unv, unv_writing, xdmf
 from cadrefine.formats.groups import grouped
 from cadrefine.formats.sides import once, sides_of
 from vtkmodules.vtkCommonCore import vtkStringArray
+from vtkmodules.vtkCommonDataModel import vtkUnstructuredGrid
 
 EDGES = [[0, 1], [1, 2], [2, 0], [0, 3], [1, 3], [2, 3]]  # Of a tetrahedron, those of a triangle first.
 NAMED = {2: "nose", 3: "nose", 4: "wall"}  # Faces of the boxes' CAD: two of the same name, and one of a group's.
@@ -228,6 +229,19 @@ class Groups(unittest.TestCase):
             inside = (back.cell_data["ObjectId"] == tag) & (back.cell_dimensions() == dimension)
             self.assertEqual(inside.sum(), self.expected[name, dimension], name)
         np.testing.assert_array_equal(np.unique(back.points, axis=0), np.unique(self.mesh.points, axis=0))
+
+    def test_second_order_in_the_plane(self):
+        """Triangles and their edges, whose third node is no corner."""
+        points = np.array([(x, y, 0) for y in (0, 0.5, 1) for x in (0, 0.5, 1)], float)
+        mesh = grid.Mesh(points, [(21, np.array([[0, 2, 1]])), (22, np.array([[0, 2, 6, 1, 4, 3], [2, 8, 6, 5, 7, 4]]))],
+                         {}, {grid.PHYSICAL: np.array([1, 2, 2], np.int32)}, {"wall": (1, 1), "air": (2, 2)})
+        for module, reader, ending in ((xdmf, xdmf, ".xdmf"), (exodus_writing, exodus, ".exo"), (unv_writing, unv, ".unv"),
+                                       (med, med, ".med"), (cgns_writing, cgns, ".cgns")):
+            module.write(self.path("order2" + ending), mesh)
+            back = reader.read(self.path("order2" + ending))
+            back = grid.from_grid(back) if isinstance(back, vtkUnstructuredGrid) else back
+            self.assertEqual({kind: back.points[corners].tolist() for kind, corners in back.blocks},
+                             {kind: points[corners].tolist() for kind, corners in mesh.blocks}, ending)
 
     def test_xdmf(self):
         """Names are where meshio reads them, in each of the grids."""

@@ -9,10 +9,9 @@ PROPERTY = "unv:property"  # Cell array: number of the physical property.
 NODES, ELEMENTS, GROUPS = ("2411", "781"), ("2412",), ("2435", "2452", "2467", "2477")
 ELEMENT_MEMBER = 8  # Kind of a member of a group.
 BEAMS = (11, 21, 22, 23, 24)  # Their second line is about their section.
-LINES = {11: 3, 21: 3, 22: 3, 23: 21, 24: 21}
-# VTK's types, by the descriptor of an element: rods and beams; plane, axisymmetric and shell triangles and
-# quadrilaterals; solids. SALOME uses the cubic wedge's number for pyramids of second order.
-TYPES = {**LINES, **dict.fromkeys((41, 51, 61, 74, 81, 91), 5), **dict.fromkeys((42, 52, 62, 72, 82, 92), 22),
+# VTK's types, by the descriptor of an element: plane, axisymmetric and shell triangles and quadrilaterals; solids.
+# SALOME uses the cubic wedge's number for pyramids of second order.
+TYPES = {**dict.fromkeys((41, 51, 61, 74, 81, 91), 5), **dict.fromkeys((42, 52, 62, 72, 82, 92), 22),
          **dict.fromkeys((44, 54, 64, 71, 84, 94), 9), **dict.fromkeys((45, 55, 65, 75, 85, 95), 23), 111: 10, 118: 24,
          115: 12, 116: 25, 112: 13, 113: 26, 114: 27}
 # Nodes go round an element, mid nodes between the corners, layer by layer.
@@ -63,9 +62,9 @@ def read_elements(bulk, lines):
         nodes = []
         while len(nodes) < count:
             nodes += [int(word) for word in next(lines).split()]
-        if descriptor not in TYPES:
+        if descriptor not in TYPES and descriptor not in BEAMS:
             raise BadFile(f"holds elements of the type {descriptor} of universal files")
-        kind = TYPES[descriptor]
+        kind = TYPES.get(descriptor, 21 if count == 3 else 3)  # SALOME's of second order are tapered beams, 22.
         nodes = [nodes[place] for place in ORDERS.get(kind, range(count))]
         bulk.add_element(number, kind, nodes, property_number)
 

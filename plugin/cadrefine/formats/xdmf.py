@@ -22,6 +22,8 @@ INCLUDE = "{*}include"  # DOLFINx 0.5 and 0.9 have different names for the name 
 
 # XDMF's numbers, by VTK's, of the types of cells that can be beside others in a grid.
 NUMBERS = {5: 4, 9: 5, 10: 6, 14: 7, 13: 8, 12: 9, 22: 36, 23: 37, 24: 38, 27: 39, 26: 40, 25: 48}
+# Names of the types of second order, which VTK's writer has not.
+NAMES = {21: "Edge_3", 22: "Tri_6", 23: "Quad_8", 24: "Tet_10", 25: "Hex_20", 26: "Wedge_15", 27: "Pyramid_13"}
 
 OVERHEAD = 1 << 20  # Bytes of an HDF5 file beside its numbers, more or less.
 KINDS = {1: "Scalar", 3: "Vector", 6: "Tensor6", 9: "Tensor"}  # Of attributes, by components.
@@ -132,7 +134,7 @@ def write(path, mesh):
         if not writer.Write():
             raise OSError("the HDF5 library reports an error")
     os.replace(os.path.join(folder, SERIAL + name), path)
-    arrange(path, list(grids), names, mesh)
+    arrange(path, grids, names, mesh)
     number_mixed_cells(path, grids)
 
 
@@ -205,18 +207,21 @@ def writable(name, values):
     return array
 
 
-def arrange(path, grid_names, array_names, mesh):
-    """Puts all grids side by side under the domain, as DOLFIN has them, and gives grids, arrays and groups their names.
+def arrange(path, grids, array_names, mesh):
+    """Puts all grids side by side under the domain, as DOLFIN has them, and gives grids, types, arrays and groups their
+    names.
     DOLFIN and DOLFINx look at the first array of a grid alone: that is the one of tags."""
     tree = parse(path)
     domain = tree.find("Domain")
-    grids = [grid for grid in domain.iter("Grid") if grid.get("GridType") == "Uniform"]
+    elements = [grid for grid in domain.iter("Grid") if grid.get("GridType") == "Uniform"]
     for child in list(domain):
         domain.remove(child)
     highest = int(mesh.cell_dimensions().max(initial=0))
     dimensions = {"mesh": highest, "facets": highest - 1, "edges": 1, "vertices": 0}
-    for grid_name, grid in zip(grid_names, grids):
+    for grid, (grid_name, data) in zip(elements, grids.items()):
         grid.set("Name", grid_name)
+        if data.IsHomogeneous() and data.GetCellType(0) in NAMES:
+            grid.find("Topology").set("TopologyType", NAMES[data.GetCellType(0)])
         for attribute in grid.findall("Attribute"):
             name_attribute(attribute, array_names[attribute.get("Name")])
         attributes = {item.get("Name"): item for item in grid.findall("Attribute")}  # Some of points and of cells.
