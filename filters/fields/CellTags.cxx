@@ -21,6 +21,8 @@ namespace cadrefine
 namespace
 {
 
+constexpr std::int64_t mostKinds = 32; // that are taken for tags, however few cells there are
+
 /// A value that a tag has somewhere.
 struct TagValue
 {
@@ -149,7 +151,6 @@ CellRange cellsOf(const Mesh& mesh, int dimension)
 std::vector<std::uint64_t> findNumberings(
   RankExchange& exchange, vtkCellData* data, const CellRange& cells)
 {
-  constexpr std::int64_t mostKinds = 32; // that are taken for tags, however few cells there are
   std::vector<TagValue> values;
   forEachTag(data,
     [&](vtkDataArray* array)
@@ -242,6 +243,18 @@ std::vector<unsigned char> verticesBetweenTags(
     flags[v] = flags[v] || smallest[v] < largest[v];
   }
   return flags;
+}
+
+bool areFewKinds(RankExchange& exchange, const std::vector<std::uint64_t>& tags)
+{
+  std::vector<std::int64_t> counts(1024, 0);
+  for (const std::uint64_t tag : tags)
+  {
+    counts[tag % counts.size()] = 1;
+  }
+  counts = exchange.sum(counts);
+  return static_cast<std::int64_t>(counts.size()) - std::count(counts.begin(), counts.end(), 0) <=
+         mostKinds;
 }
 
 std::vector<Index> labelsOf(

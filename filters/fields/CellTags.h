@@ -52,6 +52,11 @@ std::vector<std::uint64_t> tagHashesOf(
 std::vector<unsigned char> verticesBetweenTags(
   RankExchange& exchange, const DistributedMesh& mesh, const std::vector<std::uint64_t>& tags);
 
+/// Whether there are at most 32 different ones of these hashes, over all ranks. Where there are
+/// more, they may number cells that were refined. (Hashes are told apart by ten of their bits.)
+/// Collective: a reduction of 8 KiB.
+bool areFewKinds(RankExchange& exchange, const std::vector<std::uint64_t>& tags);
+
 /// For each cell of the range a number, from 0 on, that is the same for cells of this rank with the
 /// same hash (see tagHashesOf).
 std::vector<Index> labelsOf(

@@ -1,6 +1,7 @@
 #include "motion/ColumnStarts.h"
 
 #include "comm/CollectiveErrors.h"
+#include "fields/CellTags.h"
 #include "mesh/BoundaryFacets.h"
 
 #include <cadrefine/classification/ClassificationTolerances.h>
@@ -54,9 +55,15 @@ std::vector<Facet> findSidesOnEdges(const Columns& columns)
   return sides;
 }
 
-/// The tags of cells that columns may go through; 0 for others, where the stacks of cells end.
-std::vector<std::uint64_t> tagsInStacks(const Mesh& mesh, std::vector<std::uint64_t> tags)
+/// The tags of cells that columns may go through, if they are few; 0 for others, where the stacks
+/// of cells end. Collective.
+std::vector<std::uint64_t> tagsInStacks(
+  RankExchange& exchange, const Mesh& mesh, std::vector<std::uint64_t> tags)
 {
+  if (!areFewKinds(exchange, tags))
+  {
+    return {};
+  }
   auto tag = tags.begin();
   visitOwnShapes(mesh,
     [&](auto shape, const auto& cells)
@@ -150,9 +157,10 @@ ColumnStarts startColumns(RankExchange& exchange, const Moves& moves,
   const BoundarySearch& boundary, const CellStacks& stacks, Columns& columns)
 {
   const ColumnNodes& nodes = columns.nodes;
-  columns.facets = columns.onSurface() ? findSidesOnEdges(columns)
-                                       : findBoundaryFacets(exchange, columns.mesh, boundary.among,
-                                           tagsInStacks(columns.mesh.mesh(), boundary.tags));
+  columns.facets = columns.onSurface()
+                     ? findSidesOnEdges(columns)
+                     : findBoundaryFacets(exchange, columns.mesh, boundary.among,
+                         tagsInStacks(exchange, columns.mesh.mesh(), boundary.tags));
   const auto best = findBestFacets(exchange, columns, moves);
   const InnerWalls walls = findInnerWalls(exchange, columns);
   ColumnClimb climb(columns.mesh, stacks, nodes, moves, walls, columns.onSurface());
