@@ -89,9 +89,9 @@ public:
 
   ///@{
   /**
-   * Whether boundary layers are cut along the wall only, all cells over each other alike (see
-   * cadrefine::markLongestEdges); off: their cells are cut as others are, and become pyramids and
-   * tetrahedra beside finer ones. Default on.
+   * Whether boundary layers are cut along the wall only, all cells over each other alike, and long
+   * cells from end to end (see cadrefine::markLongestEdges); off: their cells are cut as others
+   * are, and become pyramids and tetrahedra beside finer ones. Default on.
    */
   vtkSetMacro(KeepLayers, bool);
   vtkGetMacro(KeepLayers, bool);

@@ -1,4 +1,4 @@
-// Cells that are thin in one direction, as those of a boundary layer are across it.
+// Cells that are thin in one direction, as those of a boundary layer are across it, or long in one.
 #pragma once
 
 #include <cadrefine/mesh/CellState.h>
@@ -27,6 +27,15 @@ int thinDirection(const std::array<double, Directions>& meanSquares)
     }
   }
   return static_cast<int>(least - meanSquares.begin());
+}
+
+/// The direction in which a cell is more than twice as long as in each other one; -1: none.
+template<std::size_t Directions>
+int longDirection(std::array<double, Directions> meanSquares)
+{
+  std::transform(meanSquares.begin(), meanSquares.end(), meanSquares.begin(),
+    [](double square) { return 1 / square; });
+  return thinDirection(meanSquares);
 }
 
 /// The mean of the squared lengths of some of a cell's edges.

@@ -36,24 +36,40 @@ constexpr LocalTriangle wedgeTriangles[2] = { { 0, 1, 2 }, { 3, 4, 5 } };
 constexpr LocalTriangle pyramidTriangles[4] = { { 0, 5, 4 }, { 1, 6, 5 }, { 2, 7, 6 },
   { 3, 4, 7 } };
 
-/// Pairs of edges that lie over each other, seen along each direction.
-constexpr int hexahedronPairs[3][4][2] = { { { 3, 1 }, { 7, 5 }, { 8, 9 }, { 11, 10 } },
-  { { 0, 2 }, { 4, 6 }, { 8, 11 }, { 9, 10 } }, { { 0, 4 }, { 1, 5 }, { 2, 6 }, { 3, 7 } } };
-
-/// The direction in which a cell is thin, or -1.
-template<std::size_t Edges, std::size_t Directions, std::size_t Parallel>
-int thinDirectionIn(const EdgeTable& table, const std::array<Index, Edges>& edges,
-  const int (&directions)[Directions][Parallel])
+/// Two edges that lie over each other, seen along one direction, and their own direction.
+struct EdgePair
 {
-  std::array<double, Directions> meanSquares{};
-  for (std::size_t d = 0; d < Directions; ++d)
+  int direction;
+  int edge;
+  int over;
+};
+constexpr EdgePair hexahedronPairs[3][4] = { { { 1, 3, 1 }, { 1, 7, 5 }, { 2, 8, 9 },
+                                               { 2, 11, 10 } },
+  { { 0, 0, 2 }, { 0, 4, 6 }, { 2, 8, 11 }, { 2, 9, 10 } },
+  { { 0, 0, 4 }, { 0, 2, 6 }, { 1, 1, 5 }, { 1, 3, 7 } } };
+
+/// The mean of the squared lengths of some of a cell's edges.
+template<std::size_t Edges, std::size_t Count>
+double meanSquareOf(
+  const EdgeTable& table, const std::array<Index, Edges>& edges, const int (&places)[Count])
+{
+  double sum = 0;
+  for (const int place : places)
   {
-    for (const int edge : directions[d])
-    {
-      meanSquares[d] += table.squaredLengths[edges[edge]] / Parallel;
-    }
+    sum += table.squaredLengths[edges[place]];
   }
-  return thinDirection(meanSquares);
+  return sum / Count;
+}
+
+/// That mean for each direction of a cell.
+template<std::size_t Edges, std::size_t Directions, std::size_t Parallel>
+std::array<double, Directions> meanSquaresIn(const EdgeTable& table,
+  const std::array<Index, Edges>& edges, const int (&directions)[Directions][Parallel])
+{
+  std::array<double, Directions> meanSquares;
+  std::transform(std::begin(directions), std::end(directions), meanSquares.begin(),
+    [&](const auto& places) { return meanSquareOf(table, edges, places); });
+  return meanSquares;
 }
 
 /// Marks all edges of a marked cell, except those in the direction in which it is thin if layers
@@ -62,7 +78,7 @@ template<std::size_t Edges, std::size_t Directions, std::size_t Parallel>
 void markAcross(const EdgeTable& table, const std::array<Index, Edges>& edges,
   const int (&directions)[Directions][Parallel], bool keepLayers, EdgeMarks& marks)
 {
-  const int thin = keepLayers ? thinDirectionIn(table, edges, directions) : -1;
+  const int thin = keepLayers ? thinDirection(meanSquaresIn(table, edges, directions)) : -1;
   for (int d = 0; d < static_cast<int>(Directions); ++d)
   {
     for (const int edge : directions[d])
@@ -309,6 +325,12 @@ void MarkClosure::lookAt(const std::array<Index, 9>& wedge)
     {
       markTogether(wedge[k], wedge[3 + k]);
     }
+    const double ofTriangles = meanSquareOf(table_, wedge, { 0, 1, 2, 3, 4, 5 });
+    if (longDirection(std::array{ ofTriangles, meanSquareOf(table_, wedge, { 6, 7, 8 }) }) == 1)
+    {
+      markTogether(wedge[6], wedge[7]);
+      markTogether(wedge[7], wedge[8]);
+    }
   }
   for (const LocalTriangle& triangle : wedgeTriangles)
   {
@@ -320,11 +342,18 @@ void MarkClosure::lookAt(const std::array<Index, 12>& hexahedron)
 {
   if (keepLayers_ && isPartlyMarked(marks_, hexahedron))
   {
-    const int thin = thinDirectionIn(table_, hexahedron, shapes::Hexahedron::directions);
-    for (int k = 0; thin >= 0 && k < 4; ++k)
+    const auto meanSquares = meanSquaresIn(table_, hexahedron, shapes::Hexahedron::directions);
+    const int thin = thinDirection(meanSquares);
+    const int longest = longDirection(meanSquares);
+    for (int along = 0; along < 3; ++along)
     {
-      const auto& [edge, over] = hexahedronPairs[thin][k];
-      markTogether(hexahedron[edge], hexahedron[over]);
+      for (const auto& [direction, edge, over] : hexahedronPairs[along])
+      {
+        if (along == thin || along == longest || direction == longest)
+        {
+          markTogether(hexahedron[edge], hexahedron[over]);
+        }
+      }
     }
   }
 }
@@ -334,7 +363,8 @@ void MarkClosure::lookAt(const std::array<Index, 4>& quadrilateral)
 {
   if (keepLayers_ && dimension_ == 2 && isPartlyMarked(marks_, quadrilateral))
   {
-    const int thin = thinDirectionIn(table_, quadrilateral, shapes::Quadrilateral::directions);
+    const int thin =
+      thinDirection(meanSquaresIn(table_, quadrilateral, shapes::Quadrilateral::directions));
     if (thin >= 0)
     {
       markTogether(quadrilateral[1 - thin], quadrilateral[3 - thin]);

@@ -44,6 +44,10 @@ using EdgeMarks = std::vector<unsigned char>;
 ///      means of their squares) marks its edges in the others;
 ///   2. an edge of a wedge's triangle that is marked marks the one over it, an edge of a thin cell
 ///      the one over it.
+/// Long hexahedra and wedges (more than twice as long in one direction as in each other one, or as
+/// the triangles' edges) are cut from end to end, as their transition cells would be slivers:
+///   3. a marked edge in the long direction marks all others in it, any other one of a hexahedron
+///      the one that lies over it, seen along that direction.
 /// These are monotone too.
 
 /// Marks edges by rule 1 for the cells of the mesh's own dimension; `cellMarks` has one entry for

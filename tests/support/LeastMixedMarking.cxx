@@ -3,6 +3,7 @@
 #include <cadrefine/base/Vector3.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <numeric>
 #include <tuple>
@@ -82,6 +83,7 @@ private:
   {
     Edges all;
     Edges triangles; ///< Of a wedge.
+    Edges uprights;  ///< Between these.
     std::vector<Edges> directions;
   };
 
@@ -128,7 +130,9 @@ private:
         stacked_.emplace_back(low, high);
         cell.triangles.push_back(low);
         cell.triangles.push_back(high);
+        cell.uprights.push_back(edge(corners[k], corners[3 + k]));
       }
+      wedges_.push_back(cell);
     }
     if constexpr (!isSimplex(Shape{}) && (Shape::corners == 8 || Shape::dimension == 2))
     {
@@ -157,21 +161,21 @@ private:
         }
       }
     }
-    for (int thin = 0; keepLayers_ && thin < Shape::dimension; ++thin)
+    for (int along = 0; keepLayers_ && along < Shape::dimension; ++along)
     {
-      candidates_.push_back({ cell, thin, {}, Shape::dimension == mesh_.dimension });
+      candidates_.push_back({ cell, along, {}, Shape::dimension == mesh_.dimension });
       auto& over = candidates_.back().pairs;
       for (const auto& [i, k] : Shape::edges)
       {
         for (const auto& [m, n] : Shape::edges)
         {
-          // One step apart in the thin direction, alike in the others.
+          // One step apart in this direction, alike in the others.
           const auto isOver = [&](int a, int b)
           {
-            bool same = at[a][thin] == 0 && at[b][thin] == 1;
+            bool same = at[a][along] == 0 && at[b][along] == 1;
             for (int d = 0; d < 3; ++d)
             {
-              same = same && (d == thin || at[a][d] == at[b][d]);
+              same = same && (d == along || at[a][d] == at[b][d]);
             }
             return same;
           };
@@ -184,7 +188,7 @@ private:
     }
   }
 
-  /// The largest rank of each stack; then which cells are thin.
+  /// The largest rank of each stack; then which cells are thin or long.
   void standAlike()
   {
     for (bool changed = keepLayers_; changed;)
@@ -206,32 +210,63 @@ private:
     }
     for (const auto& candidate : candidates_)
     {
-      if (candidate.isOfLayers && thinDirection(candidate.cell) == candidate.thin)
+      const auto& [cell, along, pairs, isOfLayers] = candidate;
+      const bool isThin = thinDirection(cell) == along;
+      const int longest = cell.directions.size() == 3 ? longDirection(cell) : -1;
+      std::copy_if(pairs.begin(), pairs.end(), std::back_inserter(pairs_),
+        [&, isLong = longest == along, use = isOfLayers](const auto& pair)
+        {
+          const auto isIn = [&](const Edges& edges)
+          { return std::find(edges.begin(), edges.end(), pair.first) != edges.end(); };
+          return use && (isThin || isLong || (longest >= 0 && isIn(cell.directions[longest])));
+        });
+    }
+    for (const Cell& wedge : wedges_)
+    {
+      if (keepLayers_ && meanSquare(wedge.uprights) > 4 * meanSquare(wedge.triangles))
       {
-        pairs_.insert(pairs_.end(), candidate.pairs.begin(), candidate.pairs.end());
+        pairs_.emplace_back(wedge.uprights[0], wedge.uprights[1]);
+        pairs_.emplace_back(wedge.uprights[0], wedge.uprights[2]);
       }
     }
   }
 
+  double meanSquare(const Edges& edges) const
+  {
+    double sum = 0;
+    for (const IdPair& each : edges)
+    {
+      sum += ranks_.at(each).squaredLength;
+    }
+    return sum / static_cast<double>(edges.size());
+  }
+
   int thinDirection(const Cell& cell) const
   {
-    std::vector<double> sums;
+    return directionOf(cell, [](double its, double other) { return 4 * its < other; });
+  }
+  int longDirection(const Cell& cell) const
+  {
+    return directionOf(cell, [](double its, double other) { return its > 4 * other; });
+  }
+
+  /// The direction whose mean square compares so with each other one; -1: none.
+  template<class Compare>
+  int directionOf(const Cell& cell, const Compare& compare) const
+  {
+    std::vector<double> means;
     for (const Edges& edges : cell.directions)
     {
-      sums.push_back(0);
-      for (const IdPair& each : edges)
-      {
-        sums.back() += ranks_.at(each).squaredLength;
-      }
+      means.push_back(meanSquare(edges));
     }
-    for (std::size_t d = 0; d < sums.size(); ++d)
+    for (std::size_t d = 0; d < means.size(); ++d)
     {
-      bool isThin = true;
-      for (std::size_t other = 0; other < sums.size(); ++other)
+      bool differs = true;
+      for (std::size_t other = 0; other < means.size(); ++other)
       {
-        isThin = isThin && (other == d || 4 * sums[d] < sums[other]);
+        differs = differs && (other == d || compare(means[d], means[other]));
       }
-      if (isThin)
+      if (differs)
       {
         return static_cast<int>(d);
       }
@@ -276,7 +311,7 @@ private:
   struct Candidate
   {
     Cell cell;
-    int thin;
+    int along; ///< The direction along which pairs lie over each other.
     std::vector<std::pair<IdPair, IdPair>> pairs;
     bool isOfLayers = false;
   };
@@ -285,6 +320,7 @@ private:
   bool keepLayers_;
   std::map<IdPair, Rank> ranks_;
   std::vector<Cell> cells_; ///< Of the mesh's own dimension.
+  std::vector<Cell> wedges_;
   std::vector<Edges> groups_;
   std::vector<std::pair<IdPair, IdPair>> stacked_;
   std::vector<std::pair<IdPair, IdPair>> pairs_;

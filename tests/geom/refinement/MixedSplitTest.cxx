@@ -381,10 +381,10 @@ TEST_P(MixedSplit, marksAreTheLeastFixpoint)
       SCOPED_TRACE("seed " + std::to_string(seed) + (keepLayers ? ", layers kept" : ""));
       Mesh mesh = this->mesh(seed, seed % 3 == 0 ? 0 : 0.15);
       std::mt19937_64 random(seed);
-      const double flatness = seed % 2 ? 0.3 : 1;
+      constexpr double stretches[] = { 1, 0.3, 1, 3 };
       for (Point3& point : mesh.points)
       {
-        point[1] *= flatness; // thin cells
+        point[1] *= stretches[seed % 4]; // thin cells, long ones
       }
       const auto cellMarks = someCells(mesh, seed);
       const auto found = Marking(mesh, cellMarks, keepLayers).ids(mesh);
@@ -438,6 +438,33 @@ TEST(Layers, areCutAlongTheWallAlone)
     EXPECT_EQ(mesh.wedges.size() % heights.size(), 0u);
     EXPECT_EQ(mesh.hexahedra.size() % heights.size(), 0u);
     EXPECT_GT(mesh.wedges.size() + mesh.hexahedra.size(), 2 * layerBoxes);
+  }
+}
+
+/// As long as cells are long, there is no pyramid and no tetrahedron among their parts.
+TEST(LongCells, areCutFromEndToEnd)
+{
+  for (const auto kind : { cadtest::BoxKind::Hexahedron, cadtest::BoxKind::Wedges })
+  {
+    Mesh mesh = cadtest::mixedMesh(
+      cadtest::hexahedraMesh(4, 0.1, 5), [&](std::size_t) { return kind; }, 1);
+    for (Point3& point : mesh.points)
+    {
+      point[2] *= 20;
+    }
+    std::mt19937_64 random(3);
+    for (int level = 0; level < 3; ++level)
+    {
+      std::vector<unsigned char> marks(mesh.cellCount(3));
+      std::generate(marks.begin(), marks.end(), [&] { return random() % 12 == 0; });
+      const Marking marking(mesh, marks, true);
+      const std::size_t before = mesh.cellCount(3);
+      mesh = marking.split(mesh).mesh;
+      EXPECT_GT(mesh.cellCount(3), before);
+      EXPECT_EQ(mesh.cellCount(3), mesh.hexahedra.size() + mesh.wedges.size());
+      EXPECT_TRUE(cadtest::isValid(mesh));
+      EXPECT_TRUE(cadtest::hasNoHangingVertex(mesh));
+    }
   }
 }
 
