@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
-#include <limits>
 #include <map>
 #include <utility>
 
@@ -21,7 +20,9 @@ namespace cadrefine
 namespace
 {
 
-constexpr std::int64_t mostKinds = 32; // that are taken for tags, however few cells there are
+constexpr std::int64_t mostKinds = 32;  // that are taken for tags, however few cells there are
+constexpr std::int64_t manyKinds = 256; // for tags, with fewer cells each, on average, than
+constexpr std::int64_t fewCells = 100;  // two levels of refinement make of one
 
 /// A value that a tag has somewhere.
 struct TagValue
@@ -168,7 +169,8 @@ std::vector<std::uint64_t> findNumberings(
   std::vector<std::uint64_t> names; // also of arrays that this rank, without cells, does not have
   for (const auto& [name, count] : countValues(exchange, values))
   {
-    if (count > mostKinds && 2 * count > cellCount)
+    const std::int64_t cellsOfOne = count > manyKinds ? fewCells : 2;
+    if (count > mostKinds && cellsOfOne * count > cellCount)
     {
       names.push_back(name);
     }
@@ -192,69 +194,6 @@ std::vector<std::uint64_t> tagHashesOf(
       }
     });
   return hashes;
-}
-
-std::vector<unsigned char> verticesBetweenTags(
-  RankExchange& exchange, const DistributedMesh& mesh, const std::vector<std::uint64_t>& tags)
-{
-  const Mesh& piece = mesh.mesh();
-  std::vector<unsigned char> flags(piece.points.size(), 0);
-  const auto flag = [&](const auto& cells)
-  {
-    for (const auto& cell : cells)
-    {
-      for (const Index v : cell)
-      {
-        flags[v] = 1;
-      }
-    }
-  };
-  flag(piece.vertices);
-  if (piece.dimension == 3)
-  {
-    flag(piece.segments);
-  }
-  combineFlags(exchange, mesh.shared, flags);
-  if (!exchange.any(!tags.empty()))
-  {
-    return flags;
-  }
-  std::vector<std::uint64_t> smallest(
-    piece.points.size(), std::numeric_limits<std::uint64_t>::max());
-  std::vector<std::uint64_t> largest(piece.points.size(), 0);
-  auto tag = tags.begin();
-  visitOwnShapes(piece,
-    [&](auto, const auto& cells)
-    {
-      for (const auto& cell : cells)
-      {
-        for (const Index v : cell)
-        {
-          smallest[v] = std::min(smallest[v], *tag);
-          largest[v] = std::max(largest[v], *tag);
-        }
-        ++tag;
-      }
-    });
-  combineSmallest(exchange, mesh.shared, smallest);
-  combineLargest(exchange, mesh.shared, largest);
-  for (std::size_t v = 0; v < flags.size(); ++v)
-  {
-    flags[v] = flags[v] || smallest[v] < largest[v];
-  }
-  return flags;
-}
-
-bool areFewKinds(RankExchange& exchange, const std::vector<std::uint64_t>& tags)
-{
-  std::vector<std::int64_t> counts(1024, 0);
-  for (const std::uint64_t tag : tags)
-  {
-    counts[tag % counts.size()] = 1;
-  }
-  counts = exchange.sum(counts);
-  return static_cast<std::int64_t>(counts.size()) - std::count(counts.begin(), counts.end(), 0) <=
-         mostKinds;
 }
 
 std::vector<Index> labelsOf(

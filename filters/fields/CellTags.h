@@ -2,7 +2,6 @@
 #pragma once
 
 #include "comm/RankExchange.h"
-#include "mesh/DistributedMesh.h"
 
 #include <cadrefine/base/MeshTypes.h>
 #include <cadrefine/mesh/Mesh.h>
@@ -33,10 +32,11 @@ struct CellRange
 /// The range of the cells of this dimension in a mesh's arrays.
 CellRange cellsOf(const Mesh& mesh, int dimension);
 
-/// Hashes of the names, ascending, of arrays that look like tags but number the cells: over all
-/// ranks they have more than 32 different values, and more than half as many as there are cells in
-/// the range. The same on all ranks. Collective: two times all-to-all, 16 bytes a value that a rank
-/// has. Values are told apart by hashes of 64 bits.
+/// Hashes of the names, ascending, of arrays that look like tags but number the cells, or those
+/// that the cells were refined from: over all ranks they have more than 32 different values, and
+/// more than half as many as there are cells in the range; or more than 256, for fewer than 100
+/// cells each. The same on all ranks. Collective: two times all-to-all, 16 bytes a value that a
+/// rank has. Values are told apart by hashes of 64 bits.
 std::vector<std::uint64_t> findNumberings(
   RankExchange& exchange, vtkCellData* data, const CellRange& cells);
 
@@ -44,18 +44,6 @@ std::vector<std::uint64_t> findNumberings(
 /// same for cells with the same tags, on whatever rank.
 std::vector<std::uint64_t> tagHashesOf(
   vtkCellData* data, const CellRange& cells, const std::vector<std::uint64_t>& numberings);
-
-/// 1 for vertices that separate what is tagged, given hashes of the tags of the cells of the mesh's
-/// own dimension (none on any rank: there are no tags): those between cells of different tags, of
-/// listed lines in a mesh of volume, and listed points; over all ranks. Collective. Work: one look
-/// at each cell where there are tags.
-std::vector<unsigned char> verticesBetweenTags(
-  RankExchange& exchange, const DistributedMesh& mesh, const std::vector<std::uint64_t>& tags);
-
-/// Whether there are at most 32 different ones of these hashes, over all ranks. Where there are
-/// more, they may number cells that were refined. (Hashes are told apart by ten of their bits.)
-/// Collective: a reduction of 8 KiB.
-bool areFewKinds(RankExchange& exchange, const std::vector<std::uint64_t>& tags);
 
 /// For each cell of the range a number, from 0 on, that is the same for cells of this rank with the
 /// same hash (see tagHashesOf).

@@ -307,4 +307,55 @@ std::vector<Facet> findBoundaryFacets(RankExchange& exchange, const DistributedM
   return facets;
 }
 
+std::vector<unsigned char> verticesBetweenTags(
+  RankExchange& exchange, const DistributedMesh& mesh, const std::vector<std::uint64_t>& tags)
+{
+  const Mesh& piece = mesh.mesh();
+  std::vector<unsigned char> flags(piece.points.size(), 0);
+  const auto flag = [&](const auto& cells)
+  {
+    for (const auto& cell : cells)
+    {
+      for (const Index v : cell)
+      {
+        flags[v] = 1;
+      }
+    }
+  };
+  flag(piece.vertices);
+  if (piece.dimension == 3)
+  {
+    flag(piece.segments);
+  }
+  combineFlags(exchange, mesh.shared, flags);
+  if (!exchange.any(!tags.empty()))
+  {
+    return flags;
+  }
+  std::vector<std::uint64_t> smallest(
+    piece.points.size(), std::numeric_limits<std::uint64_t>::max());
+  std::vector<std::uint64_t> largest(piece.points.size(), 0);
+  auto tag = tags.begin();
+  visitOwnShapes(piece,
+    [&](auto, const auto& cells)
+    {
+      for (const auto& cell : cells)
+      {
+        for (const Index v : cell)
+        {
+          smallest[v] = std::min(smallest[v], *tag);
+          largest[v] = std::max(largest[v], *tag);
+        }
+        ++tag;
+      }
+    });
+  combineSmallest(exchange, mesh.shared, smallest);
+  combineLargest(exchange, mesh.shared, largest);
+  for (std::size_t v = 0; v < flags.size(); ++v)
+  {
+    flags[v] = flags[v] || smallest[v] < largest[v];
+  }
+  return flags;
+}
+
 } // namespace cadrefine

@@ -1,4 +1,4 @@
-// The facets by which a mesh in pieces meets its boundary.
+// The facets by which a mesh in pieces meets its boundary, and what its tags tell apart.
 #pragma once
 
 #include "mesh/DistributedMesh.h"
@@ -32,5 +32,12 @@ std::array<GlobalId, 4> idsOf(const Mesh& mesh, const std::array<Index, 4>& corn
 /// each side in common.
 std::vector<Facet> findBoundaryFacets(RankExchange& exchange, const DistributedMesh& mesh,
   const std::vector<unsigned char>& among, const std::vector<std::uint64_t>& tags = {});
+
+/// 1 for vertices that separate what is tagged, given hashes of the tags of the cells of the mesh's
+/// own dimension (none on any rank: there are no tags): those between cells of different tags, of
+/// listed lines in a mesh of volume, and listed points; over all ranks. Collective. Work: one look
+/// at each cell where there are tags.
+std::vector<unsigned char> verticesBetweenTags(
+  RankExchange& exchange, const DistributedMesh& mesh, const std::vector<std::uint64_t>& tags);
 
 } // namespace cadrefine

@@ -2,7 +2,6 @@
 
 #include "comm/CollectiveErrors.h"
 #include "comm/Threads.h"
-#include "fields/CellTags.h"
 #include "mesh/BoundaryFacets.h"
 #include "mesh/MeshPlane.h"
 #include "motion/LayerColumns.h"

@@ -1,7 +1,6 @@
 #include "motion/ColumnStarts.h"
 
 #include "comm/CollectiveErrors.h"
-#include "fields/CellTags.h"
 #include "mesh/BoundaryFacets.h"
 
 #include <cadrefine/classification/ClassificationTolerances.h>
@@ -53,6 +52,21 @@ std::vector<Facet> findSidesOnEdges(const Columns& columns)
       }
     });
   return sides;
+}
+
+/// Whether there are at most 32 different ones of these tags, over all ranks. Where there are more,
+/// they may number cells that were refined since. (They are told apart by ten of their bits.)
+/// Collective: a reduction of 8 KiB.
+bool areFewKinds(RankExchange& exchange, const std::vector<std::uint64_t>& tags)
+{
+  std::vector<std::int64_t> counts(1024, 0);
+  for (const std::uint64_t tag : tags)
+  {
+    counts[tag % counts.size()] = 1;
+  }
+  counts = exchange.sum(counts);
+  return static_cast<std::int64_t>(counts.size()) - std::count(counts.begin(), counts.end(), 0) <=
+         32;
 }
 
 /// The tags of cells that columns may go through, if they are few; 0 for others, where the stacks

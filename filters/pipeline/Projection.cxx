@@ -1,7 +1,7 @@
 #include "pipeline/Projection.h"
 
 #include "comm/WorkSteps.h"
-#include "fields/CellTags.h"
+#include "mesh/BoundaryFacets.h"
 #include "pipeline/CellImprovement.h"
 #include "pipeline/FitReport.h"
 #include "pipeline/LocalOperations.h"
