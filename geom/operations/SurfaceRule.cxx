@@ -375,14 +375,20 @@ void SurfaceRule::widen(
   for (int k = 0; k < 3; ++k)
   {
     const int next = (k + 1) % 3;
-    const bool isOnFace = classOf(mesh, cavity, facet[k], facet[next]).kind == EdgeClass::Smooth;
-    const ClosestPoint where = lookAt(0.5 * (p[k] + p[next]), isOnFace);
+    const BoundaryEdge edge{ classOf(mesh, cavity, facet[k], facet[next]), { p[k], p[next] },
+      { mesh.vertex(facet[k]).entity, mesh.vertex(facet[next]).entity } };
+    const bool isOnFace = edge.edgeClass.kind == EdgeClass::Smooth;
+    const Point3 middle = 0.5 * (p[k] + p[next]);
+    const ClosestPoint where = lookAt(middle, isOnFace);
     if (isOnFace)
     {
-      const BoundaryEdge edge{ { EdgeClass::Smooth, -1 }, { p[k], p[next] },
-        { mesh.vertex(facet[k]).entity, mesh.vertex(facet[next]).entity } };
       const ClosestPoint nose = onNose(projector_, edge, where);
       fit.distance = nose.entity ? std::max(fit.distance, nose.distance) : fit.distance;
+    }
+    else if (edge.edgeClass.kind == EdgeClass::OnEdge)
+    {
+      const Point3 place = projectMidpoint(projector_, edge).point;
+      fit.distance = std::max(fit.distance, distance(middle, place));
     }
     if (mesh.dimension() == 2)
     {

@@ -44,8 +44,8 @@ public:
   /// How well facets follow the CAD.
   struct Fit
   {
-    /// Largest distance of a centroid or the middle of an edge from the CAD; in a mesh of triangles
-    /// also of a vertex from where it is wanted.
+    /// Largest distance of a centroid or the middle of an edge from the CAD, or from its own CAD
+    /// edge; in a mesh of triangles also of a vertex from where it is wanted.
     double distance = 0;
     /// Smallest cosine of the angle between a facet's normal and the CAD's at these points. The
     /// middles of segments are left out, since two faces meet there.

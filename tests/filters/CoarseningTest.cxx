@@ -14,6 +14,7 @@
 #include <vtkDataArray.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
+#include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkUnstructuredGrid.h>
@@ -250,6 +251,45 @@ TEST(CoarseningAlone, measuresWhatItMakes)
       });
   EXPECT_EQ(fieldValue(coarsened, "GlobalGeometricError"),
     fieldValue(filters.measure(coarsened, 0), "GlobalGeometricError"));
+}
+
+/// The rims of the plane ends count, too: there, chords are in the CAD's faces, off its edges.
+TEST(CoarseningRims, keepTheirDistance)
+{
+  const FilterRun filters(CADREFINE_DATA "/cylinder.brep");
+  const auto start = filters.project(cadtest::readGrid(CADREFINE_DATA "/cylinder_coarse.vtu"));
+  const auto chordErrorOf = [&](vtkPointSet* mesh)
+  { return fieldValue(filters.measure(mesh, 0), "MaximumChordError"); };
+  const double before = chordErrorOf(start);
+  for (const double distance : { 0.0, 0.04 * before, 1.2 * before })
+  {
+    const auto coarsened = coarsen(filters, start, 1, 0, distance);
+    EXPECT_LT(fieldValue(coarsened, "GlobalCells"), fieldValue(start, "GlobalCells"));
+    EXPECT_LE(chordErrorOf(coarsened), std::max(distance, (1 + 1e-6) * before)) << distance;
+  }
+}
+
+/// An array that numbers the cells of a mesh numbers parents once these are refined.
+TEST(CoarseningNumbered, isWhatItIsWithoutNumbers)
+{
+  const FilterRun filters(CADREFINE_DATA "/cylinder.brep");
+  const auto coarse = cadtest::readGrid(CADREFINE_DATA "/cylinder_coarse.vtu");
+  vtkNew<vtkIntArray> numbers;
+  numbers->SetName("Number");
+  for (vtkIdType c = 0; c < coarse->GetNumberOfCells(); ++c)
+  {
+    numbers->InsertNextValue(static_cast<int>(c));
+  }
+  const auto refineAndCoarsen = [&]
+  {
+    const auto projected = filters.project(coarse);
+    const double target = fieldValue(filters.measure(projected, 0), "GlobalGeometricError");
+    const auto fine = filters.refineUniformly(filters.refineUniformly(projected));
+    return fieldValue(coarsen(filters, fine, 2, target), "GlobalCells");
+  };
+  const double expected = refineAndCoarsen();
+  coarse->GetCellData()->AddArray(numbers);
+  EXPECT_EQ(refineAndCoarsen(), expected);
 }
 
 /// A solver's indicator that moves through the mesh: fine there, coarse behind it.
