@@ -55,8 +55,8 @@ struct Motion
   const MoveSettings& settings;
   const ParallelFor parallelFor;
   const Vector3 plane;
-  const std::vector<unsigned char> fixed; ///< See findFixed.
-  const std::vector<Point3> start;        ///< Points of the unmoved mesh.
+  const std::vector<unsigned char>& fixed; ///< See findFixed.
+  const std::vector<Point3> start;         ///< Points of the unmoved mesh.
   Moves moves; ///< Targets of all vertices; of those that have none, where they are.
   std::vector<unsigned char> slid; ///< Vertices on the CAD whose target has changed.
   std::vector<Hold> held;          ///< Empty: there are no other cells than simplices.
@@ -411,7 +411,7 @@ void moveOntoCAD(RankExchange& exchange, DistributedMesh& mesh, Moves moves,
   const std::vector<Index> aimed = movingVertices(moves);
   Left left{ aimed, settings.mendCells ? invalidCells(mesh.mesh(), plane, forOnThreads(exchange))
                                        : std::vector<Index>{} };
-  auto fixed = findFixed(exchange, mesh, settings);
+  const auto fixed = findFixed(exchange, mesh, settings);
   Motion motion{ exchange, mesh, classification, settings, forOnThreads(exchange), plane, fixed,
     mesh.mesh().points, Moves(mesh.mesh().points),
     std::vector<unsigned char>(mesh.mesh().points.size(), 0), findHeld(exchange, mesh),

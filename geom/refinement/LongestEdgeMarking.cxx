@@ -325,11 +325,12 @@ void MarkClosure::lookAt(const std::array<Index, 9>& wedge)
     {
       markTogether(wedge[k], wedge[3 + k]);
     }
-    const double ofTriangles = meanSquareOf(table_, wedge, { 0, 1, 2, 3, 4, 5 });
-    if (longDirection(std::array{ ofTriangles, meanSquareOf(table_, wedge, { 6, 7, 8 }) }) == 1)
+    const auto uprights = chosen(wedge, std::array{ 6, 7, 8 });
+    if (isPartlyMarked(marks_, uprights) &&
+        longDirection(std::array{ meanSquareOf(table_, wedge, { 0, 1, 2, 3, 4, 5 }),
+          meanSquareOf(table_, wedge, { 6, 7, 8 }) }) == 1)
     {
-      markTogether(wedge[6], wedge[7]);
-      markTogether(wedge[7], wedge[8]);
+      std::for_each(uprights.begin(), uprights.end(), [this](Index edge) { mark(edge); });
     }
   }
   for (const LocalTriangle& triangle : wedgeTriangles)

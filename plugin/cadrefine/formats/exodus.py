@@ -2,12 +2,11 @@
 
 from vtkmodules.vtkIOExodus import vtkExodusIIReader
 
-from cadrefine.formats.blocks import TRIANGLE, joined
-from cadrefine.formats.cells import REDUCED, TYPES
+from cadrefine.formats.blocks import LINE, TRIANGLE, joined
+from cadrefine.formats.cells import REDUCED, SECOND_ORDER, TYPES
 from cadrefine.formats.exodus_writing import ELEMENTS, further
 from cadrefine.formats.grid import to_vtk
 
-QUADRATIC_EDGE = 21  # VTK's type.
 ID = "ObjectId"  # Cell array of the reader: the number of the block or side set.
 OBJECTS = (vtkExodusIIReader.ELEM_BLOCK, vtkExodusIIReader.SIDE_SET)
 RESULTS = (vtkExodusIIReader.NODAL, vtkExodusIIReader.ELEM_BLOCK, vtkExodusIIReader.SIDE_SET)
@@ -42,7 +41,7 @@ def correct_edges(data):
     if all(kind_of(grid)[1] < 3 for grid in grids_in(data, "Element Blocks")):
         for grid in grids_in(data, "Side Sets"):
             if grid.GetCellType(0) == TRIANGLE:
-                grid.SetCells(QUADRATIC_EDGE, grid.GetCells())
+                grid.SetCells(SECOND_ORDER[LINE], grid.GetCells())
 
 
 def grids_in(data, name):
