@@ -189,8 +189,10 @@ void BlockMesh::addSegments(const Members& members)
   for (const Index s : members.segments)
   {
     const auto corners = sorted(localCorners(mesh_.segments[s]));
-    const auto [place, isNew] = segments.try_emplace(corners, LabelledSimplex<2>{ corners, -1, s });
-    place->second.parent = s;
+    segments
+      .try_emplace(
+        corners, LabelledSimplex<2>{ corners, -1, s, block_.classBeside(corners[0], corners[1]) })
+      .first->second.parent = s;
   }
   for (const auto& [key, segment] : segments)
   {

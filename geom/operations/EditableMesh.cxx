@@ -135,7 +135,7 @@ void EditableMesh::closeFacets()
       };
       if (segmentOf(a, b) < 0 && !areAlike)
       {
-        addSegment({ { a, b }, ownLabel });
+        addSegment({ { a, b }, ownLabel, -1, classBeside(a, b) });
       }
       else if (segmentOf(a, b) < 0 && facets_[around[0]].label < 0 && !isFlat())
       {
@@ -143,6 +143,14 @@ void EditableMesh::closeFacets()
       }
     }
   }
+}
+
+EdgeClass EditableMesh::classBeside(Index a, Index b) const
+{
+  const std::vector<Index> around = facets_.at(a, b);
+  const bool isOnCAD = kind_ != Kind::Plane && std::any_of(around.begin(), around.end(),
+                                                 [&](Index f) { return facets_[f].label >= 0; });
+  return { isOnCAD ? EdgeClass::Smooth : EdgeClass::Straight, -1 };
 }
 
 void EditableMesh::setVertex(Index v, const Vertex& vertex)

@@ -184,6 +184,9 @@ public:
   /// of the latter kind, if straight, vertices may go. In a mesh of triangles also where two facets
   /// do not turn alike.
   void closeFacets();
+  /// The class of an edge that is not on a CAD edge: on the face of the facets on the CAD that have
+  /// it (labels of 0 and more), or off the CAD where there are none.
+  EdgeClass classBeside(Index a, Index b) const;
 
   Kind kind() const { return kind_; }
   int dimension() const { return kind_ == Kind::Solid ? 3 : 2; }

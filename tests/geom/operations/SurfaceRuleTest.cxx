@@ -121,6 +121,19 @@ TEST_F(SurfaceRules, errorGainIsTheVolumeBetweenTheFacets)
   }
 }
 
+/// Where the facets end, there are others beyond, in other blocks: the surface goes on.
+TEST_F(SurfaceRules, rimsOfFacetsAreOnTheSphere)
+{
+  const EditableMesh open = cap(0.3, 0.2);
+  EditableMesh closed = open;
+  closed.closeFacets();
+  Cavity cavity;
+  ASSERT_TRUE(proposeEdgeRemoval(closed, 0, 1, cavity));
+  ASSERT_EQ(closed.segments().size(), 4U);
+  EXPECT_EQ(rule.errorGain(closed, cavity), rule.errorGain(open, cavity));
+  EXPECT_EQ(rule.fitOf(closed, { 0 }).cosine, rule.fitOf(open, { 0 }).cosine);
+}
+
 /// Facets off the CAD are exchanged for others in their plane where that is allowed.
 TEST_F(SurfaceRules, wallsChangeInTheirPlaneAlone)
 {
