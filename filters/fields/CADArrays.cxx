@@ -87,6 +87,39 @@ void checkPlace(
   }
 }
 
+/// A vertex farther than this part of the model's size from its place on the CAD was not projected
+/// there. (Rounding of coordinates in files is less, and so are the CAD's own tolerances.)
+constexpr double elsewhere = 1e-4;
+
+/// Throws Error where vertices that have reached the CAD are not where the arrays say.
+void checkPlaces(vtkPointSet* input, const std::vector<vtkIdType>& pointOf,
+  const Classification& classification, const CADModel& model)
+{
+  double farthest = elsewhere * model.size();
+  vtkIdType at = -1;
+  for (std::size_t v = 0; v < pointOf.size(); ++v)
+  {
+    const EntityId entity = classification.entities[v];
+    if (entity && classification.distances[v] == 0)
+    {
+      Point3 point{};
+      input->GetPoint(pointOf[v], point.data());
+      const double away = distance(point, model.evaluate(entity, classification.parameters[v]));
+      at = away > farthest ? pointOf[v] : at;
+      farthest = std::max(farthest, away);
+    }
+  }
+  if (at >= 0)
+  {
+    std::ostringstream text;
+    text << "vertices are up to " << farthest << " away from their places on the CAD by the point "
+         << "arrays CADEntity and CADParameters; project the mesh onto this CAD file if it was "
+            "projected onto another one, or with another unit of it, or has moved since"
+         << atPoint(at);
+    throw Error(text.str());
+  }
+}
+
 template<class Array>
 vtkNew<Array> makeArray(const char* name, int components, std::size_t count)
 {
@@ -132,6 +165,7 @@ Classification readClassification(
       checkPlace(result.entities[v], result.parameters[v], result.distances[v], point);
     }
   }
+  checkPlaces(input, pointOf, result, model);
   return result;
 }
 

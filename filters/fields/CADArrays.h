@@ -52,8 +52,9 @@ bool isMeasured(const char* name);
 /// Reads the arrays of a projected mesh for the vertices that come from its points `pointOf`.
 /// The distance of a vertex without an entity is 0. Throws Error where an array is missing, is not
 /// one of numbers, has the wrong number of components, or names an entity that `model` does not
-/// have, and for a vertex with one (point named) where a parameter is not finite or the distance is
-/// negative or NaN.
+/// have, and for a vertex with one (point named) where a parameter is not finite, the distance is
+/// negative or NaN, or is 0 though the vertex is elsewhere than its place on the CAD: by more than
+/// 1e-4 of the model's size. Work: one evaluation for each vertex on the CAD.
 Classification readClassification(
   vtkPointSet* input, const std::vector<vtkIdType>& pointOf, const CADModel& model);
 

@@ -234,6 +234,12 @@ TEST_F(BadArrays, placesThatAreNoNumbers)
   }
 }
 
+/// As of a mesh that was projected onto another CAD file, or has moved since.
+TEST_F(BadArrays, placesWhereTheVertexIsNot)
+{
+  expectValueFails("CADParameters", 1.0, "away from their places on the CAD");
+}
+
 TEST_F(BadArrays, valuesThatMarkCells)
 {
   const auto mesh = projected();
