@@ -175,7 +175,7 @@ private:
   std::string reasonToStop() const
   {
     const double error = state_.arrays.ofMesh->GetArray(arrays::globalError)->GetComponent(0, 0);
-    const bool mayStop = steps_ > 0 || options_.coarseningFraction == 0;
+    const bool mayStop = steps_ > options_.uniformSteps || options_.coarseningFraction == 0;
     if (options_.targetError > 0 && error <= options_.targetError && mayStop)
     {
       return "the global geometric error has reached its target (TargetError)";

@@ -253,6 +253,27 @@ TEST(CoarseningAlone, measuresWhatItMakes)
     fieldValue(filters.measure(coarsened, 0), "GlobalGeometricError"));
 }
 
+/// Also where the uniform steps end below the target.
+TEST(CoarseningAlone, followsUniformSteps)
+{
+  const FilterRun filters(CADREFINE_DATA "/cylinder.brep");
+  const auto start = filters.project(cadtest::readGrid(CADREFINE_DATA "/cylinder_coarse.vtu"));
+  const double target = fieldValue(filters.measure(start, 0), "GlobalGeometricError");
+  const auto coarsened = filters.run<vtkAdaptToCAD>(start,
+    [&](vtkAdaptToCAD* filter)
+    {
+      filter->SetStartProjected(true);
+      filter->SetUniformSteps(1);
+      filter->SetMaximumSteps(1);
+      filter->SetErrorMarking(vtkAdaptToCAD::OFF);
+      filter->SetNormalAngle(170);
+      filter->SetTargetError(target);
+      filter->SetCoarseningFraction(0.9);
+    });
+  EXPECT_LT(fieldValue(coarsened, "GlobalCells"),
+    0.5 * fieldValue(filters.refineUniformly(start), "GlobalCells"));
+}
+
 /// The rims of the plane ends count, too: there, chords are in the CAD's faces, off its edges.
 TEST(CoarseningRims, keepTheirDistance)
 {
