@@ -31,6 +31,10 @@ struct Walk
   {
     return withMidNodes(arrays, edges);
   }
+  MeshArrays operator()(const VertexInterpolation& interpolation) const
+  {
+    return withInterpolation(exchange, arrays, interpolation);
+  }
   MeshArrays operator()(const WeightedRows& rows) const
   {
     return withDensities(arrays, rows, densities);
@@ -55,6 +59,11 @@ void FieldMapping::redistribute(Delivery delivery)
 void FieldMapping::refine(RefinementTrace trace)
 {
   stages_.emplace_back(std::move(trace));
+}
+
+void FieldMapping::interpolate(VertexInterpolation interpolation)
+{
+  stages_.emplace_back(std::move(interpolation));
 }
 
 void FieldMapping::scale(WeightedRows densities)

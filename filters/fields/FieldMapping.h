@@ -2,6 +2,7 @@
 #pragma once
 
 #include "fields/ArrayDelivery.h"
+#include "fields/VertexInterpolation.h"
 
 #include <cadrefine/refinement/RefinementTrace.h>
 
@@ -31,7 +32,7 @@ struct FieldNeeds
 /// redistributed; after local operations 8 bytes for each cell and vertex that they changed, and 12
 /// for each old one that its value comes from (some seven of a cell, four of a vertex). With
 /// densities 20 bytes for each cell whose volume changed, and after operations the rows of cells
-/// once more.
+/// once more. For each vertex that moved inside the mesh 8 bytes, and 12 for each corner of a cell.
 class FieldMapping
 {
 public:
@@ -45,6 +46,8 @@ public:
   void redistribute(Delivery delivery);
   /// Adds a stage: the mesh was refined, or operated on.
   void refine(RefinementTrace trace);
+  /// Adds a stage: vertices moved inside the mesh.
+  void interpolate(VertexInterpolation interpolation);
   /// Adds a stage: cells changed their volumes, and so their densities by these rows (none: there
   /// is no stage).
   void scale(WeightedRows densities);
@@ -64,7 +67,8 @@ public:
 
 private:
   using Edges = std::vector<std::array<Index, 2>>;
-  using Stage = std::variant<ArraySelection, Delivery, RefinementTrace, Edges, WeightedRows>;
+  using Stage = std::variant<ArraySelection, Delivery, RefinementTrace, Edges, WeightedRows,
+    VertexInterpolation>;
   std::vector<Stage> stages_;
   FieldNeeds needs_;
 };

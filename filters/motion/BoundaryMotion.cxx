@@ -56,7 +56,7 @@ struct Motion
   const ParallelFor parallelFor;
   const Vector3 plane;
   const std::vector<unsigned char>& fixed; ///< See findFixed.
-  const std::vector<Point3> start;         ///< Points of the unmoved mesh.
+  std::vector<Point3> start;               ///< Points of the unmoved mesh.
   Moves moves; ///< Targets of all vertices; of those that have none, where they are.
   std::vector<unsigned char> slid; ///< Vertices on the CAD whose target has changed.
   std::vector<Hold> held;          ///< Empty: there are no other cells than simplices.
@@ -399,9 +399,20 @@ void record(const Motion& motion, Classification& classification)
   }
 }
 
+/// The vertices of MotionTrace::inside.
+std::vector<Index> movedInside(const Motion& motion)
+{
+  return indicesWhere(motion.start.size(),
+    [&](std::size_t v)
+    {
+      return motion.isInterior(v) && motion.holdOf(v) != Hold::Everywhere &&
+             motion.mesh().points[v] != motion.start[v];
+    });
+}
+
 } // namespace
 
-void moveOntoCAD(RankExchange& exchange, DistributedMesh& mesh, Moves moves,
+MotionTrace moveOntoCAD(RankExchange& exchange, DistributedMesh& mesh, Moves moves,
   Classification& classification, const MoveSettings& settings)
 {
   const Progress& progress = exchange.progress();
@@ -448,6 +459,8 @@ void moveOntoCAD(RankExchange& exchange, DistributedMesh& mesh, Moves moves,
     smooth(motion, guard);
   }
   record(motion, classification);
+  std::vector<Index> inside = movedInside(motion);
+  return { std::move(motion.start), std::move(inside) };
 }
 
 std::vector<Point3> wantedPoints(RankExchange& exchange, const DistributedMesh& mesh,

@@ -37,6 +37,15 @@ struct MoveSettings
   const std::vector<std::array<Index, 2>>* parents = nullptr;
 };
 
+/// What a motion did to the vertices of a piece.
+struct MotionTrace
+{
+  std::vector<Point3> before; ///< Where all vertices were.
+  /// Vertices inside the mesh that moved, but for those of layers, which go along with a wall;
+  /// ascending.
+  std::vector<Index> inside;
+};
+
 /// Moves the vertices of `moves` as far to their targets as all cells stay valid, on all ranks;
 /// writes the new positions into the mesh, and the distances that are left into the classification.
 ///
@@ -59,7 +68,7 @@ struct MoveSettings
 /// bytes a shared vertex. A halving costs as much, but for cells whose vertices move only. A round:
 /// a look at all cells for each ring and one more, and a few sweeps over those of the region (see
 /// untangle).
-void moveOntoCAD(RankExchange& exchange, DistributedMesh& mesh, Moves moves,
+MotionTrace moveOntoCAD(RankExchange& exchange, DistributedMesh& mesh, Moves moves,
   Classification& classification, const MoveSettings& settings);
 
 /// Where the vertices are wanted: those off the CAD at the nearest point of their entity, the

@@ -337,12 +337,11 @@ private:
       return;
     }
     const auto tags = tagsOfCells(exchange_, state_);
-    const std::vector<Point3> before = pointsToKeep(state_);
     Moves moves = movesOntoCAD(mesh(), projector_, classification);
-    moveOntoCAD(exchange_, state_.mesh, std::move(moves), classification,
+    const MotionTrace motion = moveOntoCAD(exchange_, state_.mesh, std::move(moves), classification,
       { projector_, onBoundaryOf(context_, state_), tags, false, true, smoothWorst });
     meshHasChanged(state_);
-    scaleDensities(exchange_, state_, before);
+    followMotion(exchange_, state_, motion);
   }
 
   const PipelineContext& context_;

@@ -28,6 +28,16 @@ bool knowsBoundary(RankExchange& exchange, const MeshState& state)
   return !exchange.any(state.onBoundary.size() != state.mesh.mesh().points.size());
 }
 
+/// Adds the interpolation of the vertices that moved inside the mesh to the mapping. Collective.
+void interpolate(RankExchange& exchange, MeshState& state, const MotionTrace& motion)
+{
+  auto interpolation = interpolationOf(exchange, state.mesh, motion.before, motion.inside);
+  if (interpolation)
+  {
+    state.mapping.interpolate(std::move(*interpolation));
+  }
+}
+
 } // namespace
 
 MeshState readMesh(RankExchange& exchange, vtkPointSet* input, CellOrder order)
@@ -157,20 +167,15 @@ void followMapping(RankExchange& exchange, MeshState& state, std::size_t done)
   state.arrays = state.mapping.follow(exchange, std::move(state.arrays), done);
 }
 
-std::vector<Point3> pointsToKeep(const MeshState& state)
+void followMotion(RankExchange& exchange, MeshState& state, const MotionTrace& motion)
 {
-  return state.mapping.needs().densities.empty() ? std::vector<Point3>{} : state.mesh.mesh().points;
-}
-
-void scaleDensities(
-  RankExchange& exchange, MeshState& state, const std::vector<Point3>& pointsBefore)
-{
+  const std::size_t done = state.mapping.stageCount();
+  interpolate(exchange, state, motion);
   if (!state.mapping.needs().densities.empty())
   {
-    const std::size_t done = state.mapping.stageCount();
-    state.mapping.scale(densitiesOfMoved(state.mesh.mesh(), pointsBefore));
-    followMapping(exchange, state, done);
+    state.mapping.scale(densitiesOfMoved(state.mesh.mesh(), motion.before));
   }
+  followMapping(exchange, state, done);
 }
 
 void meshHasChanged(MeshState& state)
@@ -183,16 +188,16 @@ std::int64_t cut(const PipelineContext& context, MeshState& state, const Refinem
   NewVertices newVertices)
 {
   const bool keepsDensities = !state.mapping.needs().densities.empty();
-  std::vector<Point3> before = pointsToKeep(state);
+  std::vector<Point3> before = keepsDensities ? state.mesh.mesh().points : std::vector<Point3>{};
   const std::vector<double> sizes = keepsDensities && state.mesh.mesh().hasNonSimplices()
                                       ? sizesOfCells(state.mesh.mesh(), before)
                                       : std::vector<double>{};
-  RefinementTrace trace =
+  auto [trace, motion] =
     state.classification
       ? refineOntoCAD(context.exchange, state.mesh, plan, boundaryOf(context, state),
           *state.classification, { newVertices, tagsOfCells(context.exchange, state) },
           context.statistics)
-      : refine(context.exchange, state.mesh, plan, context.statistics);
+      : CutOntoCAD{ refine(context.exchange, state.mesh, plan, context.statistics), {} };
   meshHasChanged(state);
   state.onBoundary = std::move(trace.onBoundary);
   const std::int64_t projectedPoints = trace.projectedPoints;
@@ -203,6 +208,7 @@ std::int64_t cut(const PipelineContext& context, MeshState& state, const Refinem
   }
   const std::size_t done = state.mapping.stageCount();
   state.mapping.refine(std::move(trace));
+  interpolate(context.exchange, state, motion);
   followMapping(context.exchange, state, done);
   return projectedPoints;
 }

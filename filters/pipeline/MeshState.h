@@ -87,13 +87,9 @@ bool warnOfInvalidCells(const PipelineContext& context, MeshState& state);
 /// Takes the arrays along the stages of the mapping that follow its first `done` ones.
 void followMapping(RankExchange& exchange, MeshState& state, std::size_t done);
 
-/// The points, where there are densities to be kept when these move; else none.
-std::vector<Point3> pointsToKeep(const MeshState& state);
-
-/// Changes densities by a motion of vertices, which were at these points (see pointsToKeep): cells
-/// take along what they hold.
-void scaleDensities(
-  RankExchange& exchange, MeshState& state, const std::vector<Point3>& pointsBefore);
+/// Takes the arrays along a motion of vertices: those inside the mesh get the values of their
+/// new places (see interpolationOf), and cells take along what they hold. Collective.
+void followMotion(RankExchange& exchange, MeshState& state, const MotionTrace& motion);
 
 /// Forgets what was found of the mesh as it was.
 void meshHasChanged(MeshState& state);

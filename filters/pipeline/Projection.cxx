@@ -186,14 +186,13 @@ std::string projectMesh(
 {
   RankExchange& exchange = context.exchange;
   const BoundingBox box = findBox(exchange, state.mesh.mesh());
-  const std::vector<Point3> before = pointsToKeep(state);
   Projection projection = state.mesh.mesh().dimension == 0
                             ? projectAlone(context, state.mesh, options)
                             : projectCells(context, state, options);
   meshHasChanged(state);
-  scaleDensities(exchange, state, before);
   projection.fit.meshBox = box;
   ProjectionResult& result = projection.result;
+  followMotion(exchange, state, result.motion);
   recordBalance(context.statistics, "points", result.balance);
   context.statistics.set("points not converged", static_cast<double>(result.slowPoints));
 

@@ -160,7 +160,7 @@ ProjectionResult projectBoundary(RankExchange& exchange, DistributedMesh& mesh,
       moves.add(static_cast<Index>(v), hits[v].point);
     }
   }
-  moveOntoCAD(exchange, mesh, std::move(moves), result.classification,
+  result.motion = moveOntoCAD(exchange, mesh, std::move(moves), result.classification,
     { projector, findFixed(task), options.tags, options.mendCells });
   result.projectedPoints = nearest.asked;
   result.slowPoints = nearest.slow;
@@ -174,6 +174,7 @@ ProjectionResult projectPoints(RankExchange& exchange, DistributedMesh& mesh, co
 {
   auto& points = mesh.mesh().points;
   ProjectionResult result;
+  result.motion.before = points;
   result.classification.resize(points.size());
   result.conflicts.assign(points.size(), 0);
   const auto owned = mesh.shared.ownedHere(static_cast<Index>(points.size()));

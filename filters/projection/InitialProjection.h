@@ -5,6 +5,7 @@
 #include "classification/ProjectionTask.h"
 #include "comm/LoadBalancedMap.h"
 #include "mesh/DistributedMesh.h"
+#include "motion/BoundaryMotion.h"
 
 #include <cadrefine/classification/BoundaryProjector.h>
 #include <cadrefine/classification/Classification.h>
@@ -27,6 +28,7 @@ struct ProjectionResult
   /// How far each vertex on the CAD was from its place there.
   std::vector<double> distancesBefore;
   std::vector<FacetRecord> facets; ///< Records of the facets of this rank's boundary.
+  MotionTrace motion;
 };
 
 /// Moves the boundary vertices of the mesh onto the CAD (S. Strunk, KTH 2013, Algorithm 4.1):

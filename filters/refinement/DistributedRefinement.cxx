@@ -355,9 +355,9 @@ RefinementTrace refine(RankExchange& exchange, DistributedMesh& mesh, const Refi
   return trace;
 }
 
-RefinementTrace refineOntoCAD(RankExchange& exchange, DistributedMesh& mesh,
-  const RefinementPlan& plan, const ClassifiedBoundary& classified, Classification& classification,
-  const CutSettings& settings, RunStatistics& statistics)
+CutOntoCAD refineOntoCAD(RankExchange& exchange, DistributedMesh& mesh, const RefinementPlan& plan,
+  const ClassifiedBoundary& classified, Classification& classification, const CutSettings& settings,
+  RunStatistics& statistics)
 {
   WorkSteps steps(exchange.progress(), statistics);
   steps.begin(0.2, 0.5, "seconds projection");
@@ -382,7 +382,7 @@ RefinementTrace refineOntoCAD(RankExchange& exchange, DistributedMesh& mesh,
   {
     classifyMidpoints(hits, mesh.mesh().points.size(), classification);
     trace.onBoundary = std::move(onBoundary);
-    return trace;
+    return { std::move(trace), {} };
   }
   Moves moves = movesOntoCAD(mesh.mesh(), projector, classification);
   classifyMidpoints(hits, mesh.mesh().points.size(), classification);
@@ -391,11 +391,11 @@ RefinementTrace refineOntoCAD(RankExchange& exchange, DistributedMesh& mesh,
     moves.add(static_cast<Index>(oldCount + hit.place), hit.where.point);
   }
   const auto tags = tagsOfChildren(mesh.mesh().dimension, trace, settings.tags);
-  moveOntoCAD(exchange, mesh, std::move(moves), classification,
+  MotionTrace motion = moveOntoCAD(exchange, mesh, std::move(moves), classification,
     { projector, onBoundary, tags, settings.newVertices == NewVertices::MoveAndMend, true,
       plan.withOperations, &trace.parentEdges });
   trace.onBoundary = std::move(onBoundary);
-  return trace;
+  return { std::move(trace), std::move(motion) };
 }
 
 } // namespace cadrefine

@@ -5,6 +5,7 @@
 #include "classification/EdgeMidpoints.h"
 #include "comm/RunStatistics.h"
 #include "mesh/DistributedMesh.h"
+#include "motion/BoundaryMotion.h"
 
 #include <cadrefine/base/Moves.h>
 #include <cadrefine/refinement/RefinementTrace.h>
@@ -76,14 +77,22 @@ struct CutSettings
   std::vector<std::uint64_t> tags;
 };
 
+/// What a cut onto the CAD did: first cells were cut, with the new vertices at the middles of
+/// edges, then vertices moved (StayStraight: none did).
+struct CutOntoCAD
+{
+  RefinementTrace trace;
+  MotionTrace motion;
+};
+
 /// Cuts the mesh as `refine` does, and classifies the new vertices of classified edges: each
 /// belongs onto the entity of its edge in `classified`, the boundary of the mesh (S. Strunk, KTH
 /// 2013, Algorithm 4.3). MoveOntoCAD moves them there as far as all cells stay valid; vertices that
 /// stopped on the way earlier try again. Adds to "seconds projection" and "seconds moves" too.
 /// Collective.
-RefinementTrace refineOntoCAD(RankExchange& exchange, DistributedMesh& mesh,
-  const RefinementPlan& plan, const ClassifiedBoundary& classified, Classification& classification,
-  const CutSettings& settings, RunStatistics& statistics);
+CutOntoCAD refineOntoCAD(RankExchange& exchange, DistributedMesh& mesh, const RefinementPlan& plan,
+  const ClassifiedBoundary& classified, Classification& classification, const CutSettings& settings,
+  RunStatistics& statistics);
 
 /// The moves of all vertices that are not at their places on the CAD to these places, which are
 /// found anew.

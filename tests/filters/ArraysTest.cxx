@@ -301,4 +301,37 @@ TEST(MeshValidity, givesTheMeanRatio)
     12 * std::pow(0.5, 2.0 / 3.0) / 9, 1e-15);
 }
 
+/// Vertices off the CAD that make way for others get the values of where they come to.
+TEST(VerticesInside, keepALinearFieldLinear)
+{
+  const cadtest::FilterRun filters(CADREFINE_DATA "/naca0012_blunt.igs");
+  const auto coarse =
+    filters.project(cadtest::readGrid(CADREFINE_DATA "/naca0012_blunt_coarse.vtu"));
+  cadtest::addArrays(coarse);
+  const auto straight = filters.refineStraight(coarse);
+  const auto fine = filters.run<vtkRefineWithCAD>(coarse,
+    [](vtkRefineWithCAD* filter)
+    {
+      filter->SetMethod(vtkRefineWithCAD::UNIFORM_BISECTION);
+      filter->SetOperations(vtkRefineWithCAD::CUT_ONLY);
+    });
+  ASSERT_EQ(straight->GetNumberOfPoints(), fine->GetNumberOfPoints());
+  vtkDataArray* linear = fine->GetPointData()->GetArray("Linear");
+  vtkDataArray* dimension = fine->GetPointData()->GetArray("CADDimension");
+  int moved = 0;
+  for (vtkIdType p = 0; p < fine->GetNumberOfPoints(); ++p)
+  {
+    std::array<double, 3> before{};
+    straight->GetPoint(p, before.data());
+    const std::array<double, 3> place{ fine->GetPoint(p)[0], fine->GetPoint(p)[1],
+      fine->GetPoint(p)[2] };
+    if (dimension->GetTuple1(p) < 0 && place != before)
+    {
+      ++moved;
+      EXPECT_NEAR(linear->GetTuple1(p), cadtest::linearAt(place.data()), 1e-13);
+    }
+  }
+  EXPECT_GT(moved, 0);
+}
+
 } // namespace
