@@ -93,9 +93,13 @@ private:
     {
       return verticesOff < before.verticesOff ||
              (verticesOff == before.verticesOff && badCells < before.badCells &&
-               cells <= mostCells &&
-               cells - before.cells <= std::max(newCellsForOne * (before.badCells - badCells),
-                                         before.cells / cellsForOneNew));
+               !isTooMuch(before, before.badCells - badCells, mostCells));
+    }
+    /// Whether there are more new cells than it is worth to have so many bad cells less.
+    bool isTooMuch(const Left& before, std::int64_t bad, std::int64_t mostCells) const
+    {
+      return cells > mostCells ||
+             cells - before.cells > std::max(newCellsForOne * bad, before.cells / cellsForOneNew);
     }
   };
 
@@ -179,6 +183,10 @@ private:
       {
         left = now;
         return true;
+      }
+      if (left.verticesOff == 0 && now.isTooMuch(left, left.badCells, mostCells))
+      {
+        break; // more cuts only add cells
       }
       cutsAtOnce += now == last;
     }
