@@ -360,11 +360,12 @@ class GmshMeshes(driver.Case):
     def expect_interface(self, shape, axis, place):
         """Expects a mesh that lists no facets; between its two materials it is flat, also when it is refined."""
         self.assertEqual(list(meshio.read(self.path("mesh.msh")).cells_dict), [shape])
-        for steps in (("--steps", "3"), ("--method", "uniform", "--steps", "1")):
-            run = driver.Run(RANKS, self.path("mesh.msh"), self.path("cad.brep"), *steps, "--no-boundary-cells",
-                             "--output", self.path("fine.vtu"))
-            self.assertEqual(run.status, 0)
-            fine = meshio.read(self.path("fine.vtu"))
+        outputs = {self.path("adapted.vtu"): ("--steps", "3"),
+                   self.path("uniform.vtu"): ("--method", "uniform", "--steps", "1")}
+        driver.reports_of(RANKS, [[self.path("mesh.msh"), self.path("cad.brep"), *steps, "--no-boundary-cells",
+                                   "--output", path] for path, steps in outputs.items()])
+        for path in outputs:
+            fine = meshio.read(path)
             of_tags = [set(), set()]
             for block, tags in zip(fine.cells, fine.cell_data["gmsh:physical"]):
                 for tag in (1, 2):
@@ -400,12 +401,14 @@ class GmshMeshes(driver.Case):
         self.expect_on_cad(3.7)
         cells = meshio.read(self.path("mesh.msh"))
         quads, wedges = cells.cells_dict["quad"], cells.cells_dict["wedge"]
+        runs = []
         for way, digits in itertools.product((1, -1), (16, 5)):
-            path = self.path(f"{way}.vtu")
+            path = self.path(f"{way}-{digits}.vtu")
             meshio.Mesh(np.round(cells.points, digits), [("quad", quads[:, ::way]), ("wedge", wedges)]).write(path)
-            fit = driver.report_of(RANKS, path, self.path("cad.brep"), "--steps", "0")["fit"]
-            self.assertEqual(fit["conflicts"], [])
-            self.assertGreater(fit["cad_covered"], 0.9)
+            runs.append([path, self.path("cad.brep"), "--steps", "0"])
+        for report in driver.reports_of(RANKS, runs):
+            self.assertEqual(report["fit"]["conflicts"], [])
+            self.assertGreater(report["fit"]["cad_covered"], 0.9)
 
 
 if __name__ == "__main__":
