@@ -207,6 +207,13 @@ std::string projectMesh(
     }
     improveMesh(context, state, improvement);
   }
+  if (state.mesh.mesh().dimension > 0)
+  {
+    const BoundaryProjector projector(
+      context.model, kindOfBoundary(exchange, state.mesh, context.model));
+    findVerticesOff(exchange, state.mesh, projector, onBoundaryOf(context, state),
+      *state.classification, options, projection.fit);
+  }
   vtkFieldData* ofMesh = state.arrays.ofMesh;
   summariseMesh(exchange, state.mesh, qualityOf(exchange, state), ofMesh);
   const std::int64_t onCAD = summariseProjection(

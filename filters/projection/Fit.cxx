@@ -209,41 +209,6 @@ public:
     }
   }
 
-  void findVerticesOff()
-  {
-    const auto& points = task_.points();
-    const auto& classes = result_.classification;
-    const auto owned = task_.mesh.shared.ownedHere(static_cast<Index>(points.size()));
-    std::vector<Entry> off;
-    NumberedQueries<Point3> asked;
-    for (std::size_t v = 0; v < points.size(); ++v)
-    {
-      if (!owned[v] || !task_.boundary.onBoundary[v] || !task_.options.inRegion(points[v]))
-      {
-        continue;
-      }
-      if (classes.entities[v])
-      {
-        addIfOff(off, v, classes.distances[v]);
-      }
-      else if (isInBox(points[v]))
-      {
-        asked.add(v, points[v]);
-      }
-    }
-    answerBalanced<double>(
-      task_.exchange, std::move(asked),
-      [&](const Point3& point)
-      { return task_.projector.nearest(point, std::numeric_limits<double>::infinity()).distance; },
-      [&](std::size_t v, double distance) { addIfOff(off, v, distance); },
-      { "measuring the fit at", "vertices" });
-    fit_.verticesOffCAD = task_.exchange.sum(off.size());
-    for (const Entry& entry : firstOf(task_.exchange, std::move(off), mostFarthest))
-    {
-      fit_.farthest.push_back({ entry.point, entry.distance });
-    }
-  }
-
 private:
   bool wasOnCAD(std::size_t vertex) const
   {
@@ -290,15 +255,6 @@ private:
     }
     combineFlags(task_.exchange, task_.mesh.shared, isStray);
     return isStray;
-  }
-
-  void addIfOff(std::vector<Entry>& off, std::size_t vertex, double distance) const
-  {
-    if (distance > onCAD * task_.model().size())
-    {
-      const auto& mesh = task_.mesh.mesh();
-      off.push_back({ distance, static_cast<double>(mesh.ids[vertex]), mesh.points[vertex] });
-    }
   }
 
   /// The CAD edge of a segment on the CAD.
@@ -382,9 +338,50 @@ Fit findFit(const ProjectionTask& task, const ProjectionResult& result)
   search.measureBoundary();
   search.countVerticesOnCurved();
   search.findStrays();
-  search.findVerticesOff();
   findConflicts(task.exchange, task.mesh, result, fit);
   return fit;
+}
+
+void findVerticesOff(RankExchange& exchange, const DistributedMesh& mesh,
+  const BoundaryProjector& projector, const std::vector<unsigned char>& onBoundary,
+  const Classification& classification, const ProjectionOptions& options, Fit& fit)
+{
+  const std::vector<Point3>& points = mesh.mesh().points;
+  const double size = projector.model().size();
+  const auto owned = mesh.shared.ownedHere(static_cast<Index>(points.size()));
+  std::vector<Entry> off;
+  const auto addIfOff = [&](std::size_t v, double distance)
+  {
+    if (distance > onCAD * size)
+    {
+      off.push_back({ distance, static_cast<double>(mesh.mesh().ids[v]), points[v] });
+    }
+  };
+  NumberedQueries<Point3> asked;
+  for (std::size_t v = 0; v < points.size(); ++v)
+  {
+    if (!owned[v] || !onBoundary[v] || !options.inRegion(points[v]))
+    {
+      continue;
+    }
+    if (classification.entities[v])
+    {
+      addIfOff(v, classification.distances[v]);
+    }
+    else if (fit.cadBox.contains(points[v], boxMargin * size))
+    {
+      asked.add(v, points[v]);
+    }
+  }
+  answerBalanced<double>(exchange, std::move(asked),
+    [&](const Point3& point)
+    { return projector.nearest(point, std::numeric_limits<double>::infinity()).distance; },
+    addIfOff, { "measuring the fit at", "vertices" });
+  fit.verticesOffCAD = exchange.sum(off.size());
+  for (const Entry& entry : firstOf(exchange, std::move(off), mostFarthest))
+  {
+    fit.farthest.push_back({ entry.point, entry.distance });
+  }
 }
 
 Fit findFitOfPoints(RankExchange& exchange, const DistributedMesh& mesh, const CADModel& model,

@@ -54,10 +54,17 @@ struct Fit
   std::vector<Point3> conflicts;  ///< Those of them with the lowest ids, up to 100.
 };
 
-/// The fit of a mesh that was projected; `meshBox` is left to the caller. Collective. Work: a
-/// whole-model query for each vertex off the CAD in its box. Messages: sums of a number for each
-/// face, up to 400 numbers gathered from every rank.
+/// The fit of a mesh that was projected; `meshBox` and what findVerticesOff finds are left to the
+/// caller. Collective. Messages: sums of a number for each face, up to 400 numbers gathered from
+/// every rank.
 Fit findFit(const ProjectionTask& task, const ProjectionResult& result);
+/// Finds the vertices off the CAD, and the farthest of them, of the mesh as it is now. Collective.
+/// Work: a whole-model query for each vertex off the CAD in its box. Messages: up to 50 numbers
+/// gathered from every rank.
+void findVerticesOff(RankExchange& exchange, const DistributedMesh& mesh,
+  const BoundaryProjector& projector, const std::vector<unsigned char>& onBoundary,
+  const Classification& classification, const ProjectionOptions& options, Fit& fit);
+
 /// The fit of points alone that were projected; `meshBox` is left to the caller. Collective.
 Fit findFitOfPoints(RankExchange& exchange, const DistributedMesh& mesh, const CADModel& model,
   const ProjectionResult& result);

@@ -109,6 +109,13 @@ protected:
   FilterRun::Data mesh = filters.project(cadtest::readGrid(CADREFINE_DATA "/aeroplane_coarse.vtu"));
 };
 
+/// Vertices that local operations bring onto the CAD are not reported as off it.
+TEST_F(CoarseningAeroplane, beginsWithAllVerticesOnTheCAD)
+{
+  EXPECT_EQ(fieldValue(mesh, "UnprojectedVertices"), 0);
+  EXPECT_EQ(fieldValue(mesh, "VerticesOffCAD"), 0);
+}
+
 TEST_F(CoarseningAeroplane, keepsVerticesOfMarkedCells)
 {
   constexpr double threshold = 0.3;
