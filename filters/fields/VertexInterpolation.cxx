@@ -11,6 +11,7 @@
 #include <vtkGenericCell.h>
 #include <vtkIdList.h>
 #include <vtkNew.h>
+#include <vtkPoints.h>
 #include <vtkTable.h>
 
 #include <algorithm>
