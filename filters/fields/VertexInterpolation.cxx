@@ -25,33 +25,20 @@ namespace
 
 constexpr std::size_t mostCorners = 8;
 
-constexpr int typeOf(shapes::Segment)
+/// VTK's type of a shape.
+template<class Shape>
+constexpr int typeOf(Shape)
 {
-  return VTK_LINE;
-}
-constexpr int typeOf(shapes::Triangle)
-{
-  return VTK_TRIANGLE;
-}
-constexpr int typeOf(shapes::Quadrilateral)
-{
-  return VTK_QUAD;
-}
-constexpr int typeOf(shapes::Tetrahedron)
-{
-  return VTK_TETRA;
-}
-constexpr int typeOf(shapes::Pyramid)
-{
-  return VTK_PYRAMID;
-}
-constexpr int typeOf(shapes::Wedge)
-{
-  return VTK_WEDGE;
-}
-constexpr int typeOf(shapes::Hexahedron)
-{
-  return VTK_HEXAHEDRON;
+  if constexpr (Shape::dimension == 3)
+  {
+    constexpr int types[] = { VTK_TETRA, VTK_PYRAMID, VTK_WEDGE, VTK_EMPTY_CELL, VTK_HEXAHEDRON };
+    return types[Shape::corners - 4];
+  }
+  else
+  {
+    constexpr int types[] = { VTK_LINE, VTK_TRIANGLE, VTK_QUAD };
+    return types[Shape::corners - 2];
+  }
 }
 
 /// The place of a point in a cell.
@@ -61,6 +48,7 @@ struct PlaceInCell
   std::array<double, mostCorners> weights{};                ///< Shape functions of the corners.
 };
 
+/// Finds points in cells with their corners at these points.
 class CellInversion
 {
 public:
