@@ -15,6 +15,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <sstream>
 #include <string>
 
@@ -87,15 +88,16 @@ void checkPlace(
   }
 }
 
-/// A vertex farther than this part of the model's size from its place on the CAD was not projected
-/// there. (Rounding of coordinates in files is less, and so are the CAD's own tolerances.)
-constexpr double elsewhere = 1e-4;
+/// How far a vertex that was projected may be from its place on the CAD: by this part of the
+/// model's size, and, as files may have numbers of single precision, of its coordinates.
+constexpr double ofSize = 1e-4;
+constexpr double ofCoordinates = 4 * std::numeric_limits<float>::epsilon();
 
 /// Throws Error where vertices that have reached the CAD are not where the arrays say.
-void checkPlaces(vtkPointSet* input, const std::vector<vtkIdType>& pointOf,
+void checkVerticesAreThere(vtkPointSet* input, const std::vector<vtkIdType>& pointOf,
   const Classification& classification, const CADModel& model)
 {
-  double farthest = elsewhere * model.size();
+  double farthest = 0;
   vtkIdType at = -1;
   for (std::size_t v = 0; v < pointOf.size(); ++v)
   {
@@ -105,8 +107,11 @@ void checkPlaces(vtkPointSet* input, const std::vector<vtkIdType>& pointOf,
       Point3 point{};
       input->GetPoint(pointOf[v], point.data());
       const double away = distance(point, model.evaluate(entity, classification.parameters[v]));
-      at = away > farthest ? pointOf[v] : at;
-      farthest = std::max(farthest, away);
+      if (away > std::max(farthest, ofSize * model.size() + ofCoordinates * norm(point)))
+      {
+        farthest = away;
+        at = pointOf[v];
+      }
     }
   }
   if (at >= 0)
@@ -165,7 +170,7 @@ Classification readClassification(
       checkPlace(result.entities[v], result.parameters[v], result.distances[v], point);
     }
   }
-  checkPlaces(input, pointOf, result, model);
+  checkVerticesAreThere(input, pointOf, result, model);
   return result;
 }
 

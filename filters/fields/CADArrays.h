@@ -54,7 +54,8 @@ bool isMeasured(const char* name);
 /// one of numbers, has the wrong number of components, or names an entity that `model` does not
 /// have, and for a vertex with one (point named) where a parameter is not finite, the distance is
 /// negative or NaN, or is 0 though the vertex is elsewhere than its place on the CAD: by more than
-/// 1e-4 of the model's size. Work: one evaluation for each vertex on the CAD.
+/// 1e-4 of the model's size and what single precision of its coordinates explains. Work: one
+/// evaluation for each vertex on the CAD.
 Classification readClassification(
   vtkPointSet* input, const std::vector<vtkIdType>& pointOf, const CADModel& model);
 

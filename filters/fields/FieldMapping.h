@@ -32,7 +32,8 @@ struct FieldNeeds
 /// redistributed; after local operations 8 bytes for each cell and vertex that they changed, and 12
 /// for each old one that its value comes from (some seven of a cell, four of a vertex). With
 /// densities 20 bytes for each cell whose volume changed, and after operations the rows of cells
-/// once more. For each vertex that moved inside the mesh 8 bytes, and 12 for each corner of a cell.
+/// once more. For each vertex that moved inside the mesh 8 bytes, and 12 for each corner of the
+/// cell there.
 class FieldMapping
 {
 public:

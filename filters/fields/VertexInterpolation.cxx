@@ -126,9 +126,25 @@ std::vector<Choice> chooseHere(int rank, const DistributedMesh& distributed,
   return choices;
 }
 
-/// Puts what a rank sent for these vertices into the arrays that both have.
-void takeOver(const std::vector<char>& bytes, const std::vector<Index>& vertices,
-  vtkDataSetAttributes* attributes)
+/// The values of these vertices, of all arrays; empty where there are none.
+std::vector<char> valuesOf(const std::vector<Index>& vertices, vtkDataSetAttributes* arrays)
+{
+  vtkNew<vtkPointData> values;
+  for (int a = 0; a < arrays->GetNumberOfArrays(); ++a)
+  {
+    vtkAbstractArray* array = arrays->GetAbstractArray(a);
+    const auto part = emptyLike(array, static_cast<vtkIdType>(vertices.size()));
+    copyTuples(array, { vertices.begin(), vertices.end() }, 0, vertices.size(), part);
+    values->AddArray(part);
+  }
+  const bool isEmpty = vertices.empty() || values->GetNumberOfArrays() == 0;
+  return isEmpty ? std::vector<char>{} : bytesOf(values);
+}
+
+/// Puts what another rank sent (see valuesOf) for these vertices into the arrays that both have:
+/// of the same name or, without names, in the same place.
+void takeOver(
+  const std::vector<char>& bytes, const std::vector<Index>& vertices, vtkDataSetAttributes* arrays)
 {
   const auto table = arraysOf(bytes);
   vtkNew<vtkIdList> from;
@@ -138,10 +154,12 @@ void takeOver(const std::vector<char>& bytes, const std::vector<Index>& vertices
     from->InsertNextId(static_cast<vtkIdType>(k));
     to->InsertNextId(vertices[k]);
   }
-  for (vtkIdType a = 0; a < table->GetNumberOfColumns(); ++a)
+  for (int a = 0; a < table->GetNumberOfColumns(); ++a)
   {
     vtkAbstractArray* array = table->GetColumn(a);
-    vtkAbstractArray* mine = attributes->GetAbstractArray(array->GetName());
+    const bool isNamed = array->GetName() && *array->GetName();
+    vtkAbstractArray* mine =
+      isNamed ? arrays->GetAbstractArray(array->GetName()) : arrays->GetAbstractArray(a);
     if (mine && mine->GetDataType() == array->GetDataType() &&
         mine->GetNumberOfComponents() == array->GetNumberOfComponents())
     {
@@ -183,7 +201,10 @@ std::optional<VertexInterpolation> interpolationOf(RankExchange& exchange,
           const PlaceInCell place = inversion.find(shape, corners, mesh.points[vertex]);
           for (std::size_t k = 0; k < corners.size(); ++k)
           {
-            result.rows.add(corners[k], place.weights[k]);
+            if (place.weights[k] != 0)
+            {
+              result.rows.add(corners[k], place.weights[k]);
+            }
           }
         });
       result.rows.endRow(vertex);
@@ -215,18 +236,19 @@ MeshArrays withInterpolation(
 {
   MeshArrays result = arrays;
   result.ofVertices = vtkSmartPointer<vtkPointData>::New();
-  result.ofVertices->ShallowCopy(arrays.ofVertices);
   vtkNew<vtkPointData> changed;
   for (int a = 0; a < arrays.ofVertices->GetNumberOfArrays(); ++a)
   {
-    vtkAbstractArray* array = arrays.ofVertices->GetAbstractArray(a);
-    const auto copy = emptyLike(array, array->GetNumberOfTuples());
-    copy->InsertTuples(0, array->GetNumberOfTuples(), 0, array);
-    if (applyRows(array, interpolation.rows, Sums::WithinValues, copy))
+    vtkSmartPointer<vtkAbstractArray> array = arrays.ofVertices->GetAbstractArray(a);
+    if (array->GetDataType() == VTK_DOUBLE || array->GetDataType() == VTK_FLOAT)
     {
-      addAs(arrays.ofVertices->IsArrayAnAttribute(a), copy, result.ofVertices);
-      changed->AddArray(copy);
+      const auto old = array;
+      array = emptyLike(old, old->GetNumberOfTuples());
+      array->InsertTuples(0, old->GetNumberOfTuples(), 0, old);
+      applyRows(old, interpolation.rows, Sums::WithinValues, array);
+      changed->AddArray(array);
     }
+    addAs(arrays.ofVertices->IsArrayAnAttribute(a), array, result.ofVertices);
   }
   std::vector<std::vector<char>> bytes(interpolation.neighbours.size());
   agreeOnFailure(exchange,
@@ -234,16 +256,7 @@ MeshArrays withInterpolation(
     {
       for (std::size_t n = 0; n < bytes.size(); ++n)
       {
-        const auto& sent = interpolation.sent[n];
-        vtkNew<vtkPointData> values;
-        for (int a = 0; a < changed->GetNumberOfArrays() && !sent.empty(); ++a)
-        {
-          vtkAbstractArray* array = changed->GetAbstractArray(a);
-          const auto part = emptyLike(array, static_cast<vtkIdType>(sent.size()));
-          copyTuples(array, { sent.begin(), sent.end() }, 0, sent.size(), part);
-          values->AddArray(part);
-        }
-        bytes[n] = values->GetNumberOfArrays() > 0 ? bytesOf(values) : std::vector<char>{};
+        bytes[n] = valuesOf(interpolation.sent[n], changed);
       }
     });
   bytes = exchange.exchange(interpolation.neighbours, bytes);

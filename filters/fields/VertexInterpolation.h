@@ -23,12 +23,14 @@ struct VertexInterpolation
   std::vector<std::vector<Index>> received;
 };
 
-/// Interpolates by the shape functions of the cells as they were `before` (points of all vertices):
-/// of those at a vertex in the cell that it lies in now, or least outside of; of several in the one
-/// with the smallest id. `moved`: ascending, shared ones on all ranks that have them; none on any
-/// rank: there is nothing to interpolate. Collective. Work: one look at each cell, and one
-/// inversion of the shape functions (VTK's) for each cell at a vertex that moved. Messages: 24
-/// bytes a shared vertex. Memory: 8 bytes a vertex that moved, and 12 for each corner of its cell.
+/// Interpolates by the shape functions of the cells as they were `before` (points of all vertices).
+/// For each vertex, that cell round it counts which contains its new place; of several the one with
+/// the smallest id, and where there is none, the nearest, from which values are extrapolated. (VTK
+/// inverts the functions of wedges and pyramids to 1e-7.) `moved`: ascending, shared ones on all
+/// ranks that have them; none on any rank: there is nothing to interpolate. Collective. Work: one
+/// look at each cell, and one inversion of the shape functions (VTK's) for each cell at a vertex
+/// that moved. Messages: 24 bytes a shared vertex. Memory: 8 bytes a vertex that moved, and 12 for
+/// each corner of its cell.
 std::optional<VertexInterpolation> interpolationOf(RankExchange& exchange,
   const DistributedMesh& mesh, const std::vector<Point3>& before, const std::vector<Index>& moved);
 

@@ -93,13 +93,13 @@ private:
     {
       return verticesOff < before.verticesOff ||
              (verticesOff == before.verticesOff && badCells < before.badCells &&
-               !isTooMuch(before, before.badCells - badCells, mostCells));
+               !hasTooManyCells(before, before.badCells - badCells, mostCells));
     }
-    /// Whether there are more new cells than it is worth to have so many bad cells less.
-    bool isTooMuch(const Left& before, std::int64_t bad, std::int64_t mostCells) const
+    /// Whether there are more new cells than it is worth for so many bad cells that are gone.
+    bool hasTooManyCells(const Left& before, std::int64_t gone, std::int64_t mostCells) const
     {
       return cells > mostCells ||
-             cells - before.cells > std::max(newCellsForOne * bad, before.cells / cellsForOneNew);
+             cells - before.cells > std::max(newCellsForOne * gone, before.cells / cellsForOneNew);
     }
   };
 
@@ -184,9 +184,9 @@ private:
         left = now;
         return true;
       }
-      if (left.verticesOff == 0 && now.isTooMuch(left, left.badCells, mostCells))
+      if (left.verticesOff == 0 && now.hasTooManyCells(left, left.badCells, mostCells))
       {
-        break; // more cuts only add cells
+        break; // it would not be worth it if no cell were bad
       }
       cutsAtOnce += now == last;
     }

@@ -13,7 +13,9 @@
 #include <vtkDataArray.h>
 #include <vtkDoubleArray.h>
 #include <vtkIdList.h>
+#include <vtkNew.h>
 #include <vtkPointData.h>
+#include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkUnstructuredGrid.h>
 
@@ -301,13 +303,18 @@ TEST(MeshValidity, givesTheMeanRatio)
     12 * std::pow(0.5, 2.0 / 3.0) / 9, 1e-15);
 }
 
-/// Vertices off the CAD that make way for others get the values of where they come to.
+/// Vertices off the CAD that make way for others get the values of where they come to. An array
+/// without a name stays one.
 TEST(VerticesInside, keepALinearFieldLinear)
 {
   const cadtest::FilterRun filters(CADREFINE_DATA "/naca0012_blunt.igs");
   const auto coarse =
     filters.project(cadtest::readGrid(CADREFINE_DATA "/naca0012_blunt_coarse.vtu"));
   cadtest::addArrays(coarse);
+  vtkNew<vtkDoubleArray> unnamed;
+  unnamed->DeepCopy(coarse->GetPointData()->GetArray("Linear"));
+  unnamed->SetName(nullptr);
+  coarse->GetPointData()->AddArray(unnamed);
   const auto straight = filters.refineStraight(coarse);
   const auto fine = filters.run<vtkRefineWithCAD>(coarse,
     [](vtkRefineWithCAD* filter)
@@ -332,6 +339,30 @@ TEST(VerticesInside, keepALinearFieldLinear)
     }
   }
   EXPECT_GT(moved, 0);
+  EXPECT_EQ(fine->GetPointData()->GetNumberOfArrays(), coarse->GetPointData()->GetNumberOfArrays());
+}
+
+/// As programs write them; far from the origin, single precision is coarse.
+TEST(ProjectedVertices, mayBeInSinglePrecision)
+{
+  const Vector3 far{ 1e5, 3e4, 0 };
+  const cadtest::TemporaryFolder folder;
+  const cadtest::FilterRun filters(
+    cadtest::writeInto(folder, cadtest::moved(cadtest::sphere(radius), far), ".step"));
+  Mesh ball = cadtest::ballMesh(radius, 0.03);
+  for (Point3& point : ball.points)
+  {
+    point = point + far;
+  }
+  const auto projected = filters.project(cadtest::toGrid(ball));
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToFloat();
+  for (vtkIdType p = 0; p < projected->GetNumberOfPoints(); ++p)
+  {
+    points->InsertNextPoint(projected->GetPoint(p));
+  }
+  projected->SetPoints(points);
+  EXPECT_EQ(cadtest::fieldValue(filters.refineUniformly(projected), "InvalidCells"), 0);
 }
 
 } // namespace
