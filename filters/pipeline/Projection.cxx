@@ -192,11 +192,11 @@ std::string projectMesh(
   meshHasChanged(state);
   projection.fit.meshBox = box;
   ProjectionResult& result = projection.result;
-  followMotion(exchange, state, result.motion);
   recordBalance(context.statistics, "points", result.balance);
   context.statistics.set("points not converged", static_cast<double>(result.slowPoints));
 
   setClassification(state, std::move(result.classification));
+  followMotion(exchange, state, result.motion);
   writeConflicts(state.arrays.ofVertices, result.conflicts);
   if (options.minimumQuality)
   {
