@@ -53,19 +53,27 @@ private:
 
 } // namespace
 
+bool isReal(vtkAbstractArray* array)
+{
+  return vtkDataArray::SafeDownCast(array) &&
+         (array->GetDataType() == VTK_DOUBLE || array->GetDataType() == VTK_FLOAT);
+}
+
 bool applyRows(vtkAbstractArray* from, const WeightedRows& rows, Sums sums, vtkAbstractArray* to)
 {
+  if (!isReal(from))
+  {
+    return false;
+  }
   vtkDataArray* source = vtkDataArray::SafeDownCast(from);
   vtkDataArray* target = vtkDataArray::SafeDownCast(to);
   using Dispatch = vtkArrayDispatch::Dispatch2BySameValueType<vtkArrayDispatch::Reals>;
-  const bool isReal =
-    source && target && (source->GetDataType() == VTK_DOUBLE || source->GetDataType() == VTK_FLOAT);
   const Summation summation{ rows, sums };
-  if (isReal && !Dispatch::Execute(source, target, summation))
+  if (!Dispatch::Execute(source, target, summation))
   {
     summation(source, target); // a kind of array that VTK does not know by its type
   }
-  return isReal;
+  return true;
 }
 
 } // namespace cadrefine

@@ -15,9 +15,12 @@ enum class Sums
                ///< the rounding of its weights; values that are all the same stay.
 };
 
+/// Whether rows apply to an array: if it is of floating point.
+bool isReal(vtkAbstractArray* array);
+
 /// Gives the tuples of `to` that the rows name the sums of those of `from`, an array of the same
 /// type, in double precision, component by component, in the order of the sources. Returns whether
-/// it did: arrays that are not of floating point stay as they are.
+/// it did (see isReal): other arrays stay as they are.
 bool applyRows(vtkAbstractArray* from, const WeightedRows& rows, Sums sums, vtkAbstractArray* to);
 
 } // namespace cadrefine

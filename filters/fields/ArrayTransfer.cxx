@@ -322,6 +322,20 @@ MeshArrays refineArrays(
   return fine;
 }
 
+MeshArrays withVertexRows(const MeshArrays& arrays, const WeightedRows& rows)
+{
+  MeshArrays result = emptyArrays(arrays.vertexIdName, arrays.cellIdName);
+  carryOver(arrays.ofVertices, result.ofVertices,
+    [&](vtkAbstractArray* array)
+    {
+      return isReal(array) ? interpolate(array, {}, rows)
+                           : vtkSmartPointer<vtkAbstractArray>(array);
+    });
+  result.ofCells = arrays.ofCells;
+  result.ofMesh = arrays.ofMesh;
+  return result;
+}
+
 MeshArrays withDensities(
   const MeshArrays& arrays, const WeightedRows& rows, const std::vector<std::string>& densities)
 {

@@ -77,6 +77,10 @@ MeshArrays select(const MeshArrays& arrays, const ArraySelection& selection);
 MeshArrays refineArrays(const MeshArrays& coarse, const RefinementTrace& trace,
   const std::vector<std::string>& densities = {});
 
+/// The arrays as they are, except that point arrays of floating point get the sums of the rows,
+/// within the values summed up.
+MeshArrays withVertexRows(const MeshArrays& arrays, const WeightedRows& rows);
+
 /// The arrays as they are, except that cell arrays of these names, if they are of floating point,
 /// get the sums of the rows.
 MeshArrays withDensities(

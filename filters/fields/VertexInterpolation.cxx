@@ -234,21 +234,15 @@ std::optional<VertexInterpolation> interpolationOf(RankExchange& exchange,
 MeshArrays withInterpolation(
   RankExchange& exchange, const MeshArrays& arrays, const VertexInterpolation& interpolation)
 {
-  MeshArrays result = arrays;
-  result.ofVertices = vtkSmartPointer<vtkPointData>::New();
+  MeshArrays result = withVertexRows(arrays, interpolation.rows);
   vtkNew<vtkPointData> changed;
-  for (int a = 0; a < arrays.ofVertices->GetNumberOfArrays(); ++a)
+  for (int a = 0; a < result.ofVertices->GetNumberOfArrays(); ++a)
   {
-    vtkSmartPointer<vtkAbstractArray> array = arrays.ofVertices->GetAbstractArray(a);
-    if (array->GetDataType() == VTK_DOUBLE || array->GetDataType() == VTK_FLOAT)
+    vtkAbstractArray* array = result.ofVertices->GetAbstractArray(a);
+    if (isReal(array))
     {
-      const auto old = array;
-      array = emptyLike(old, old->GetNumberOfTuples());
-      array->InsertTuples(0, old->GetNumberOfTuples(), 0, old);
-      applyRows(old, interpolation.rows, Sums::WithinValues, array);
       changed->AddArray(array);
     }
-    addAs(arrays.ofVertices->IsArrayAnAttribute(a), array, result.ofVertices);
   }
   std::vector<std::vector<char>> bytes(interpolation.neighbours.size());
   agreeOnFailure(exchange,
