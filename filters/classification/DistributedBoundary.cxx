@@ -57,6 +57,12 @@ void measureVertices(
   combineSmallest(exchange, mesh.shared, boundary.shortestEdge);
 }
 
+/// Whether the face of a facet, or whether it is on the CAD, may depend on the facets beside it.
+bool dependsOnNeighbours(const FacetRecord& record)
+{
+  return record.odd || record.ear >= 0;
+}
+
 bool isClassified(const ClassifiedFacet& facet)
 {
   const auto end = facet.entities.begin() + facet.corners;
@@ -182,6 +188,7 @@ FacetRecord makeRecord(const BoundaryProjector& projector, const ClassifiedFacet
     const Vector3 twofoldArea = twofoldAreaVector(facet.points, facet.corners);
     record.normal = normalized(twofoldArea);
     record.area = 0.5 * norm(twofoldArea);
+    record.ear = projector.earOf(facet);
   }
   record.onCAD = isClassified(facet) && projector.isOnCAD(facet) ? 1 : 0;
   record.isInside = facet.isInside ? 1 : 0;
@@ -241,7 +248,7 @@ BoundaryClasses classifyBoundary(RankExchange& exchange, const Mesh& mesh,
     const ClassifiedFacet facet = classifiedFacet(mesh, entities, boundary.facets[f]);
     FacetRecord& record = records[f];
     classes.known[f] = cache.find(mesh, boundary.facets[f], facet);
-    if (classes.known[f] >= 0 && !cache.record(classes.known[f]).odd)
+    if (classes.known[f] >= 0 && !dependsOnNeighbours(cache.record(classes.known[f])))
     {
       record = cache.record(classes.known[f]);
       return;
@@ -252,13 +259,16 @@ BoundaryClasses classifyBoundary(RankExchange& exchange, const Mesh& mesh,
     if (boundary.kind == BoundaryKind::Faces)
     {
       record.face = record.onCAD ? projector.faceOf(facet) : -1;
-      record.ear = projector.earOf(facet);
     }
   };
   agreeOnFailure(
     exchange, [&] { forEachIndex(parallelFor, records.size(), coarseGrain, classifyFacet); });
   auto ofEdges = gatherFacetRecords(exchange, boundary, records);
   if (joinOddFacets(exchange, mesh, boundary, entities, projector.model(), ofEdges, records))
+  {
+    ofEdges = gatherFacetRecords(exchange, boundary, records);
+  }
+  if (joinEars(exchange, mesh, boundary, projector.model().nurbs(), ofEdges, records))
   {
     ofEdges = gatherFacetRecords(exchange, boundary, records);
   }

@@ -1,6 +1,7 @@
 #include "classification/FacetClassification.h"
 
 #include "classification/FacetsOffCAD.h"
+#include "classification/OddFacets.h"
 #include "comm/CollectiveErrors.h"
 #include "comm/LoadBalancedMap.h"
 #include "comm/Threads.h"
@@ -238,6 +239,8 @@ FacetClasses classifyFacets(const ProjectionTask& task, const std::vector<Closes
     records[f].face = matches[f].face;
   }
   askNeighbours(task, matches, records);
+  joinEars(task.exchange, task.mesh.mesh(), task.boundary, task.model().nurbs(),
+    gatherFacetRecords(task.exchange, task.boundary, records), records);
   return classes;
 }
 

@@ -62,8 +62,9 @@ struct Surroundings
   /// anywhere, two facets on the CAD at one edge, which goes on without it, as beside a rib.
   unsigned char isOpen = 0;
   unsigned char isAtBorder = 0; ///< A CAD edge that bounds one face alone is beside it.
-  unsigned char isTied = 0; ///< A facet from which it turns by less than 60 degrees is beside it.
-  unsigned char isAmid = 0; ///< A facet without a CAD edge between them is beside it.
+  unsigned char isTied = 0;  ///< A facet from which it turns by less than 60 degrees is beside it.
+  unsigned char isAmid = 0;  ///< A facet without a CAD edge between them is beside it.
+  unsigned char isAlong = 0; ///< A mesh edge inside it joins vertices on one CAD edge.
   /// Bits for facets beyond `edge`, a CAD edge between two faces: 1, one is on the first face; 2,
   /// on the second.
   unsigned char sides = 0;
@@ -81,7 +82,7 @@ struct Surroundings
     }
     const bool isEnd = face.value >= 0 && endsThere(model, face.value);
     const bool isBetween = edge.value >= 0 && sides == 3;
-    const bool isBeyond = sides > 0 && (isAmid || isEnd || isBetween);
+    const bool isBeyond = sides > 0 ? isAmid || isEnd || isBetween : isAlong;
     return !isOpen && (!isWide || (!isAtBorder && (isTied || isBeyond)));
   }
 
@@ -92,6 +93,7 @@ struct Surroundings
     isAtBorder |= other.isAtBorder;
     isTied |= other.isTied;
     isAmid |= other.isAmid;
+    isAlong |= other.isAlong;
     sides |= other.sides;
     edge.add(other.edge);
     face.add(other.face);
@@ -101,12 +103,28 @@ struct Surroundings
   {
     const auto all = [](const Surroundings& s)
     {
-      return std::tuple(
-        s.isWide, s.isOpen, s.isAtBorder, s.isTied, s.isAmid, s.sides, s.edge.value, s.face.value);
+      return std::tuple(s.isWide, s.isOpen, s.isAtBorder, s.isTied, s.isAmid, s.isAlong, s.sides,
+        s.edge.value, s.face.value);
     };
     return all(a) == all(b);
   }
 };
+
+/// The side of a triangle that is opposite to an obtuse angle; -1: there is none.
+int longSide(const Mesh& mesh, const Facet& triangle)
+{
+  for (int k = 0; k < 3; ++k)
+  {
+    const Point3& a = mesh.points[triangle.vertices[k]];
+    const Point3& b = mesh.points[triangle.vertices[(k + 1) % 3]];
+    const Point3& c = mesh.points[triangle.vertices[(k + 2) % 3]];
+    if (dot(a - c, b - c) < 0)
+    {
+      return k;
+    }
+  }
+  return -1;
+}
 
 /// The face of the neighbour from which the surface turns least, for an ear, or that of all
 /// neighbours; -1: they are not on one face.
@@ -193,6 +211,7 @@ std::vector<Surroundings> findSurroundings(RankExchange& exchange,
         }
       }
       patch.isWide |= count > 1 || boundary.facets[facet].corners() == 4;
+      patch.isAlong |= count > 1 && !onBoth.empty();
       patch.isOpen |=
         boundary.ofSurface ? facetsOnCAD(ofEdges[edge]).size() > 1 : ofEdges[edge].size() == 1;
     });
@@ -257,6 +276,33 @@ bool joinOddFacets(RankExchange& exchange, const Mesh& mesh, const DistributedBo
     record.face = record.onCAD ? face : -1;
   }
   return true;
+}
+
+bool joinEars(RankExchange& exchange, const Mesh& mesh, const DistributedBoundary& boundary,
+  const NurbsModel& model, const std::vector<std::vector<FacetRecord>>& ofEdges,
+  std::vector<FacetRecord>& records)
+{
+  bool changes = false;
+  for (std::size_t f = 0; f < records.size(); ++f)
+  {
+    FacetRecord& record = records[f];
+    const int side = record.onCAD && record.ear >= 0 ? longSide(mesh, boundary.facets[f]) : -1;
+    if (side < 0)
+    {
+      continue;
+    }
+    const auto& faces = model.edges[record.ear].faces;
+    for (const FacetRecord& beyond : ofEdges[boundary.facetEdges[f][side]])
+    {
+      if (beyond.ear != record.ear && beyond.face != record.face &&
+          std::binary_search(faces.begin(), faces.end(), beyond.face))
+      {
+        record.face = beyond.face;
+        changes = true;
+      }
+    }
+  }
+  return exchange.any(changes);
 }
 
 } // namespace cadrefine

@@ -350,22 +350,36 @@ TEST(Conflicts, areNoneWhereTheMeshIsFineEnough)
   EXPECT_EQ(cadtest::fieldValue(projected, "ClassificationConflicts"), 0);
 }
 
-/// Two cones base to base, whose normals differ by 70 degrees from the axis, and six points on the
-/// circle between them. The upper one has an ear there, a triangle of three of these points, which
-/// fits neither cone: its long side is not on the circle.
-TEST(Ears, areOnTheFaceBeyondTheirLongSide)
+/// Angles between the normals of two cones and their axis, in degrees: of the upper one, and of the
+/// lower one.
+using EarCase = std::pair<double, double>;
+
+class Ears : public testing::TestWithParam<EarCase>
 {
-  const double slope = std::tan(70 * 3.14159265358979323846 / 180);
+};
+
+INSTANTIATE_TEST_SUITE_P(
+  Cones, Ears, testing::Values(EarCase(70, 70), EarCase(55, 45), EarCase(70, 45)));
+
+/// Two cones base to base, and six points on the circle between them. The upper one has an ear
+/// there, a triangle of three of these points, which fits neither cone, or the lower one better:
+/// its long side is not on the circle.
+TEST_P(Ears, areOnTheFaceBeyondTheirLongSide)
+{
+  const auto slopeOf = [](double degrees)
+  { return std::tan(degrees * 3.14159265358979323846 / 180); };
+  const double height = slopeOf(GetParam().first);
+  const double depth = slopeOf(GetParam().second);
   Mesh mesh;
-  for (int k = 0; k < 6; ++k)
+  for (const double degrees : { 0, 45, 120, 180, 240, 300 })
   {
-    const double angle = 3.14159265358979323846 / 3 * k;
+    const double angle = degrees * 3.14159265358979323846 / 180;
     mesh.points.push_back({ std::cos(angle), std::sin(angle), 0 });
   }
   const Index top = 6;
   const Index bottom = 7;
   const Index middle = 8;
-  mesh.points.insert(mesh.points.end(), { { 0, 0, slope }, { 0, 0, -slope }, { 0, 0, -0.5 } });
+  mesh.points.insert(mesh.points.end(), { { 0, 0, height }, { 0, 0, -depth }, { 0, 0, -0.5 } });
   mesh.ids.resize(mesh.points.size());
   std::iota(mesh.ids.begin(), mesh.ids.end(), GlobalId{ 0 });
   for (Index k = 0; k < 6; ++k)
@@ -381,7 +395,7 @@ TEST(Ears, areOnTheFaceBeyondTheirLongSide)
   ASSERT_TRUE(cadtest::isValid(mesh));
   const cadtest::TemporaryFolder folder;
   const cadtest::FilterRun filters(
-    cadtest::writeInto(folder, cadtest::doubleCone(1, slope), ".brep"));
+    cadtest::writeInto(folder, cadtest::doubleCone(1, height, depth), ".brep"));
   const auto fine = filters.refineUniformly(filters.project(cadtest::toGrid(mesh)));
   EXPECT_EQ(cadtest::fieldValue(fine, "UnprojectedVertices"), 0);
   vtkDataArray* dimensions = fine->GetPointData()->GetArray("CADDimension");

@@ -15,7 +15,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 
 namespace
 {
@@ -184,6 +187,64 @@ TEST(CoarseParts, keepQuadrilateralEndsFlat)
   prism.tetrahedra.clear();
   prism.hexahedra = { { 0, 1, 2, 3, 4, 5, 6, 7 } };
   expectFlatEnds(cylinder(1, 8), prism, 2, 4);
+}
+
+/// A cylinder of two faces, and a mesh that has one edge along 160 degrees of the circle between
+/// them: the facets beside it lead from deep inside to the faces, and turn by a right angle from
+/// all others.
+TEST(CoarseParts, followACADEdgeDeepUnderIt)
+{
+  const auto at = [](double degrees, double z) -> Point3
+  {
+    const double angle = degrees * 3.14159265358979323846 / 180;
+    return { std::cos(angle), std::sin(angle), z };
+  };
+  Mesh mesh;
+  for (const double degrees : { 80, 130, 180, 230, 280 }) // 0 to 4, on the circle
+  {
+    mesh.points.push_back(at(degrees, 0));
+  }
+  for (const double side : { 1, -1 }) // from 5 and 13 on: over the edge, a ring, its middle
+  {
+    mesh.points.push_back(at(0, 0.3 * side));
+    for (int k = 0; k < 6; ++k)
+    {
+      mesh.points.push_back(at(60 * k, side));
+    }
+    mesh.points.push_back({ 0, 0, side });
+  }
+  mesh.points.push_back({ -0.4, 0, 0 });
+  mesh.ids.resize(mesh.points.size());
+  std::iota(mesh.ids.begin(), mesh.ids.end(), GlobalId{ 0 });
+  const Index inside = 21;
+  const auto add = [&](Index a, Index b, Index c, bool isUpper) {
+    mesh.tetrahedra.push_back({ a, isUpper ? b : c, isUpper ? c : b, inside });
+  };
+  for (const Index over : { 5, 13 })
+  {
+    const bool isUpper = over == 5;
+    const std::array<Index, 7> loop{ over, 0, 1, 2, 3, 4, over };
+    for (Index k = 0; k < 6; ++k)
+    {
+      const Index first = over + 1 + k;
+      const Index next = over + 1 + (k + 1) % 6;
+      add(loop[k + 1], loop[k], first, isUpper);
+      add(loop[k + 1], first, next, isUpper);
+      add(next, first, over + 7, isUpper);
+    }
+    add(0, 4, over, isUpper);
+  }
+  ASSERT_TRUE(isValid(mesh));
+  const TemporaryFolder folder;
+  const FilterRun filters(writeInto(folder, moved(longCylinder(1, 1), { 0, 0, -1 }), ".brep"));
+  const auto fine = filters.refineUniformly(filters.project(toGrid(mesh)));
+  EXPECT_EQ(fieldValue(fine, "UnprojectedVertices"), 0);
+  EXPECT_EQ(fieldValue(fine, "InvalidCells"), 0);
+  const Mesh cells = toMesh(fine);
+  EXPECT_EQ(std::count_if(cells.points.begin(), cells.points.end(),
+              [](const Point3& p)
+              { return std::abs(p[2]) < 1e-12 && std::abs(std::hypot(p[0], p[1]) - 1) < 1e-12; }),
+    10);
 }
 
 } // namespace

@@ -156,11 +156,11 @@ TopoDS_Shape cone(double radius, double height)
   return BRepPrimAPI_MakeCone(radius, 0, height).Shape();
 }
 
-TopoDS_Shape doubleCone(double radius, double height)
+TopoDS_Shape doubleCone(double radius, double height, double depth)
 {
   const gp_Ax2 downward(gp::Origin(), gp::DZ().Reversed(), gp::DX());
   return BRepAlgoAPI_Fuse(
-    cone(radius, height), BRepPrimAPI_MakeCone(downward, radius, 0, height).Shape())
+    cone(radius, height), BRepPrimAPI_MakeCone(downward, radius, 0, depth).Shape())
     .Shape();
 }
 

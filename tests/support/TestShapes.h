@@ -47,8 +47,8 @@ TopoDS_Shape ellipse(double longRadius, double shortRadius);
 TopoDS_Shape rectangle(double x, double y);
 /// Base at the origin, apex at height z.
 TopoDS_Shape cone(double radius, double height);
-/// Two such cones with one base, apexes at height z and -z.
-TopoDS_Shape doubleCone(double radius, double height);
+/// Two such cones with one base, apexes at height z and -depth.
+TopoDS_Shape doubleCone(double radius, double height, double depth);
 /// A box with a ball about the origin, its corner, cut off.
 TopoDS_Shape boxWithoutCorner(double x, double y, double z, double radius);
 /// What lies between two spheres round the origin where no coordinate is negative.
