@@ -312,22 +312,6 @@ std::vector<unsigned char> verticesBetweenTags(
 {
   const Mesh& piece = mesh.mesh();
   std::vector<unsigned char> flags(piece.points.size(), 0);
-  const auto flag = [&](const auto& cells)
-  {
-    for (const auto& cell : cells)
-    {
-      for (const Index v : cell)
-      {
-        flags[v] = 1;
-      }
-    }
-  };
-  flag(piece.vertices);
-  if (piece.dimension == 3)
-  {
-    flag(piece.segments);
-  }
-  combineFlags(exchange, mesh.shared, flags);
   if (!exchange.any(!tags.empty()))
   {
     return flags;
@@ -353,8 +337,32 @@ std::vector<unsigned char> verticesBetweenTags(
   combineLargest(exchange, mesh.shared, largest);
   for (std::size_t v = 0; v < flags.size(); ++v)
   {
-    flags[v] = flags[v] || smallest[v] < largest[v];
+    flags[v] = smallest[v] < largest[v];
   }
+  return flags;
+}
+
+std::vector<unsigned char> verticesOfListedLines(
+  RankExchange& exchange, const DistributedMesh& mesh)
+{
+  const Mesh& piece = mesh.mesh();
+  std::vector<unsigned char> flags(piece.points.size(), 0);
+  const auto flag = [&](const auto& cells)
+  {
+    for (const auto& cell : cells)
+    {
+      for (const Index v : cell)
+      {
+        flags[v] = 1;
+      }
+    }
+  };
+  flag(piece.vertices);
+  if (piece.dimension == 3)
+  {
+    flag(piece.segments);
+  }
+  combineFlags(exchange, mesh.shared, flags);
   return flags;
 }
 

@@ -33,11 +33,15 @@ std::array<GlobalId, 4> idsOf(const Mesh& mesh, const std::array<Index, 4>& corn
 std::vector<Facet> findBoundaryFacets(RankExchange& exchange, const DistributedMesh& mesh,
   const std::vector<unsigned char>& among, const std::vector<std::uint64_t>& tags = {});
 
-/// 1 for vertices that separate what is tagged, given hashes of the tags of the cells of the mesh's
-/// own dimension (none on any rank: there are no tags): those between cells of different tags, of
-/// listed lines in a mesh of volume, and listed points; over all ranks. Collective. Work: one look
-/// at each cell where there are tags.
+/// 1 for vertices between cells of different tags, over all ranks, given hashes of the tags of the
+/// cells of the mesh's own dimension (none on any rank: there are no tags). Collective. Work: one
+/// look at each cell where there are tags.
 std::vector<unsigned char> verticesBetweenTags(
   RankExchange& exchange, const DistributedMesh& mesh, const std::vector<std::uint64_t>& tags);
+
+/// 1 for vertices of listed lines in a mesh of volume, and listed points; over all ranks.
+/// Collective.
+std::vector<unsigned char> verticesOfListedLines(
+  RankExchange& exchange, const DistributedMesh& mesh);
 
 } // namespace cadrefine

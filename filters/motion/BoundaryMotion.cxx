@@ -168,15 +168,18 @@ std::vector<unsigned char> findEndsOfLayers(const Motion& motion)
   return ends;
 }
 
-/// The flags of MoveSettings::fixed, and 2 for vertices that separate what is tagged. Collective.
+/// The flags of MoveSettings::fixed, and 2 for vertices that separate what is tagged or are listed.
+/// Collective.
 std::vector<unsigned char> findFixed(
   RankExchange& exchange, const DistributedMesh& mesh, const MoveSettings& settings)
 {
   std::vector<unsigned char> fixed = settings.fixed;
-  const auto held = verticesBetweenTags(exchange, mesh, settings.tags);
-  std::transform(fixed.begin(), fixed.end(), held.begin(), fixed.begin(),
-    [](unsigned char isFixed, unsigned char isHeld) -> unsigned char
-    { return isFixed ? isFixed : (isHeld ? 2 : 0); });
+  const auto between = verticesBetweenTags(exchange, mesh, settings.tags);
+  const auto listed = verticesOfListedLines(exchange, mesh);
+  for (std::size_t v = 0; v < fixed.size(); ++v)
+  {
+    fixed[v] = fixed[v] == 0 && (between[v] || listed[v]) ? 2 : fixed[v];
+  }
   return fixed;
 }
 

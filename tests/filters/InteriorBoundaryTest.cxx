@@ -214,6 +214,12 @@ TEST_F(InteriorBoundary, isMissedWhereMaterialsMeetOnTheCAD)
   { return filters.attempt<vtkProjectOntoCAD>(mesh, [](vtkProjectOntoCAD*) {}).warnings; };
   EXPECT_TRUE(warnings(withMaterials(listed, 20)).empty());
   EXPECT_TRUE(warnings(cadtest::toGrid(cellsAlone)).empty()) << "without materials";
+  Mesh withLines = cellsAlone;
+  for (const auto& triangle : listed.triangles)
+  {
+    withLines.segments.push_back({ triangle[0], triangle[1] });
+  }
+  EXPECT_TRUE(warnings(cadtest::toGrid(withLines)).empty()) << "lines tell no materials apart";
   const auto found = warnings(withMaterials(cellsAlone, 20));
   ASSERT_EQ(found.size(), 1u);
   EXPECT_NE(found[0].find("the mesh lists no cells between them"), std::string::npos) << found[0];
