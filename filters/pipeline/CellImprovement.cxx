@@ -10,6 +10,7 @@
 #include <cadrefine/mesh/Quality.h>
 #include <cadrefine/mesh/VertexFlags.h>
 #include <cadrefine/operations/Improvement.h>
+#include <cadrefine/operations/PinchedEdges.h>
 
 #include <vtkCellData.h>
 #include <vtkPointData.h>
@@ -64,6 +65,7 @@ public:
     {
       return; // the CAD's edges do not tell on which surface they are
     }
+    openPinched();
     Left left = operateInRounds();
     const std::int64_t mostCells = std::max(largestGrowth * left.cells, fewCells);
     for (int cut = 0; cut < maximumCuts && mayCut(left) && cutUntilWorthwhile(left, mostCells);
@@ -316,9 +318,27 @@ private:
     return limits;
   }
 
+  void openPinched()
+  {
+    if (exchange_.any(!options_.pinched.empty()))
+    {
+      operate(options_.pinched, 0,
+        [](BlockMesh& block, const SurfaceRule& rule)
+        { return openPinchedEdges(block.mesh(), rule); });
+    }
+  }
+
+  /// Improves the cells round flagged vertices once. Returns whether cells have changed.
+  bool improve(const std::vector<unsigned char>& flags, int round)
+  {
+    return operate(flags, round,
+      [&](BlockMesh& block, const SurfaceRule& rule)
+      { return improveCells(block.mesh(), &rule, limitsFor(block.mesh())); });
+  }
+
   /// Does a round of operations on the cells round flagged vertices. Returns whether cells have
   /// changed.
-  bool improve(const std::vector<unsigned char>& flags, int round)
+  bool operate(const std::vector<unsigned char>& flags, int round, const BlockWork& work)
   {
     const std::int64_t operations = operateOnMesh(context_, state_, flags,
       { ringsOfCells, round, options_.largestBlock,
@@ -326,8 +346,7 @@ private:
           return visitOwnSimplices(
             mesh(), [&](const auto& cells) { return mayChange(cells[cell]); });
         } },
-      [&](BlockMesh& block, const SurfaceRule& rule)
-      { return improveCells(block.mesh(), &rule, limitsFor(block.mesh())); });
+      work);
     operations_ += operations;
     context_.statistics.set("local operations", static_cast<double>(operations_));
     return operations > 0;

@@ -31,7 +31,33 @@ struct Projection
 {
   ProjectionResult result;
   Fit fit;
+  std::vector<unsigned char> pinched = {}; ///< See CellImprovementOptions.
 };
+
+/// 1 for the ends of edges with more than two outer facets of a mesh of volume; empty where no rank
+/// has such an edge. Collective.
+std::vector<unsigned char> findPinched(RankExchange& exchange, const DistributedMesh& mesh,
+  const DistributedBoundary& boundary, const std::vector<FacetRecord>& records)
+{
+  if (mesh.mesh().dimension < 3)
+  {
+    return {};
+  }
+  std::vector<unsigned char> flags(mesh.mesh().points.size(), 0);
+  const auto ofEdges = gatherFacetRecords(exchange, boundary, records);
+  for (std::size_t e = 0; e < ofEdges.size(); ++e)
+  {
+    const auto outer = std::count_if(ofEdges[e].begin(), ofEdges[e].end(),
+      [](const FacetRecord& facet) { return !facet.isInside; });
+    for (const Index end : boundary.edges.edges()[e])
+    {
+      flags[end] = flags[end] || outer > 2;
+    }
+  }
+  combineFlags(exchange, mesh.shared, flags);
+  const bool any = std::any_of(flags.begin(), flags.end(), [](unsigned char flag) { return flag; });
+  return exchange.any(any) ? flags : std::vector<unsigned char>{};
+}
 
 /// Warns where cells of different tags meet on curved CAD faces (of a planar mesh: edges), but the
 /// mesh lists no cells between them: there its vertices and facets are not taken for those of the
@@ -102,6 +128,8 @@ Projection projectCells(const PipelineContext& context, MeshState& state, Projec
   }
   projection.fit =
     findFit({ context.exchange, state.mesh, projector, boundary, options }, projection.result);
+  projection.pinched =
+    findPinched(context.exchange, state.mesh, boundary, projection.result.facets);
   return projection;
 }
 
@@ -205,6 +233,7 @@ std::string projectMesh(
     {
       improvement.inRegion = [&](const Point3& point) { return options.inRegion(point); };
     }
+    improvement.pinched = std::move(projection.pinched);
     improveMesh(context, state, improvement);
   }
   if (state.mesh.mesh().dimension > 0)

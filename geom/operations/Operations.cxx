@@ -293,10 +293,9 @@ void joinClasses(const EditableMesh& mesh, Cavity& cavity)
 }
 
 template<std::size_t Corners>
-void split(const SimplexStore<Corners>& store, Index a, Index b, Index middle,
-  std::vector<Index>& removed, std::vector<LabelledSimplex<Corners>>& added)
+void halve(const SimplexStore<Corners>& store, Index a, Index b, Index middle,
+  const std::vector<Index>& removed, std::vector<LabelledSimplex<Corners>>& added)
 {
-  store.at(a, b, removed);
   for (const Index simplex : removed)
   {
     for (const Index end : { a, b })
@@ -416,17 +415,25 @@ bool proposeCollapse(const EditableMesh& mesh, Index from, Index to, Cavity& cav
            { return mesh.segmentOf(segment.corners[0], segment.corners[1]) >= 0; });
 }
 
+void halve(const EditableMesh& mesh, Index a, Index b, Index middle, Cavity& cavity)
+{
+  halve(mesh.cells(), a, b, middle, cavity.cells, cavity.newCells);
+  halve(mesh.facets(), a, b, middle, cavity.facets, cavity.newFacets);
+  halve(mesh.segments(), a, b, middle, cavity.segments, cavity.newSegments);
+}
+
 bool proposeSplit(const EditableMesh& mesh, Index a, Index b, Index middle, Cavity& cavity)
 {
   cavity.clear();
-  split(mesh.cells(), a, b, middle, cavity.cells, cavity.newCells);
+  mesh.cells().at(a, b, cavity.cells);
   const Ring ring = mesh.dimension() == 3 ? ringOf(mesh, cavity.cells, a, b) : Ring{};
   if (mayGoBeyond(mesh, ring, a, b))
   {
     return false;
   }
-  split(mesh.facets(), a, b, middle, cavity.facets, cavity.newFacets);
-  split(mesh.segments(), a, b, middle, cavity.segments, cavity.newSegments);
+  mesh.facets().at(a, b, cavity.facets);
+  mesh.segments().at(a, b, cavity.segments);
+  halve(mesh, a, b, middle, cavity);
   if (mesh.dimension() == 2)
   {
     findSidesOfSplit(mesh, cavity);

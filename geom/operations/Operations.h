@@ -52,6 +52,9 @@ bool proposeCollapse(const EditableMesh& mesh, Index from, Index to, Cavity& cav
 /// The vertex `middle`, which has no cells yet, halves the edge.
 bool proposeSplit(const EditableMesh& mesh, Index a, Index b, Index middle, Cavity& cavity);
 
+/// Fills in the halves of the cavity's cells, facets and segments, which are all at the edge.
+void halve(const EditableMesh& mesh, Index a, Index b, Index middle, Cavity& cavity);
+
 /// A vertex that an operation made.
 struct AddedVertex
 {

@@ -1,5 +1,6 @@
 #include <cadrefine/operations/SurfaceRule.h>
 
+#include <cadrefine/classification/CADAdjacency.h>
 #include <cadrefine/classification/ClassificationTolerances.h>
 #include <cadrefine/classification/MidpointProjection.h>
 #include <cadrefine/error/GeometricError.h>
@@ -441,6 +442,32 @@ std::optional<ClosestPoint> SurfaceRule::placeOfMiddle(
     }
   }
   return where.entity ? std::optional(where) : std::nullopt;
+}
+
+std::optional<ClosestPoint> SurfaceRule::placeBesideMiddle(
+  const EditableMesh& mesh, Index a, Index b, const Vector3& towards) const
+{
+  const EditableMesh::Vertex& first = mesh.vertex(a);
+  const EditableMesh::Vertex& last = mesh.vertex(b);
+  const Point3 middle = 0.5 * (first.wanted + last.wanted);
+  const double length = distance(first.wanted, last.wanted);
+  const auto isInsideFace = [&](EntityId entity)
+  {
+    return entity.dimension == 2 ||
+           (entity.dimension == 1 && isSeam(projector_.model().nurbs().edges[entity.index]));
+  };
+  for (const double part : { 0.0, 0.125, 0.25, 0.5, 1.0 })
+  {
+    ClosestPoint where = projector_.project(
+      { EdgeClass::Smooth, -1 }, middle + part * length * towards, { first.entity, last.entity });
+    where.distance = distance(where.point, middle);
+    if (isInsideFace(where.entity) && where.distance <= length &&
+        dot(where.point - middle, towards) > 0)
+    {
+      return where;
+    }
+  }
+  return std::nullopt;
 }
 
 } // namespace cadrefine

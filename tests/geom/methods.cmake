@@ -14,6 +14,7 @@ cadrefine_geom_test(method_tests
     operations/FieldRowsTest.cxx
     operations/ImprovementTest.cxx
     operations/OperationsTest.cxx
+    operations/PinchedEdgesTest.cxx
     operations/QualityCostTest.cxx
     operations/SplitSwapsTest.cxx
     operations/SurfaceRuleTest.cxx

@@ -142,6 +142,23 @@ class GmshMeshes(driver.Case):
         self.assertGreater(steps[0]["maximum_distance"], 0.03)
         self.assertLessEqual(steps[-1]["maximum_distance"], 0.01)
 
+    def test_bores_narrower_than_the_cells(self):
+        """Where bores meet, the mesh leads across them: at an edge of four facets, which becomes two. It also has an
+        ear, a triangle with all corners on one CAD edge, whose normal fits the face on the other side of that."""
+        occ = gmsh.model.occ
+
+        def block():
+            bores = [occ.addCylinder(-1, 22, 34, 232, 0, 0, 4.5)]
+            bores += [occ.addCylinder(40 + 70 * k, 22 + (-1) ** k * 3, 34, 0, 60, 0, 9) for k in range(3)]
+            occ.cut([(3, occ.addBox(0, 0, 0, 230, 110, 70))], [(3, bore) for bore in bores])
+
+        self.generate(3, block, block, 23)
+        report = self.expect_on_cad(3.3)
+        self.assertEqual(report["fit"]["conflicts"], [])
+        last = report["steps"][-1]
+        self.assertGreater(last["minimum_quality"], 0.1)
+        self.assertLess(last["maximum_distance"], 0.5)
+
     def test_gap_round_a_body(self):
         """The bore is not in the CAD, but nearer to it than half of a facet is long."""
         occ = gmsh.model.occ
