@@ -1,6 +1,7 @@
 #include "classification/EdgeMidpoints.h"
 
 #include "classification/BoundaryCache.h"
+#include "classification/MidpointSides.h"
 #include "comm/GlobalNumbering.h"
 #include "comm/VertexNumbering.h"
 
@@ -245,6 +246,7 @@ std::vector<MidpointOnCAD> projectMidpoints(RankExchange& exchange, const Mesh& 
     [&](std::size_t i, const ClosestPoint& where) { midpoints[i].where = where; },
     { "projecting", "new vertices" });
   recordBalance(statistics, "new points", balance);
+  turnToFacets(exchange, mesh, edges, classes, classified, classification, edgesOf, midpoints);
   const bool staysOffCreases = edges.withOperations || exchange.any(mesh.hasNonSimplices());
   const std::vector<Vector3> walls = findWalls(exchange, edges, classified);
   for (std::size_t i = 0; (staysOffCreases || !walls.empty()) && i < midpoints.size(); ++i)

@@ -25,6 +25,12 @@ constexpr int mostSteps = 20;
 constexpr double leastSlope = 0.17;
 /// A place on a face is taken instead of one on its border that is up to so many times nearer.
 constexpr double asNear = 1.25;
+/// The CAD is so far from the middle of an edge that leads across a bore, in parts of its length.
+constexpr double farAcross = 0.25;
+/// There its normal and that of the mesh have at most this cosine.
+constexpr double opposed = -0.3;
+/// How far from the middle the other side is looked for, in parts of the length.
+constexpr std::array acrossParts{ 0.125, 0.25, 0.5, 1.0 };
 /// A place nearer to an end of a mesh edge than this part of its length is not that of its middle.
 constexpr double atEnd = 0.1;
 
@@ -336,6 +342,42 @@ ClosestPoint inPlane(const BoundaryProjector& projector, const BoundaryEdge& edg
     {
       place.distance = distance(place.point, middle);
       return place.distance <= where.distance / leastSlope ? place : where;
+    }
+  }
+  return where;
+}
+
+bool isFarAcross(const BoundaryEdge& edge, const ClosestPoint& where)
+{
+  return edge.edgeClass.kind == EdgeClass::Smooth && where.entity.dimension == 2 &&
+         where.distance > farAcross * distance(edge.points[0], edge.points[1]);
+}
+
+ClosestPoint facing(const BoundaryProjector& projector, const BoundaryEdge& edge,
+  const ClosestPoint& where, const Vector3& normal, const FaceSides& sides)
+{
+  const auto cosine = [&](const ClosestPoint& place)
+  {
+    return sides[place.entity.index] *
+           dot(projector.model().normal(place.entity.index, place.parameters), normal);
+  };
+  if (cosine(where) > opposed)
+  {
+    return where;
+  }
+  const Point3 middle = 0.5 * (edge.points[0] + edge.points[1]);
+  const double length = distance(edge.points[0], edge.points[1]);
+  for (const double part : acrossParts)
+  {
+    for (const double side : { 1, -1 })
+    {
+      ClosestPoint place =
+        projector.project(edge.edgeClass, middle + side * part * length * normal, edge.entities);
+      place.distance = distance(place.point, middle);
+      if (place.entity.dimension == 2 && place.distance <= length && cosine(place) > -opposed)
+      {
+        return place;
+      }
     }
   }
   return where;

@@ -41,4 +41,16 @@ ClosestPoint offCrease(
 ClosestPoint inPlane(const BoundaryProjector& projector, const BoundaryEdge& edge,
   const ClosestPoint& where, const Vector3& normal);
 
+/// Whether a smooth edge may lead so far across a bore that its midpoint was projected to the other
+/// side: the place is on a face, and farther away than a quarter of the edge's length.
+bool isFarAcross(const BoundaryEdge& edge, const ClosestPoint& where);
+
+/// A place for the midpoint of an edge that is projected to `where`, on the side of a bore that the
+/// mesh is on: the CAD's outward normal there and this one of the mesh, a unit vector, make less
+/// than 73 degrees. The nearest one of points up to the edge's length before or behind the
+/// midpoint. Returns `where` if they make less than 107 degrees there, if the `sides` of its face
+/// are not known, or if there is no such place. Work: none, or up to eight projections.
+ClosestPoint facing(const BoundaryProjector& projector, const BoundaryEdge& edge,
+  const ClosestPoint& where, const Vector3& normal, const FaceSides& sides);
+
 } // namespace cadrefine

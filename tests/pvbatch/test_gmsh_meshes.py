@@ -21,11 +21,11 @@ def facets_in(mesh, axis, place, tolerance, shape="triangle"):
 
 
 class GmshMeshes(driver.Case):
-    def generate(self, dimension, make_cad, make_mesh, size):
+    def generate(self, dimension, make_cad, make_mesh, size, cad="cad.brep"):
         gmsh.initialize()
         try:
             gmsh.option.setNumber("General.Terminal", 0)
-            for make, name in ((make_cad, "cad.brep"), (make_mesh, "mesh.msh")):
+            for make, name in ((make_cad, cad), (make_mesh, "mesh.msh")):
                 gmsh.clear()
                 make()
                 gmsh.model.occ.synchronize()
@@ -144,15 +144,22 @@ class GmshMeshes(driver.Case):
 
     def test_bores_narrower_than_the_cells(self):
         """Where bores meet, the mesh leads across them: at an edge of four facets, which becomes two. It also has an
-        ear, a triangle with all corners on one CAD edge, whose normal fits the face on the other side of that."""
+        ear, a triangle with all corners on one CAD edge, whose normal fits the face on the other side of that. In the
+        other block an edge leads so far across that its middle is nearer to the other side of the bore."""
         occ = gmsh.model.occ
 
-        def block():
-            bores = [occ.addCylinder(-1, 22, 34, 232, 0, 0, 4.5)]
-            bores += [occ.addCylinder(40 + 70 * k, 22 + (-1) ** k * 3, 34, 0, 60, 0, 9) for k in range(3)]
-            occ.cut([(3, occ.addBox(0, 0, 0, 230, 110, 70))], [(3, bore) for bore in bores])
+        def block(radius, y):
+            whole = occ.addBox(0, 0, 0, 230, 110, 70)
+            bores = [occ.addCylinder(-1, y, 34, 232, 0, 0, radius)]
+            bores += [occ.addCylinder(40 + 70 * k, y + (-1) ** k * 3, 34, 0, 60, 0, 9) for k in range(3)]
+            occ.cut([(3, whole)], [(3, bore) for bore in bores])
+            gmsh.option.setNumber("Mesh.MeshSizeMin", 23)
 
-        self.generate(3, block, block, 23)
+        self.generate(3, lambda: block(7, 40), lambda: block(7, 40), 23, "cad.step")
+        steps = driver.report_of(RANKS, self.path("mesh.msh"), self.path("cad.step"), "--steps", "8")["steps"]
+        self.assertEqual(steps[-1]["unprojected_vertices"], 0)
+        self.assertLess(steps[-1]["maximum_distance"], 1)
+        self.generate(3, lambda: block(4.5, 22), lambda: block(4.5, 22), 23)
         report = self.expect_on_cad(3.3)
         self.assertEqual(report["fit"]["conflicts"], [])
         last = report["steps"][-1]

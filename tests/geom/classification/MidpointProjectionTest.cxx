@@ -286,4 +286,29 @@ TEST(SharpWing, keepsMidpointsAtTheTrailingEdgeOnTheirSide)
   }
 }
 
+/// An edge across a bore of radius 1, beyond whose axis the wall on the side of y > 0 is nearer:
+/// the mesh may be on either side.
+TEST(Bore, facesTheMesh)
+{
+  const auto model = cadtest::modelOf(cadtest::pipe(1, 3, 4));
+  const BoundaryProjector projector(*model, BoundaryKind::Faces);
+  const auto at = [](double x, double y) { return Point3{ x, y, 2 }; };
+  const double half = std::sqrt(1 - 0.2 * 0.2);
+  const std::array<Point3, 2> points{ at(half, 0.2), at(-half, 0.2) };
+  const BoundaryEdge edge{ { EdgeClass::Smooth, -1 }, points, entitiesAt(projector, points) };
+  const ClosestPoint nearest = projectMidpoint(projector, edge);
+  ASSERT_NEAR(nearest.point[1], 1, 1e-9);
+  ASSERT_TRUE(isFarAcross(edge, nearest));
+  const ClosestPoint off = projector.nearest(at(0.8, 0.6), unlimited);
+  const Vector3 normal = model->normal(off.entity.index, off.parameters);
+  FaceSides sides(model->count(2), 0);
+  const Vector3 towards{ 0, 1, 0 };
+  EXPECT_EQ(facing(projector, edge, nearest, towards, sides).point, nearest.point);
+  sides[off.entity.index] = dot(normal, at(0.8, 0.6) - at(0, 0)) < 0 ? 1 : -1;
+  EXPECT_EQ(facing(projector, edge, nearest, -1.0 * towards, sides).point, nearest.point);
+  const ClosestPoint there = facing(projector, edge, nearest, towards, sides);
+  EXPECT_NEAR(distance(there.point, at(0, -1)), 0, 1e-9);
+  EXPECT_NEAR(there.distance, 1.2, 1e-9);
+}
+
 } // namespace
