@@ -25,6 +25,9 @@ constexpr int errorDepth = 2;
 /// facet is.
 constexpr double distanceRounding = 1e-6;
 
+/// A place beside the middle of an edge is at least so far to that side, in parts of its length.
+constexpr double leastOpening = 0.05;
+
 /// Cosine of the largest turn of a facet's normal (40 degrees).
 const double turnCosine = ClassificationTolerances::cosineOfDegrees(40);
 
@@ -462,7 +465,7 @@ std::optional<ClosestPoint> SurfaceRule::placeBesideMiddle(
       { EdgeClass::Smooth, -1 }, middle + part * length * towards, { first.entity, last.entity });
     where.distance = distance(where.point, middle);
     if (isInsideFace(where.entity) && where.distance <= length &&
-        dot(where.point - middle, towards) > 0)
+        dot(where.point - middle, towards) > leastOpening * length)
     {
       return where;
     }

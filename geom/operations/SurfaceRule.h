@@ -80,9 +80,9 @@ public:
   /// An edge that belongs only to the boundary off the CAD, or to something listed inside, gets the
   /// point halfway between its ends, with no entity. None where the place cannot be told.
   std::optional<ClosestPoint> placeOfMiddle(const EditableMesh& mesh, Index a, Index b) const;
-  /// The place on a CAD face for the middle of an edge, on the side of this unit vector: the
-  /// nearest one of the middle, or of points up to the edge's length beside it. None if none of
-  /// these is there.
+  /// The place on a CAD face for the middle of an edge, on the side of this unit vector by at least
+  /// a twentieth of the edge's length: the nearest one of the middle, or of points up to its length
+  /// beside it. None if none of these is there.
   std::optional<ClosestPoint> placeBesideMiddle(
     const EditableMesh& mesh, Index a, Index b, const Vector3& towards) const;
 
