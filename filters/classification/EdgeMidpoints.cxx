@@ -246,17 +246,20 @@ std::vector<MidpointOnCAD> projectMidpoints(RankExchange& exchange, const Mesh& 
     [&](std::size_t i, const ClosestPoint& where) { midpoints[i].where = where; },
     { "projecting", "new vertices" });
   recordBalance(statistics, "new points", balance);
-  turnToFacets(exchange, mesh, edges, classes, classified, classification, edgesOf, midpoints);
+  const auto edgeAt = [&](std::size_t i)
+  {
+    const Index e = edgesOf[i];
+    return edgeOf(classes[e].edgeClass, edges.table.edges[e], mesh, classification);
+  };
+  turnToFacets(exchange, mesh, edges, classified, edgesOf, edgeAt, midpoints);
   const bool staysOffCreases = edges.withOperations || exchange.any(mesh.hasNonSimplices());
   const std::vector<Vector3> walls = findWalls(exchange, edges, classified);
   for (std::size_t i = 0; (staysOffCreases || !walls.empty()) && i < midpoints.size(); ++i)
   {
-    const Index e = edgesOf[i];
-    const BoundaryEdge edge =
-      edgeOf(classes[e].edgeClass, edges.table.edges[e], mesh, classification);
+    const BoundaryEdge edge = edgeAt(i);
     ClosestPoint& where = midpoints[i].where;
     where = staysOffCreases ? offCrease(classified.projector, edge, where) : where;
-    where = walls.empty() ? where : inPlane(classified.projector, edge, where, walls[e]);
+    where = walls.empty() ? where : inPlane(classified.projector, edge, where, walls[edgesOf[i]]);
   }
   midpoints.erase(std::remove_if(midpoints.begin(), midpoints.end(),
                     [](const MidpointOnCAD& midpoint) { return !midpoint.where.entity; }),

@@ -81,16 +81,9 @@ std::vector<WholeVector> sumNormals(
 } // namespace
 
 void turnToFacets(RankExchange& exchange, const Mesh& mesh, const MarkedEdges& edges,
-  const std::vector<SharedClass>& classes, const ClassifiedBoundary& classified,
-  const Classification& classification, const std::vector<Index>& edgesOf,
-  std::vector<MidpointOnCAD>& midpoints)
+  const ClassifiedBoundary& classified, const std::vector<Index>& edgesOf,
+  const std::function<BoundaryEdge(std::size_t)>& edgeAt, std::vector<MidpointOnCAD>& midpoints)
 {
-  const auto edgeAt = [&](std::size_t i)
-  {
-    const auto& [a, b] = edges.table.edges[edgesOf[i]];
-    return BoundaryEdge{ classes[edgesOf[i]].edgeClass, { mesh.points[a], mesh.points[b] },
-      { classification.entities[a], classification.entities[b] } };
-  };
   const auto far = indicesWhere(
     midpoints.size(), [&](std::size_t i) { return isFarAcross(edgeAt(i), midpoints[i].where); });
   if (mesh.dimension < 3 || !exchange.any(!far.empty()))

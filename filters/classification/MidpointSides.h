@@ -3,6 +3,8 @@
 
 #include "classification/EdgeMidpoints.h"
 
+#include <cstddef>
+#include <functional>
 #include <vector>
 
 namespace cadrefine
@@ -10,13 +12,12 @@ namespace cadrefine
 
 /// Turns midpoints of smooth edges to the side of the CAD that the facets beside them stand for:
 /// the outward normal of the CAD has to point as theirs do (see facing in MidpointProjection.h). In
-/// meshes of area it does nothing. `edgesOf`: the edge of each midpoint. Collective; a reduction,
-/// and where a midpoint is farther from its place than a quarter of its edge is long, which is
-/// rare: an evaluation for each facet, a sum of two numbers for each CAD face, and an exchange of
-/// 32 bytes a shared edge.
+/// meshes of area it does nothing. `edgesOf`: the number of the edge of each midpoint; `edgeAt`
+/// gives the edge. Collective; a reduction, and where a midpoint is farther from its place than a
+/// quarter of its edge is long, which is rare: an evaluation for each facet, a sum of two numbers
+/// for each CAD face, and an exchange of 24 bytes a shared edge.
 void turnToFacets(RankExchange& exchange, const Mesh& mesh, const MarkedEdges& edges,
-  const std::vector<SharedClass>& classes, const ClassifiedBoundary& classified,
-  const Classification& classification, const std::vector<Index>& edgesOf,
-  std::vector<MidpointOnCAD>& midpoints);
+  const ClassifiedBoundary& classified, const std::vector<Index>& edgesOf,
+  const std::function<BoundaryEdge(std::size_t)>& edgeAt, std::vector<MidpointOnCAD>& midpoints);
 
 } // namespace cadrefine
