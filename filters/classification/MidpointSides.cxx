@@ -1,5 +1,8 @@
 #include "classification/MidpointSides.h"
 
+#include "comm/CollectiveErrors.h"
+#include "comm/Threads.h"
+
 #include <cadrefine/base/IndicesWhere.h>
 #include <cadrefine/classification/CADAdjacency.h>
 #include <cadrefine/classification/MidpointProjection.h>
@@ -9,6 +12,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <utility>
 
 namespace cadrefine
 {
@@ -24,24 +28,35 @@ bool isOuter(const FacetRecord& record)
   return record.onCAD && !record.isInside;
 }
 
-/// Whether normals of CAD and mesh point the same way, by the votes of facets. Collective.
-FaceSides voteOnSides(
-  RankExchange& exchange, const Mesh& mesh, const ClassifiedBoundary& classified)
+/// Whether normals of CAD and mesh point the same way, by the votes of facets, on the faces with
+/// `isAsked` on some rank. Collective.
+FaceSides voteOnSides(RankExchange& exchange, const Mesh& mesh,
+  const ClassifiedBoundary& classified, std::vector<std::int64_t> isAsked)
 {
   const CADModel& model = classified.projector.model();
-  const std::size_t faces = model.nurbs().faces.size();
-  std::vector<std::int64_t> votes(2 * faces, 0); // alike, opposite
-  for (std::size_t f = 0; f < classified.boundary.facets.size(); ++f)
+  const auto& records = classified.classes.facets;
+  isAsked = exchange.sum(isAsked);
+  std::vector<signed char> signs(records.size(), 0);
+  const auto look = [&](std::size_t f)
   {
-    const FacetRecord& record = classified.classes.facets[f];
-    if (isOuter(record) && record.face >= 0)
+    const FacetRecord& record = records[f];
+    if (isOuter(record) && record.face >= 0 && isAsked[record.face] > 0)
     {
       const Vector3 ofCAD =
         model.normalNear(record.face, centroidOf(mesh, classified.boundary.facets[f]));
-      if (fitsEitherWay(ofCAD, record.normal))
-      {
-        ++votes[record.face + (dot(ofCAD, record.normal) < 0 ? faces : 0)];
-      }
+      const bool isAlike = dot(ofCAD, record.normal) > 0;
+      signs[f] = fitsEitherWay(ofCAD, record.normal) ? (isAlike ? 1 : -1) : 0;
+    }
+  };
+  agreeOnFailure(
+    exchange, [&] { forEachIndex(forOnThreads(exchange), records.size(), coarseGrain, look); });
+  const std::size_t faces = isAsked.size();
+  std::vector<std::int64_t> votes(2 * faces, 0); // alike, opposite
+  for (std::size_t f = 0; f < records.size(); ++f)
+  {
+    if (signs[f] != 0)
+    {
+      ++votes[records[f].face + (signs[f] < 0 ? faces : 0)];
     }
   }
   votes = exchange.sum(votes);
@@ -90,7 +105,12 @@ void turnToFacets(RankExchange& exchange, const Mesh& mesh, const MarkedEdges& e
   {
     return;
   }
-  const FaceSides sides = voteOnSides(exchange, mesh, classified);
+  std::vector<std::int64_t> isAsked(classified.projector.model().count(2), 0);
+  for (const Index i : far)
+  {
+    isAsked[midpoints[i].where.entity.index] = 1;
+  }
+  const FaceSides sides = voteOnSides(exchange, mesh, classified, std::move(isAsked));
   const auto sums = sumNormals(exchange, edges, classified);
   for (const Index i : far)
   {
