@@ -1,23 +1,16 @@
 """Runs plugin/cadrefine.py for the tests, as people do: under mpirun and pvbatch, or in pvpython."""
 
-import atexit
-import collections
-import contextlib
-import functools
 import itertools
 import json
 import os
 import subprocess
 import tempfile
-import threading
 import unittest
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 DRIVER = os.path.join(ROOT, "plugin", "cadrefine.py")
 DATA = os.path.join(ROOT, "data")
 TIMEOUT = 240  # Seconds after which a run counts as hanging.
-END = "--- end of a run ---\n"  # What runs.py prints before the failure of a run.
-Outcome = collections.namedtuple("Outcome", "failure output")  # The line of the failure, or None; what was printed.
 
 with open(os.path.join(ROOT, "tests", "support", "open_mpi"), encoding="ascii") as settings:
     ENVIRONMENT = dict(line.strip().split("=", 1) for line in settings if not line.startswith("#"))
@@ -81,52 +74,48 @@ def read_status(path):
         return int(file.read())
 
 
+def report_of(ranks, *arguments):
+    """Report of a run that must succeed without a word on standard error."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "report.json")
+        run = Run(ranks, *arguments, "--report", path)
+        assert run.status == 0 and not any(run.statuses), (run.status, run.statuses, run.errors, run.output)
+        assert not run.errors, run.errors
+        with open(path, encoding="utf-8") as file:
+            return json.load(file)
+
+
 def launcher(ranks):
     """Command that starts ParaView's Python; `ranks` 0 stands for pvpython."""
     return ["mpirun", "-np", str(ranks), "pvbatch"] if ranks else ["pvpython"]
 
 
-class Runs:
-    """A process that makes runs of the driver, one after the other (runs.py): ParaView starts once for all of them."""
-
-    def __init__(self, ranks):
-        self.errors = tempfile.TemporaryFile("w+", encoding="utf-8")
-        program = os.path.join(os.path.dirname(os.path.abspath(__file__)), "runs.py")
-        self.process = subprocess.Popen([*launcher(ranks), program], env={**os.environ, **ENVIRONMENT}, text=True,
-                                        stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self.errors)
-        atexit.register(self.end)
-
-    def run(self, told):
-        timer = threading.Timer(TIMEOUT, self.process.terminate)
-        timer.start()
-        with contextlib.suppress(BrokenPipeError):
-            print(json.dumps(told), file=self.process.stdin, flush=True)
-        lines = list(itertools.takewhile(lambda line: line != END, iter(self.process.stdout.readline, "")))
-        result = self.process.stdout.readline()
-        timer.cancel()
-        self.errors.seek(0)
-        errors = self.errors.read().strip()
-        assert result and not errors, (told, lines, errors)
-        return Outcome(json.loads(result), "".join(lines))
-
-    def end(self):
-        self.process.communicate(timeout=TIMEOUT)
-        self.errors.close()
+def many(ranks, folder, runs):
+    """Makes all `runs`, as many_runs.py takes them, in one process. Returns the line of the failure of each, or None,
+    and what was printed. `folder` is for files in between."""
+    told, results = os.path.join(folder, "runs.json"), os.path.join(folder, "results.json")
+    with open(told, "w", encoding="utf-8") as file:
+        json.dump(runs, file)
+    program = os.path.join(os.path.dirname(os.path.abspath(__file__)), "many_runs.py")
+    result = subprocess.run([*launcher(ranks), program, told, results], env={**os.environ, **ENVIRONMENT}, text=True,
+                            capture_output=True, timeout=TIMEOUT, check=False)
+    assert result.returncode == 0 and not result.stderr.strip(), (result.stdout, result.stderr)
+    with open(results, encoding="utf-8") as file:
+        failures = json.load(file)
+    os.remove(told)
+    os.remove(results)
+    return failures, result.stdout
 
 
-runs = functools.cache(Runs)
-
-
-def outcome(ranks, *arguments, **told):
-    """Of a run for which no process of its own is started; `told` is what runs.py takes besides the arguments."""
-    return runs(ranks).run({"arguments": [*map(str, arguments)], **told})
-
-
-def report_of(ranks, *arguments):
-    """Report of a run that must succeed."""
+def reports_of(ranks, runs):
+    """The reports of runs, each a list of arguments, that must succeed, in one process."""
     with tempfile.TemporaryDirectory() as folder:
-        path = os.path.join(folder, "report.json")
-        failure = outcome(ranks, *arguments, "--report", path).failure
-        assert failure is None, failure
-        with open(path, encoding="utf-8") as file:
-            return json.load(file)
+        paths = [os.path.join(folder, f"report{number}.json") for number in range(len(runs))]
+        told = [{"arguments": [*map(str, arguments), "--report", path]} for arguments, path in zip(runs, paths)]
+        failures, _ = many(ranks, folder, told)
+        assert not any(failures), failures
+        reports = []
+        for path in paths:
+            with open(path, encoding="utf-8") as file:
+                reports.append(json.load(file))
+    return reports

@@ -93,9 +93,10 @@ class BadFormats(driver.Case):
         cases = self.cases()
         paths = [self.write(name, content) for name, content, _ in cases]
         before = sorted(os.listdir(self.folder))
-        for (name, _, reason), path in zip(cases, paths):
+        failures, _ = driver.many(RANKS, self.folder, [
+            {"arguments": [path, WING[1], "--quiet", "--output", self.path("out.vtu")]} for path in paths])
+        for (name, _, reason), path, line in zip(cases, paths, failures):
             with self.subTest(name):
-                line = driver.outcome(RANKS, path, WING[1], "--quiet", "--output", self.path("out.vtu")).failure
                 self.assertIsNotNone(line)
                 self.assertIn(path, line)
                 self.assertIn(reason, line)
@@ -104,15 +105,16 @@ class BadFormats(driver.Case):
 
     def test_without_meshio(self):
         mesh = self.write("tetrahedron.mesh", "MeshVersionFormatted 2\n")
-        line = driver.outcome(RANKS, mesh, WING[1], "--quiet", "--steps", "0", without="meshio").failure
+        (line,), _ = driver.many(RANKS, self.folder, [
+            {"arguments": [mesh, WING[1], "--quiet", "--steps", "0"], "without": "meshio"}])
         self.assertEqual(line, f"{mesh}: the Python package meshio is needed for this format (Debian: python3-meshio)")
 
     def test_writing(self):
         """Whatever fails, the results of the run before stay as they were, and there is nothing beside them."""
         results = {ending: self.path("out" + ending) for ending in (".vtu", ".pvtu", ".msh", ".xdmf", ".foam")}
         steps = [*WING, "--steps", "0", "--output"]
-        for path in results.values():
-            self.assertIsNone(driver.outcome(RANKS, *steps, path).failure)
+        made, _ = driver.many(RANKS, self.folder, [{"arguments": [*steps, path]} for path in results.values()])
+        self.assertEqual(made, [None] * len(results))
         before = self.contents()
         self.assertLessEqual({"out.vtu", "out.pvtu", "out/out_0.vtu", "out.msh", "out.xdmf", "out.h5", "out.foam"},
                              set(before))
@@ -121,13 +123,13 @@ class BadFormats(driver.Case):
         broken = {".vtu": "cadrefine.pieces.write_grid", ".msh": "cadrefine.formats.msh_writing.write",
                   ".xdmf": "cadrefine.formats.xdmf.arrange",
                   ".foam": "cadrefine.formats.openfoam_writing.write_patches"}
-        runs = [([*steps, results[ending]], function) for ending, function in broken.items()]
+        runs = [{"arguments": [*steps, results[ending]], "fails": function} for ending, function in broken.items()]
         late = ["--plot", self.path("plot.png")]
-        runs += [([*steps, path, *late], "cadrefine.plot.plot") for path in results.values()]
-        for arguments, function in runs:
-            line = driver.outcome(RANKS, *arguments, fails=function).failure
+        runs += [{"arguments": [*steps, path, *late], "fails": "cadrefine.plot.plot"} for path in results.values()]
+        failures, _ = driver.many(RANKS, self.folder, runs)
+        for run, line in zip(runs, failures):
             self.assertIn("No space left on device", line)
-            self.assertIn(arguments[-1], line)
+            self.assertIn(run["arguments"][-1], line)
         self.assertEqual(self.contents(), before)
 
     def contents(self):

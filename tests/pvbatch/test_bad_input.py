@@ -116,10 +116,10 @@ class BadOptions(Case):
     def assert_refused(self, cases):
         """Each of `cases` is what follows MESH and CAD, or all arguments, and a text of its line. No file changes."""
         before = self.contents()
-        for case, text in cases:
+        arguments = [case if os.path.isfile(case[0]) else [self.mesh, self.cad, *case] for case, _ in cases]
+        failures, _ = driver.many(RANKS, self.folder, [{"arguments": case} for case in arguments])
+        for (case, text), line in zip(cases, failures):
             with self.subTest(case=case):
-                arguments = case if os.path.isfile(case[0]) else [self.mesh, self.cad, *case]
-                line = driver.outcome(RANKS, *arguments).failure
                 self.assertIn(text, line or "no failure")
                 self.assertEqual(len(line.splitlines()), 1)
         self.assertEqual(self.contents(), before)

@@ -117,9 +117,10 @@ class Results(Case):
         mesh, output = self.path("pyramid.vtu"), self.path("pyramid.unv")
         points = [[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0], [0, 0, 1]]
         meshio.Mesh(np.array(points, float), [("pyramid", [[0, 1, 2, 3, 4]])]).write(mesh)
-        failure = driver.outcome(RANKS, mesh, driver.data("cylinder.brep"), "--steps", "0", "--output", output).failure
+        run = driver.Run(RANKS, mesh, driver.data("cylinder.brep"), "--steps", "0", "--output", output)
         kept = self.path("pyramid_1.vtu")
-        self.assertEqual(failure, f"{output}: universal files can hold only quadratic pyramids; the mesh is in {kept}")
+        self.assertEqual(run.errors, [f"cadrefine: {output}: universal files can hold only quadratic pyramids; "
+                                      f"the mesh is in {kept}"])
         self.assertFalse(os.path.exists(output))
         self.assertIn("pyramid", meshio.read(kept).cells_dict)
 
@@ -162,14 +163,14 @@ class Results(Case):
 
     def test_plot_and_table(self):
         report, plot = self.path("straight.json"), self.path("plot.png")
-        driver.outcome(RANKS, *ARCS, "--steps", "2", "--no-cad", "--report", report)
-        compared = driver.outcome(RANKS, *ARCS, "--steps", "2", "--plot", plot, "--compare-report", report)
-        self.assertIsNone(compared.failure)
+        driver.Run(RANKS, *ARCS, "--steps", "2", "--no-cad", "--report", report)
+        run = driver.Run(RANKS, *ARCS, "--steps", "2", "--plot", plot, "--compare-report", report)
+        self.assertEqual((run.status, run.errors), (0, []))
         with open(plot, "rb") as file:
             self.assertEqual(file.read(8), PNG)
-        rows = [line.split() for line in compared.output.splitlines() if line.strip()[:1].isdigit()]
+        rows = [line.split() for line in run.output.splitlines() if line.strip()[:1].isdigit()]
         self.assertEqual([row[0] for row in rows], ["0", "1", "2"])
-        self.assertEqual(driver.outcome(RANKS, *ARCS, "--steps", "1", "--quiet"), (None, ""))
+        self.assertEqual(driver.Run(RANKS, *ARCS, "--steps", "1", "--quiet").output, "")
 
 
 class Options(Case):
@@ -180,9 +181,10 @@ class Options(Case):
         ball = self.path("ball.msh"), self.path("ball.brep"), "--method", "uniform"
         cases = [(steps, *case) for steps in (0, 2) for case in (
             ([], 1, 0.05), (["--recursion-depth", "1"], 0.75, 0.05), (["--recursion-depth", "3"], 0.984, 0.01))]
-        output = self.path("out.vtu")
-        for steps, depth, part, tolerance in cases:
-            report = driver.report_of(RANKS, *ball, "--steps", steps, *depth, "--output", output)
+        outputs = [self.path(f"out{number}.vtu") for number in range(len(cases))]
+        reports = driver.reports_of(RANKS, [[*ball, "--steps", steps, *depth, "--output", output]
+                                            for (steps, depth, _, _), output in zip(cases, outputs)])
+        for (_, _, part, tolerance), output, report in zip(cases, outputs, reports):
             mesh = meshio.read(output)
             corners = mesh.points[mesh.cells_dict["tetra"]]
             volume = np.linalg.det(corners[:, 1:] - corners[:, :1]).sum() / 6
@@ -231,15 +233,15 @@ class Options(Case):
     def test_conflicts(self):
         path = self.path("report.json")
         case = driver.data("naca0012_blunt_coarse.vtu"), WING[1]  # The mesh has an edge more than the CAD.
-        failure, output = driver.outcome(RANKS, *case, "--steps", "1", "--method", "uniform", "--report", path)
-        self.assertIsNone(failure)
+        run = driver.Run(RANKS, *case, "--steps", "1", "--method", "uniform", "--report", path)
+        self.assertEqual((run.status, run.errors), (0, []))
         with open(path, encoding="utf-8") as file:
             first, second = json.load(file)["steps"]
         self.assertGreater(first["conflicts"], 0)
         self.assertNotIn("conflicts", second)
-        lines = [line for line in output.splitlines() if "in conflict" in line]
+        lines = [line for line in run.output.splitlines() if "in conflict" in line]
         self.assertEqual(lines, [f"Fit: vertices in conflict (CADConflict is 1): {first['conflicts']}"])
-        fitting = driver.outcome(RANKS, *WING, "--steps", "0", "--report", path)
+        fitting = driver.Run(RANKS, *WING, "--steps", "0", "--report", path)
         with open(path, encoding="utf-8") as file:
             self.assertEqual(json.load(file)["steps"][0]["conflicts"], 0)
         self.assertIn("in conflict (CADConflict is 1): 0", fitting.output)
@@ -285,9 +287,9 @@ class Options(Case):
     def test_strict(self):
         """What is a warning else: a part of the CAD that cannot be converted without a guess."""
         arguments = (driver.data("cylinder_coarse.vtu"), driver.data("cylinder.brep"), "--steps", "0", "--cad-unit", "mm")
-        failure, output = driver.outcome(RANKS, *arguments)
-        self.assertIsNone(failure)
-        self.assertIn("the file names no unit of length: taken as mm", output)
+        run = driver.Run(RANKS, *arguments)
+        self.assertEqual((run.status, run.errors), (0, []))
+        self.assertIn("the file names no unit of length: taken as mm", run.output)
         strict = driver.Run(RANKS, *arguments, "--strict")
         self.assert_refused(strict)
         self.assertIn("cylinder.brep: repaired: the file names no unit of length: taken as mm (--strict)",
@@ -309,14 +311,14 @@ class Options(Case):
 
     def test_stops(self):
         limited = "--method", "uniform", "--maximum-cells", "8000", "--steps", "3"
-        many, tagged, pieces, bisected, none, marked, target = (driver.report_of(RANKS, *arguments) for arguments in (
+        many, tagged, pieces, bisected, none, marked, target = driver.reports_of(RANKS, [
             [*WING, "--method", "uniform", "--maximum-cells", "2000", "--steps", "5"],
             [self.tagged_wing(), WING[1], *limited],
             [self.wing_after_an_empty_piece(), WING[1], *limited],
             [*WING, "--maximum-cells", "3000", "--steps", "9", "--output", self.path("bisected.vtu")],
             [*WING, "--maximum-cells", "0", "--quadratic"],
             [*WING, "--threshold", "1e9"],
-            [*WING, "--target-error", "1e9"]))
+            [*WING, "--target-error", "1e9"]])
         for report in (many, tagged, pieces):
             self.assertEqual(report["steps"][-1]["cells"], 8 * 228)
         self.assertIn("2000 cells", many["stopped"])

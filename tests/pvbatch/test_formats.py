@@ -92,9 +92,9 @@ class Formats(unittest.TestCase):
     @classmethod
     def make(cls, runs):
         """What is printed by runs that must succeed."""
-        outcomes = [driver.outcome(RANKS, *run) for run in runs]
-        assert not any(outcome.failure for outcome in outcomes), outcomes
-        return "".join(outcome.output for outcome in outcomes)
+        failures, output = driver.many(RANKS, cls.folder, [{"arguments": run} for run in runs])
+        assert not any(failures), failures
+        return output
 
     @classmethod
     def path(cls, name):

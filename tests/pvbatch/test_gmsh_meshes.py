@@ -3,6 +3,7 @@
 volumes: also those that are not in the CAD."""
 
 import itertools
+import json
 import sys
 import unittest
 
@@ -136,9 +137,13 @@ class GmshMeshes(driver.Case):
             occ.fragment(plate, wall)
 
         self.generate(2, shell, shell, 0.8)
-        case = self.path("mesh.msh"), self.path("cad.brep")
-        self.assertIn("mark cells by ChordTolerance", driver.outcome(RANKS, *case, "--steps", "0").output)
-        steps = driver.report_of(RANKS, *case, "--chord-tolerance", "0.01", "--steps", "9")["steps"]
+        run = driver.Run(RANKS, self.path("mesh.msh"), self.path("cad.brep"), "--steps", "0")
+        self.assertEqual(run.status, 0)
+        self.assertIn("mark cells by ChordTolerance", "".join([run.output, *run.errors]))
+        run = driver.Run(RANKS, self.path("mesh.msh"), self.path("cad.brep"), "--chord-tolerance", "0.01", "--steps", "9",
+                         "--report", self.path("report.json"))
+        with open(self.path("report.json"), encoding="utf-8") as file:
+            steps = json.load(file)["steps"]
         self.assertGreater(steps[0]["maximum_distance"], 0.03)
         self.assertLessEqual(steps[-1]["maximum_distance"], 0.01)
 
@@ -252,8 +257,9 @@ class GmshMeshes(driver.Case):
     def expect_planes(self, axis, places, shape="triangle"):
         """After one level, these planes of the mesh have their vertices, the midpoints of their edges and, in
         quadrilaterals, one more."""
-        driver.report_of(RANKS, self.path("mesh.msh"), self.path("cad.brep"), "--method", "uniform", "--steps", "1",
+        run = driver.Run(RANKS, self.path("mesh.msh"), self.path("cad.brep"), "--method", "uniform", "--steps", "1",
                          "--output", self.path("fine.vtu"))
+        self.assertEqual(run.status, 0)
         coarse, fine = (meshio.read(self.path(name)) for name in ("mesh.msh", "fine.vtu"))
         for place in places:
             facets = facets_in(coarse, axis, place, 1e-9, shape)
@@ -378,10 +384,11 @@ class GmshMeshes(driver.Case):
     def expect_interface(self, shape, axis, place):
         """Expects a mesh that lists no facets; between its two materials it is flat, also when it is refined."""
         self.assertEqual(list(meshio.read(self.path("mesh.msh")).cells_dict), [shape])
-        path = self.path("fine.vtu")
-        for steps in ("--steps", "3"), ("--method", "uniform", "--steps", "1"):
-            driver.report_of(RANKS, self.path("mesh.msh"), self.path("cad.brep"), *steps, "--no-boundary-cells",
-                             "--output", path)
+        outputs = {self.path("adapted.vtu"): ("--steps", "3"),
+                   self.path("uniform.vtu"): ("--method", "uniform", "--steps", "1")}
+        driver.reports_of(RANKS, [[self.path("mesh.msh"), self.path("cad.brep"), *steps, "--no-boundary-cells",
+                                   "--output", path] for path, steps in outputs.items()])
+        for path in outputs:
             fine = meshio.read(path)
             of_tags = [set(), set()]
             for block, tags in zip(fine.cells, fine.cell_data["gmsh:physical"]):
@@ -418,12 +425,14 @@ class GmshMeshes(driver.Case):
         self.expect_on_cad(3.7)
         cells = meshio.read(self.path("mesh.msh"))
         quads, wedges = cells.cells_dict["quad"], cells.cells_dict["wedge"]
-        path = self.path("listed.vtu")
+        runs = []
         for way, digits in itertools.product((1, -1), (16, 5)):
+            path = self.path(f"{way}-{digits}.vtu")
             meshio.Mesh(np.round(cells.points, digits), [("quad", quads[:, ::way]), ("wedge", wedges)]).write(path)
-            fit = driver.report_of(RANKS, path, self.path("cad.brep"), "--steps", "0")["fit"]
-            self.assertEqual(fit["conflicts"], [])
-            self.assertGreater(fit["cad_covered"], 0.9)
+            runs.append([path, self.path("cad.brep"), "--steps", "0"])
+        for report in driver.reports_of(RANKS, runs):
+            self.assertEqual(report["fit"]["conflicts"], [])
+            self.assertGreater(report["fit"]["cad_covered"], 0.9)
 
 
 if __name__ == "__main__":

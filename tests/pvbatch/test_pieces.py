@@ -111,13 +111,16 @@ class Pieces(driver.Case):
             write(paths[-1], INDEX[name].format(pieces="", blocks=""))
             lines.append(re.escape(f"{paths[-1]}: the mesh has no cells"))
         before = self.files()
-        for path, line in zip(paths, lines):
-            failure = driver.outcome(RANKS, path, CAD, "--output", self.path("out.vtu")).failure
+        runs = [{"arguments": [path, CAD, "--output", self.path("out.vtu")]} for path in paths]
+        runs += [{"arguments": [self.path(name), CAD, "--steps", "0"]} for name in INDEX]
+        failures, output = driver.many(RANKS, self.folder, runs)
+        for path, line, failure in zip(paths, lines, failures):
             self.assertRegex(failure or "no failure", f"^{line}$", path)
         self.assertEqual(self.files(), before)
-        for name in INDEX:
-            report = driver.report_of(RANKS, self.path(name), CAD, "--steps", "0")
-            self.assertEqual(report["steps"][0]["cells"], self.surface_cells if name == "mesh.pvtp" else CELLS)
+        self.assertEqual(failures[len(paths):], [None] * len(INDEX))
+        rows = [line.split() for line in output.splitlines() if line.split()[:1] == ["0"]]
+        self.assertEqual([int(row[2]) for row in rows],
+                         [self.surface_cells if name == "mesh.pvtp" else CELLS for name in INDEX])
 
     def files(self):
         return sorted(os.path.join(folder, name) for folder, _, names in os.walk(self.folder) for name in names)

@@ -1,10 +1,9 @@
 """Runs the driver many times in one process, which saves the start of ParaView.
 
-    pvpython runs.py
+    pvpython many_runs.py RUNS.json RESULTS.json
 
-Each line on standard input is a run, in JSON: {"arguments": [...]} and, if wanted, "fails": "module.function", which then
-raises OSError, and "without": a module that cannot be imported. On standard output follow what the run prints, a line
-that says that this was all, and the line of the failure, or null.
+RUNS is a list of {"arguments": [...], and, if wanted, "fails": "module.function", which then raises OSError, and
+"without": a module that cannot be imported}; RESULTS gets the line of each failure, or null.
 """
 
 import errno
@@ -14,9 +13,8 @@ import os
 import sys
 import unittest.mock
 
-import driver
-
-sys.path.insert(0, os.path.join(driver.ROOT, "plugin"))
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+sys.path.insert(0, os.path.join(ROOT, "plugin"))
 
 import cadrefine.cli
 import cadrefine.options
@@ -24,12 +22,9 @@ from cadrefine import session
 from cadrefine.results import Results
 from cadrefine.terminal import Terminal
 
-FORGET = "from cadrefine import messages\nmessages.errors.clear()\nmessages.warnings.clear()"  # Of the run before.
-
 
 def run(arguments):
     """The line of the failure, or None."""
-    session.run_on_all_ranks(FORGET)
     results = Results()
     try:
         options = cadrefine.options.parse(arguments)
@@ -54,14 +49,15 @@ def run_as_told(told):
             return run(told["arguments"])
 
 
-def main():
+def main(runs_path, results_path):
     session.start()
     session.load_plugin()
-    for line in open(0, encoding="utf-8"):  # sys.stdin is an object of ParaView here, with fewer methods
-        failure = run_as_told(json.loads(line))
-        if session.speaks():
-            print(driver.END + json.dumps(failure), flush=True)
+    with open(runs_path, encoding="utf-8") as file:
+        results = [run_as_told(told) for told in json.load(file)]
+    if session.speaks():
+        with open(results_path, "w", encoding="utf-8") as file:
+            json.dump(results, file)
 
 
 if __name__ == "__main__":
-    main()
+    main(*sys.argv[1:])
