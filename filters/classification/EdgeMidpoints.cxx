@@ -251,7 +251,7 @@ std::vector<MidpointOnCAD> projectMidpoints(RankExchange& exchange, const Mesh& 
     const Index e = edgesOf[i];
     return edgeOf(classes[e].edgeClass, edges.table.edges[e], mesh, classification);
   };
-  turnToFacets(exchange, mesh, edges, classified, edgesOf, edgeAt, midpoints);
+  turnToFacets(exchange, edges, classified, classification, edgesOf, edgeAt, midpoints);
   const bool staysOffCreases = edges.withOperations || exchange.any(mesh.hasNonSimplices());
   const std::vector<Vector3> walls = findWalls(exchange, edges, classified);
   for (std::size_t i = 0; (staysOffCreases || !walls.empty()) && i < midpoints.size(); ++i)

@@ -105,37 +105,6 @@ std::vector<unsigned char> findThoseAmongTheirOwn(
   return result;
 }
 
-FaceSides findSides(const ProjectionTask& task, const std::vector<ClosestPoint>& hits,
-  const std::vector<FacetRecord>& records)
-{
-  const std::size_t faces = task.model().nurbs().faces.size();
-  std::vector<std::int64_t> votes(2 * faces, 0); // alike, opposite
-  for (std::size_t f = 0; f < records.size(); ++f)
-  {
-    if (!records[f].onCAD || records[f].isInside)
-    {
-      continue;
-    }
-    for (const Index vertex : task.boundary.facets[f])
-    {
-      const ClosestPoint& hit = hits[vertex];
-      if (hit.entity.dimension != 2)
-      {
-        continue;
-      }
-      const Vector3 normal = task.model().normal(hit.entity.index, hit.parameters);
-      if (fitsEitherWay(normal, records[f].normal))
-      {
-        const bool isOpposite = dot(normal, records[f].normal) < 0;
-        ++votes[hit.entity.index + (isOpposite ? faces : 0)];
-      }
-    }
-  }
-  votes = task.exchange.sum(votes);
-  const auto opposite = votes.begin() + static_cast<std::ptrdiff_t>(faces);
-  return decideSides({ votes.begin(), opposite }, { opposite, votes.end() });
-}
-
 std::vector<FaceMatch> findFaces(
   const ProjectionTask& task, const std::vector<ClosestPoint>& hits, const FacetClasses& classes)
 {
@@ -220,6 +189,38 @@ void askNeighbours(const ProjectionTask& task, const std::vector<FaceMatch>& mat
 
 } // namespace
 
+FaceSides findSides(RankExchange& exchange, const CADModel& model,
+  const DistributedBoundary& boundary, const std::vector<FacetRecord>& records,
+  const std::function<ClosestPoint(Index)>& placeOf)
+{
+  const std::size_t faces = model.nurbs().faces.size();
+  std::vector<std::int64_t> votes(2 * faces, 0); // alike, opposite
+  for (std::size_t f = 0; f < records.size(); ++f)
+  {
+    if (!records[f].onCAD || records[f].isInside)
+    {
+      continue;
+    }
+    for (const Index vertex : boundary.facets[f])
+    {
+      const ClosestPoint place = placeOf(vertex);
+      if (place.entity.dimension != 2)
+      {
+        continue;
+      }
+      const Vector3 normal = model.normal(place.entity.index, place.parameters);
+      if (fitsEitherWay(normal, records[f].normal))
+      {
+        const bool isOpposite = dot(normal, records[f].normal) < 0;
+        ++votes[place.entity.index + (isOpposite ? faces : 0)];
+      }
+    }
+  }
+  votes = exchange.sum(votes);
+  const auto opposite = votes.begin() + static_cast<std::ptrdiff_t>(faces);
+  return decideSides({ votes.begin(), opposite }, { opposite, votes.end() });
+}
+
 FacetClasses classifyFacets(const ProjectionTask& task, const std::vector<ClosestPoint>& hits)
 {
   FacetClasses classes;
@@ -232,7 +233,8 @@ FacetClasses classifyFacets(const ProjectionTask& task, const std::vector<Closes
   {
     return classes;
   }
-  classes.sides = findSides(task, hits, records);
+  classes.sides = findSides(task.exchange, task.model(), task.boundary, records,
+    [&](Index vertex) { return hits[vertex]; });
   const auto matches = findFaces(task, hits, classes);
   for (std::size_t f = 0; f < records.size(); ++f)
   {

@@ -3,6 +3,7 @@
 
 #include "classification/ProjectionTask.h"
 
+#include <functional>
 #include <vector>
 
 namespace cadrefine
@@ -28,5 +29,12 @@ struct FacetClasses
 /// Collective: two reductions, of three numbers for each CAD face, and an exchange of the
 /// interface.
 FacetClasses classifyFacets(const ProjectionTask& task, const std::vector<ClosestPoint>& hits);
+
+/// The sides of the CAD's faces, by the votes of the outer facets on the CAD: whether the CAD's
+/// normals point as theirs do at their corners inside faces (see decideSides). `placeOf` gives the
+/// place of a vertex. Collective: a sum of two numbers for each CAD face.
+FaceSides findSides(RankExchange& exchange, const CADModel& model,
+  const DistributedBoundary& boundary, const std::vector<FacetRecord>& records,
+  const std::function<ClosestPoint(Index)>& placeOf);
 
 } // namespace cadrefine

@@ -35,10 +35,9 @@ bool joinOddFacets(RankExchange& exchange, const Mesh& mesh, const DistributedBo
   const std::vector<EntityId>& entities, const CADModel& model,
   const std::vector<std::vector<FacetRecord>>& ofEdges, std::vector<FacetRecord>& records);
 
-/// Finds the faces of ears on the CAD: as their corners are all on one CAD edge, their normals fit
-/// that on either side of it as well as the other where it turns. An ear is on the face of the
-/// facet beyond its long side, which is opposite to an obtuse angle, if that is a face beside the
-/// edge.
+/// Finds the faces of ears on the CAD, whose normals may fit the face on either side of their CAD
+/// edge: an ear is on the face of the facet beyond its long side, which is opposite to an obtuse
+/// angle, if that is a face beside the edge.
 ///
 /// Returns whether there are any on some rank whose face was another. Collective. Work: linear in
 /// the ears.

@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <map>
 #include <string>
@@ -36,22 +37,29 @@ struct Projection
 
 /// 1 for the ends of edges with more than two outer facets of a mesh of volume; empty where no rank
 /// has such an edge. Collective.
-std::vector<unsigned char> findPinched(RankExchange& exchange, const DistributedMesh& mesh,
-  const DistributedBoundary& boundary, const std::vector<FacetRecord>& records)
+std::vector<unsigned char> findPinched(
+  RankExchange& exchange, const DistributedMesh& mesh, const DistributedBoundary& boundary)
 {
   if (mesh.mesh().dimension < 3)
   {
     return {};
   }
-  std::vector<unsigned char> flags(mesh.mesh().points.size(), 0);
-  const auto ofEdges = gatherFacetRecords(exchange, boundary, records);
-  for (std::size_t e = 0; e < ofEdges.size(); ++e)
+  const auto& edges = boundary.edges.edges();
+  std::vector<std::int32_t> facetsAt(edges.size(), 0);
+  for (std::size_t f = 0; f < boundary.facets.size(); ++f)
   {
-    const auto outer = std::count_if(ofEdges[e].begin(), ofEdges[e].end(),
-      [](const FacetRecord& facet) { return !facet.isInside; });
-    for (const Index end : boundary.edges.edges()[e])
+    for (int k = 0; k < boundary.facets[f].edges() && !boundary.facets[f].isInside; ++k)
     {
-      flags[end] = flags[end] || outer > 2;
+      ++facetsAt[boundary.facetEdges[f][k]];
+    }
+  }
+  combineShared(exchange, boundary.sharedEdges, facetsAt, std::plus<>());
+  std::vector<unsigned char> flags(mesh.mesh().points.size(), 0);
+  for (std::size_t e = 0; e < edges.size(); ++e)
+  {
+    for (const Index end : edges[e])
+    {
+      flags[end] = flags[end] || facetsAt[e] > 2;
     }
   }
   combineFlags(exchange, mesh.shared, flags);
@@ -128,8 +136,7 @@ Projection projectCells(const PipelineContext& context, MeshState& state, Projec
   }
   projection.fit =
     findFit({ context.exchange, state.mesh, projector, boundary, options }, projection.result);
-  projection.pinched =
-    findPinched(context.exchange, state.mesh, boundary, projection.result.facets);
+  projection.pinched = findPinched(context.exchange, state.mesh, boundary);
   return projection;
 }
 

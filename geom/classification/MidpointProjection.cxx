@@ -29,8 +29,6 @@ constexpr double asNear = 1.25;
 constexpr double farAcross = 0.25;
 /// There its normal and that of the mesh have at most this cosine.
 constexpr double opposed = -0.3;
-/// How far from the middle the other side is looked for, in parts of the length.
-constexpr std::array acrossParts{ 0.125, 0.25, 0.5, 1.0 };
 /// A place nearer to an end of a mesh edge than this part of its length is not that of its middle.
 constexpr double atEnd = 0.1;
 
@@ -347,6 +345,25 @@ ClosestPoint inPlane(const BoundaryProjector& projector, const BoundaryEdge& edg
   return where;
 }
 
+ClosestPoint placeBeside(const BoundaryProjector& projector, const BoundaryEdge& edge,
+  const Vector3& direction, const std::vector<double>& parts,
+  const std::function<bool(const ClosestPoint&)>& accepts)
+{
+  const Point3 middle = 0.5 * (edge.points[0] + edge.points[1]);
+  const double length = distance(edge.points[0], edge.points[1]);
+  for (const double part : parts)
+  {
+    ClosestPoint place =
+      projector.project(edge.edgeClass, middle + part * length * direction, edge.entities);
+    place.distance = distance(place.point, middle);
+    if (place.entity && place.distance <= length && accepts(place))
+    {
+      return place;
+    }
+  }
+  return {};
+}
+
 bool isFarAcross(const BoundaryEdge& edge, const ClosestPoint& where)
 {
   return edge.edgeClass.kind == EdgeClass::Smooth && where.entity.dimension == 2 &&
@@ -365,22 +382,11 @@ ClosestPoint facing(const BoundaryProjector& projector, const BoundaryEdge& edge
   {
     return where;
   }
-  const Point3 middle = 0.5 * (edge.points[0] + edge.points[1]);
-  const double length = distance(edge.points[0], edge.points[1]);
-  for (const double part : acrossParts)
-  {
-    for (const double side : { 1, -1 })
-    {
-      ClosestPoint place =
-        projector.project(edge.edgeClass, middle + side * part * length * normal, edge.entities);
-      place.distance = distance(place.point, middle);
-      if (place.entity.dimension == 2 && place.distance <= length && cosine(place) > -opposed)
-      {
-        return place;
-      }
-    }
-  }
-  return where;
+  const ClosestPoint place =
+    placeBeside(projector, edge, normal, { 0.125, -0.125, 0.25, -0.25, 0.5, -0.5, 1.0, -1.0 },
+      [&](const ClosestPoint& candidate)
+      { return candidate.entity.dimension == 2 && cosine(candidate) > -opposed; });
+  return place.entity ? place : where;
 }
 
 } // namespace cadrefine

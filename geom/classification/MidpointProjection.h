@@ -4,6 +4,9 @@
 
 #include <cadrefine/classification/BoundaryProjector.h>
 
+#include <functional>
+#include <vector>
+
 namespace cadrefine
 {
 
@@ -40,6 +43,13 @@ ClosestPoint offCrease(
 /// is in the plane; else three or four projections.
 ClosestPoint inPlane(const BoundaryProjector& projector, const BoundaryEdge& edge,
   const ClosestPoint& where, const Vector3& normal);
+
+/// The first accepted place on the CAD of points beside the midpoint of an edge: by these parts of
+/// the edge's length along a unit vector. It is no farther from the midpoint than the edge is long.
+/// With no entity if there is none. Work: a projection a part.
+ClosestPoint placeBeside(const BoundaryProjector& projector, const BoundaryEdge& edge,
+  const Vector3& direction, const std::vector<double>& parts,
+  const std::function<bool(const ClosestPoint&)>& accepts);
 
 /// Whether a smooth edge may lead so far across a bore that its midpoint was projected to the other
 /// side: the place is on a face, and farther away than a quarter of the edge's length.

@@ -53,9 +53,12 @@ private:
       return;
     }
     std::vector<Side> sides = sidesOf(a, b);
+    if (sides.size() < 2)
+    {
+      return;
+    }
     numberMiddles(sides);
-    if (sides.size() < 2 ||
-        !std::all_of(sides.begin(), sides.end(), [&](Side& side) { return halve(a, b, side); }))
+    if (!std::all_of(sides.begin(), sides.end(), [&](Side& side) { return halve(a, b, side); }))
     {
       return;
     }

@@ -452,25 +452,20 @@ std::optional<ClosestPoint> SurfaceRule::placeBesideMiddle(
 {
   const EditableMesh::Vertex& first = mesh.vertex(a);
   const EditableMesh::Vertex& last = mesh.vertex(b);
+  const BoundaryEdge edge{ { EdgeClass::Smooth, -1 }, { first.wanted, last.wanted },
+    { first.entity, last.entity } };
   const Point3 middle = 0.5 * (first.wanted + last.wanted);
-  const double length = distance(first.wanted, last.wanted);
-  const auto isInsideFace = [&](EntityId entity)
-  {
-    return entity.dimension == 2 ||
-           (entity.dimension == 1 && isSeam(projector_.model().nurbs().edges[entity.index]));
-  };
-  for (const double part : { 0.0, 0.125, 0.25, 0.5, 1.0 })
-  {
-    ClosestPoint where = projector_.project(
-      { EdgeClass::Smooth, -1 }, middle + part * length * towards, { first.entity, last.entity });
-    where.distance = distance(where.point, middle);
-    if (isInsideFace(where.entity) && where.distance <= length &&
-        dot(where.point - middle, towards) > leastOpening * length)
+  const double least = leastOpening * distance(first.wanted, last.wanted);
+  const ClosestPoint place = placeBeside(projector_, edge, towards, { 0.0, 0.125, 0.25, 0.5, 1.0 },
+    [&](const ClosestPoint& candidate)
     {
-      return where;
-    }
-  }
-  return std::nullopt;
+      const EntityId entity = candidate.entity;
+      const bool isInsideFace =
+        entity.dimension == 2 ||
+        (entity.dimension == 1 && isSeam(projector_.model().nurbs().edges[entity.index]));
+      return isInsideFace && dot(candidate.point - middle, towards) > least;
+    });
+  return place.entity ? std::optional(place) : std::nullopt;
 }
 
 } // namespace cadrefine

@@ -6,7 +6,10 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <utility>
 
 namespace
 {
@@ -49,8 +52,7 @@ EditableMesh pinched(const CADModel& model, double away)
 class PinchedEdges : public testing::TestWithParam<double>
 {
 protected:
-  std::shared_ptr<const CADModel> model =
-    cadtest::modelOf(cadtest::moved(cadtest::pipe(1, 3, 4), {}));
+  std::shared_ptr<const CADModel> model = cadtest::modelOf(cadtest::pipe(1, 3, 4));
   BoundaryProjector projector{ *model, BoundaryKind::Faces };
   SurfaceRule rule{ projector };
 };
@@ -87,7 +89,7 @@ TEST_P(PinchedEdges, getAMiddleOnEachSide)
   }
 }
 
-/// As an edge of two facets alone does, or one with cells beyond the mesh.
+/// An edge may have cells beyond the mesh.
 TEST_F(PinchedEdges, stayWhereOneSideIsUnknown)
 {
   EditableMesh mesh = pinched(*model, 0);
