@@ -151,6 +151,16 @@ std::vector<double> boundsOf(const BoundingBox& box)
   return { low[0], high[0], low[1], high[1], low[2], high[2] };
 }
 
+std::vector<double> rowsOf(const std::vector<Point3>& points)
+{
+  std::vector<double> rows;
+  for (const Point3& point : points)
+  {
+    rows.insert(rows.end(), point.begin(), point.end());
+  }
+  return rows;
+}
+
 } // namespace
 
 std::string describeFit(const Fit& fit, const std::string& cadUnit)
@@ -161,6 +171,17 @@ std::string describeFit(const Fit& fit, const std::string& cadUnit)
   for (const OffPoint& vertex : fit.farthest)
   {
     text << "\n  " << vertex.point << ", off by " << vertex.distance;
+  }
+  if (fit.bridgingFacets > 0)
+  {
+    text
+      << "\nfacets off the CAD though all their vertices are on it, as over a hole of the CAD that "
+         "the mesh has not got: "
+      << fit.bridgingFacets;
+  }
+  for (const Point3& centroid : fit.bridges)
+  {
+    text << "\n  " << centroid;
   }
   text << "\nvertices in conflict (CADConflict is 1): " << fit.conflictCount;
   for (std::size_t i = 0; i < std::min(fit.conflicts.size(), mostLines); ++i)
@@ -214,7 +235,8 @@ std::string warningOfStrays(const Fit& fit)
 
 void removeFit(vtkFieldData* from)
 {
-  for (const char* name : { "CADCovered", "FarthestVertices", "ConflictPoints" })
+  for (const char* name :
+    { "CADCovered", "FarthestVertices", "BridgingFacetCentroids", "ConflictPoints" })
   {
     from->RemoveArray(name);
   }
@@ -236,13 +258,10 @@ void writeFit(vtkFieldData* data, const Fit& fit)
     rows.insert(rows.end(), { point[0], point[1], point[2], distance });
   }
   addRows(data, "FarthestVertices", 4, rows);
-  rows.clear();
-  for (const Point3& point : fit.conflicts)
-  {
-    rows.insert(rows.end(), point.begin(), point.end());
-  }
-  addRows(data, "ConflictPoints", 3, rows);
+  addRows(data, "BridgingFacetCentroids", 3, rowsOf(fit.bridges));
+  addRows(data, "ConflictPoints", 3, rowsOf(fit.conflicts));
   setFieldValue(data, "VerticesOffCAD", fit.verticesOffCAD);
+  setFieldValue(data, "BridgingFacets", fit.bridgingFacets);
   setFieldValue(data, "ClassificationConflicts", fit.conflictCount);
 }
 

@@ -27,7 +27,7 @@ std::string describeFit(const Fit& fit, const std::string& cadUnit);
 
 /// Sets field arrays: MeshBox, CADBox (xmin xmax ymin ymax zmin zmax), BoundaryOnCAD,
 /// BoundaryInBox, CADCovered, VerticesOffCAD, ClassificationConflicts, FarthestVertices (x y z
-/// distance) and ConflictPoints (x y z).
+/// distance), BridgingFacets, BridgingFacetCentroids and ConflictPoints (x y z).
 void writeFit(vtkFieldData* data, const Fit& fit);
 /// Takes away those field arrays of writeFit that another fit may not have.
 void removeFit(vtkFieldData* from);

@@ -20,19 +20,19 @@ constexpr double onCAD = 1e-7;     ///< Part of the CAD's size: nearer vertices 
 /// In parts of its longest edge, a vertex among others on the CAD is farther from it only if it
 /// belongs elsewhere, or is part of a coarse cut.
 constexpr double strayPart = 0.05;
-constexpr std::size_t mostFarthest = 10;
+constexpr std::size_t mostListed = 10;
 constexpr std::size_t mostConflicts = 100;
 
-/// A vertex in a list that all ranks make together.
+/// A vertex, or a facet, in a list that all ranks make together.
 struct Entry
 {
-  double distance = 0;
+  double size = 0; ///< Distance of a vertex, measure of a facet.
   double id = 0;
   Point3 point{};
 
   bool operator<(const Entry& other) const
   {
-    return distance != other.distance ? distance > other.distance : id < other.id;
+    return size != other.size ? size > other.size : id < other.id;
   }
 };
 
@@ -47,7 +47,7 @@ std::vector<Entry> firstOf(RankExchange& exchange, std::vector<Entry> mine, std:
   for (const Entry& entry : mine)
   {
     const auto& [x, y, z] = entry.point;
-    numbers.insert(numbers.end(), { entry.distance, entry.id, x, y, z });
+    numbers.insert(numbers.end(), { entry.size, entry.id, x, y, z });
   }
   numbers = exchange.gather(numbers);
   std::vector<Entry> all;
@@ -162,6 +162,38 @@ public:
     fit_.cadCovered = coveredShare(task_.exchange.sum(parts));
   }
 
+  void findBridges()
+  {
+    const Mesh& mesh = task_.mesh.mesh();
+    std::vector<Entry> bridges;
+    for (std::size_t f = 0; f < result_.facets.size(); ++f)
+    {
+      const FacetRecord& record = result_.facets[f];
+      const Facet& facet = task_.boundary.facets[f];
+      if (record.onCAD || record.free || facet.isInside ||
+          !std::all_of(facet.begin(), facet.end(),
+            [&](Index vertex) { return bool(result_.classification.entities[vertex]); }))
+      {
+        continue;
+      }
+      const Point3 middle = centroidOf(mesh, facet);
+      if (isInBox(middle))
+      {
+        Index first = facet.vertices[0];
+        for (const Index vertex : facet)
+        {
+          first = mesh.ids[vertex] < mesh.ids[first] ? vertex : first;
+        }
+        bridges.push_back({ measureOf(mesh, facet), static_cast<double>(mesh.ids[first]), middle });
+      }
+    }
+    fit_.bridgingFacets = task_.exchange.sum(bridges.size());
+    for (const Entry& entry : firstOf(task_.exchange, std::move(bridges), mostListed))
+    {
+      fit_.bridges.push_back(entry.point);
+    }
+  }
+
   void countVerticesOnCurved()
   {
     const auto& entities = result_.classification.entities;
@@ -205,7 +237,7 @@ public:
     fit_.strays = task_.exchange.sum(strays.size());
     for (const Entry& entry : firstOf(task_.exchange, std::move(strays), 1))
     {
-      fit_.farthestStray = { entry.point, entry.distance };
+      fit_.farthestStray = { entry.point, entry.size };
     }
   }
 
@@ -336,6 +368,7 @@ Fit findFit(const ProjectionTask& task, const ProjectionResult& result)
   fit.cadBox = task.model().box();
   FitSearch search(task, result, fit);
   search.measureBoundary();
+  search.findBridges();
   search.countVerticesOnCurved();
   search.findStrays();
   findConflicts(task.exchange, task.mesh, result, fit);
@@ -378,9 +411,9 @@ void findVerticesOff(RankExchange& exchange, const DistributedMesh& mesh,
     { return projector.nearest(point, std::numeric_limits<double>::infinity()).distance; },
     addIfOff, { "measuring the fit at", "vertices" });
   fit.verticesOffCAD = exchange.sum(off.size());
-  for (const Entry& entry : firstOf(exchange, std::move(off), mostFarthest))
+  for (const Entry& entry : firstOf(exchange, std::move(off), mostListed))
   {
-    fit.farthest.push_back({ entry.point, entry.distance });
+    fit.farthest.push_back({ entry.point, entry.size });
   }
 }
 

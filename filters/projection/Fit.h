@@ -45,6 +45,11 @@ struct Fit
   /// could not reach it.
   std::int64_t verticesOffCAD = 0;
   std::vector<OffPoint> farthest; ///< The ten farthest of these, in order.
+  /// Facets in the region and in the CAD's box that are off the CAD though all their vertices are
+  /// on it: across holes that are narrower than the cells, or where the CAD is not the whole
+  /// boundary.
+  std::int64_t bridgingFacets = 0;
+  std::vector<Point3> bridges; ///< Centroids of the ten largest of these, in order.
   /// Vertices that were put onto faces (of a planar mesh, edges) on which three quarters of the
   /// facets lay already, and were not there themselves, by a twentieth of their longest edge.
   std::int64_t strays = 0;
@@ -55,7 +60,7 @@ struct Fit
 };
 
 /// The fit of a mesh that was projected; `meshBox` and what findVerticesOff finds are left to the
-/// caller. Collective. Messages: sums of a number for each face, up to 400 numbers gathered from
+/// caller. Collective. Messages: sums of a number for each face, up to 550 numbers gathered from
 /// every rank.
 Fit findFit(const ProjectionTask& task, const ProjectionResult& result);
 /// Finds the vertices off the CAD, and the farthest of them, of the mesh as it is now. Collective.

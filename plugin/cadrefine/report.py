@@ -146,6 +146,8 @@ def fit_of(values):
         "cad_covered": values.get("CADCovered"),
         "vertices_off_cad": values["VerticesOffCAD"],
         "farthest": [{"point": row[:3], "distance": row[3]} for row in rows_of(values.get("FarthestVertices"), 4)],
+        "bridging_facets": values["BridgingFacets"],
+        "bridges": rows_of(values.get("BridgingFacetCentroids"), 3),
         "conflicts": rows_of(values.get("ConflictPoints"), 3),
     }
 

@@ -99,6 +99,7 @@ TEST_F(Fit, ofTheRightMesh)
   EXPECT_NEAR(value(outcome, "BoundaryInBox"), 1, 1e-12);
   EXPECT_NEAR(value(outcome, "CADCovered"), 1, 1e-12);
   EXPECT_EQ(value(outcome, "VerticesOffCAD"), 0);
+  EXPECT_EQ(value(outcome, "BridgingFacets"), 0);
   EXPECT_EQ(value(outcome, "ClassificationConflicts"), 0);
   EXPECT_EQ(row(outcome, "FarthestVertices", 0), std::vector<double>());
   for (const char* box : { "MeshBox", "CADBox" })
@@ -155,13 +156,21 @@ TEST_F(Fit, ofAMeshOfAPart)
   EXPECT_NEAR(distance({ farthest[0], farthest[1], farthest[2] }, { 0.5, 0.5, 0.5 }), 0, 1e-12);
   EXPECT_NEAR(farthest[3], 0.5, 1e-12);
   EXPECT_EQ(column(outcome, "FarthestVertices").size(), 9u);
+  // In two corners of the cut a triangle has all its vertices on the sides.
+  EXPECT_EQ(value(outcome, "BridgingFacets"), 2);
+  const auto first = row(outcome, "BridgingFacetCentroids", 0);
+  const auto second = row(outcome, "BridgingFacetCentroids", 1);
+  ASSERT_EQ(second.size(), 3u);
+  EXPECT_NEAR(distance({ first[0], first[1], first[2] }, { 1. / 12, 11. / 12, 0.5 }), 0, 1e-12);
+  EXPECT_NEAR(distance({ second[0], second[1], second[2] }, { 11. / 12, 1. / 12, 0.5 }), 0, 1e-12);
 }
 
 /// Of an earlier projection onto something else nothing stays.
 TEST_F(Fit, takesThePlaceOfAnother)
 {
   auto grid = cadtest::toGrid(mesh);
-  for (const char* name : { "CADCovered", "FarthestVertices", "ConflictPoints" })
+  for (const char* name :
+    { "CADCovered", "FarthestVertices", "BridgingFacetCentroids", "ConflictPoints" })
   {
     vtkNew<vtkDoubleArray> old;
     old->SetName(name);
@@ -171,6 +180,7 @@ TEST_F(Fit, takesThePlaceOfAnother)
   const auto outcome = project(grid);
   EXPECT_NEAR(value(outcome, "CADCovered"), 1, 1e-12);
   EXPECT_EQ(column(outcome, "FarthestVertices"), std::vector<double>());
+  EXPECT_EQ(column(outcome, "BridgingFacetCentroids"), std::vector<double>());
   EXPECT_EQ(column(outcome, "ConflictPoints"), std::vector<double>());
 }
 
