@@ -24,17 +24,6 @@ Bytes pack(vtkDataSetAttributes* attributes)
   return attributes->GetNumberOfTuples() == 0 ? Bytes() : bytesOf(attributes);
 }
 
-/// The array of the same name, type and number of components; null where there is none.
-vtkAbstractArray* arrayLike(vtkAbstractArray* array, vtkDataSetAttributes* attributes)
-{
-  vtkAbstractArray* other =
-    array->GetName() ? attributes->GetAbstractArray(array->GetName()) : nullptr;
-  return other && other->GetDataType() == array->GetDataType() &&
-             other->GetNumberOfComponents() == array->GetNumberOfComponents()
-           ? other
-           : nullptr;
-}
-
 /// What came from a rank: all of these arrays, or their tuples at these places.
 struct Part
 {
@@ -83,7 +72,7 @@ void gatherKept(const std::vector<Part>& parts, const std::vector<std::size_t>& 
     for (std::size_t p = 0; p < parts.size(); ++p)
     {
       vtkDataSetAttributes* part = parts[p].attributes;
-      sources.push_back(part == model ? array : part ? arrayLike(array, part) : nullptr);
+      sources.push_back(part ? arrayLike(model, a, part) : nullptr);
       allHaveIt = allHaveIt && (counts[p] == 0 || sources.back());
     }
     if (allHaveIt)

@@ -248,6 +248,37 @@ vtkSmartPointer<vtkAbstractArray> emptyLike(vtkAbstractArray* array, vtkIdType c
   return result;
 }
 
+vtkAbstractArray* arrayLike(
+  vtkDataSetAttributes* attributes, int index, vtkDataSetAttributes* other)
+{
+  const auto nameless = [](vtkDataSetAttributes* of, int a)
+  {
+    const char* name = of->GetAbstractArray(a)->GetName();
+    return !name || *name == 0;
+  };
+  vtkAbstractArray* array = attributes->GetAbstractArray(index);
+  vtkAbstractArray* found = nullptr;
+  if (!nameless(attributes, index))
+  {
+    found = other->GetAbstractArray(array->GetName());
+  }
+  else
+  {
+    int left = 0;
+    for (int a = 0; a < index; ++a)
+    {
+      left += nameless(attributes, a);
+    }
+    for (int a = 0; a < other->GetNumberOfArrays() && !found; ++a)
+    {
+      found = nameless(other, a) && left-- == 0 ? other->GetAbstractArray(a) : nullptr;
+    }
+  }
+  const bool isAlike = found && found->GetDataType() == array->GetDataType() &&
+                       found->GetNumberOfComponents() == array->GetNumberOfComponents();
+  return isAlike ? found : nullptr;
+}
+
 void copyTuples(vtkAbstractArray* from, const std::vector<vtkIdType>& places, std::size_t begin,
   std::size_t end, vtkAbstractArray* to)
 {

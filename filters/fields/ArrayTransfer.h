@@ -37,6 +37,12 @@ struct MeshArrays
 /// An array of the same type, name and components as `array`, with `count` tuples of any value.
 vtkSmartPointer<vtkAbstractArray> emptyLike(vtkAbstractArray* array, vtkIdType count);
 
+/// The array in `other` that the one at `index` in `attributes` is there: of the same name or,
+/// among those without names, in the same place, and of the same type and number of components.
+/// Null where there is none.
+vtkAbstractArray* arrayLike(
+  vtkDataSetAttributes* attributes, int index, vtkDataSetAttributes* other);
+
 /// Copies the tuples of `from` at `places`, of which those from `begin` to `end` count, to `to`, an
 /// array of the same type: each to where its place stands in the list. See noTuple.
 void copyTuples(vtkAbstractArray* from, const std::vector<vtkIdType>& places, std::size_t begin,

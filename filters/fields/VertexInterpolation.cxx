@@ -141,8 +141,7 @@ std::vector<char> valuesOf(const std::vector<Index>& vertices, vtkDataSetAttribu
   return isEmpty ? std::vector<char>{} : bytesOf(values);
 }
 
-/// Puts what another rank sent (see valuesOf) for these vertices into the arrays that both have:
-/// of the same name or, without names, in the same place.
+/// Puts what another rank sent (see valuesOf) for these vertices into the arrays that both have.
 void takeOver(
   const std::vector<char>& bytes, const std::vector<Index>& vertices, vtkDataSetAttributes* arrays)
 {
@@ -154,16 +153,12 @@ void takeOver(
     from->InsertNextId(static_cast<vtkIdType>(k));
     to->InsertNextId(vertices[k]);
   }
-  for (int a = 0; a < table->GetNumberOfColumns(); ++a)
+  vtkDataSetAttributes* sent = table->GetRowData();
+  for (int a = 0; a < sent->GetNumberOfArrays(); ++a)
   {
-    vtkAbstractArray* array = table->GetColumn(a);
-    const bool isNamed = array->GetName() && *array->GetName();
-    vtkAbstractArray* mine =
-      isNamed ? arrays->GetAbstractArray(array->GetName()) : arrays->GetAbstractArray(a);
-    if (mine && mine->GetDataType() == array->GetDataType() &&
-        mine->GetNumberOfComponents() == array->GetNumberOfComponents())
+    if (vtkAbstractArray* mine = arrayLike(sent, a, arrays))
     {
-      mine->InsertTuples(to, from, array);
+      mine->InsertTuples(to, from, sent->GetAbstractArray(a));
     }
   }
 }

@@ -94,6 +94,48 @@ TEST_F(SinglePieces, refineStraight)
     });
 }
 
+/// Where cells go to other ranks, too.
+TEST_F(SinglePieces, keepArraysWithoutNames)
+{
+  const auto mesh = cadtest::taggedBall();
+  cadtest::addArrays(mesh);
+  const auto addUnnamed = [](vtkDataSetAttributes* attributes, const char* like)
+  {
+    const auto copy =
+      vtkSmartPointer<vtkDataArray>::Take(attributes->GetArray(like)->NewInstance());
+    copy->DeepCopy(attributes->GetArray(like));
+    copy->SetName(nullptr);
+    attributes->AddArray(copy);
+  };
+  const auto expectCopy = [](vtkDataSetAttributes* attributes, const char* like)
+  {
+    vtkDataArray* copy = nullptr;
+    for (int a = 0; a < attributes->GetNumberOfArrays(); ++a)
+    {
+      copy = attributes->GetArray(a)->GetName() ? copy : attributes->GetArray(a);
+    }
+    ASSERT_TRUE(copy) << like;
+    for (vtkIdType i = 0; i < copy->GetNumberOfTuples(); ++i)
+    {
+      ASSERT_EQ(copy->GetTuple1(i), attributes->GetArray(like)->GetTuple1(i)) << like;
+    }
+  };
+  addUnnamed(mesh->GetPointData(), "Linear");
+  addUnnamed(mesh->GetCellData(), "Tag");
+  const auto rankOfCell = cadtest::deal(cadtest::Dealing::EmptyRank, mesh, exchange.size());
+  const auto piece =
+    cadtest::FilterRun(cadFile, worldController())
+      .run<vtkRefineWithCAD>(cadtest::pieceOf(mesh, rankOfCell, exchange.rank(), false),
+        [](vtkRefineWithCAD* filter)
+        {
+          filter->ProjectNewVerticesOff();
+          filter->SetLevels(4);
+        });
+  EXPECT_GT(piece->GetNumberOfCells(), 0);
+  expectCopy(piece->GetPointData(), "Linear");
+  expectCopy(piece->GetCellData(), "Tag");
+}
+
 } // namespace
 
 } // namespace cadrefine
