@@ -34,13 +34,23 @@ BoundaryProjector::BoundaryProjector(const CADModel& model, BoundaryKind kind)
 {
 }
 
-ClosestPoint BoundaryProjector::nearest(const Point3& point, double limit) const
+SearchScope BoundaryProjector::scopeWithin(double limit) const
 {
   SearchScope scope;
   scope.maximumDistance = limit;
   scope.faces = kind_ == BoundaryKind::Faces;
   scope.strays = kind_ == BoundaryKind::Edges;
-  return onSharedEdge(model_, point, model_.nearest(point, scope));
+  return scope;
+}
+
+ClosestPoint BoundaryProjector::nearest(const Point3& point, double limit) const
+{
+  return onSharedEdge(model_, point, model_.nearest(point, scopeWithin(limit)));
+}
+
+bool BoundaryProjector::isWithinDistance(const Point3& point, double limit) const
+{
+  return model_.isWithinDistance(point, scopeWithin(limit));
 }
 
 ClosestPoint BoundaryProjector::onSmallest(
@@ -50,10 +60,8 @@ ClosestPoint BoundaryProjector::onSmallest(
   {
     return nearest;
   }
-  SearchScope scope;
-  scope.maximumDistance = exact;
+  SearchScope scope = scopeWithin(exact);
   scope.faces = false;
-  scope.strays = kind_ == BoundaryKind::Edges;
   scope.edges = scope.sharpEdges = false;
   const ClosestPoint vertex = model_.nearest(point, scope);
   if (vertex.entity)

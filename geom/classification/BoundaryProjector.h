@@ -78,6 +78,8 @@ public:
   /// Nearest point of the CAD faces or edges that the boundary is compared with, up to a distance
   /// of `limit`; on a face's border that of the edge which the faces share (see onSharedEdge).
   ClosestPoint nearest(const Point3& point, double limit) const;
+  /// Whether `nearest` would name an entity, for less work.
+  bool isWithinDistance(const Point3& point, double limit) const;
   /// Where the point is within a distance of `exact` of a CAD vertex, or else of a CAD edge, the
   /// nearest point of these; otherwise `nearest`, the nearest point of the model.
   ClosestPoint onSmallest(const Point3& point, double exact, const ClosestPoint& nearest) const;
@@ -129,6 +131,7 @@ public:
   }
 
 private:
+  SearchScope scopeWithin(double limit) const;
   bool fitsNormal(EntityId entity, const ClosestPoint& where, const Vector3& normal) const;
   bool isOfACorner(const ClassifiedFacet& facet, EntityId middle) const;
   std::int32_t commonCrease(const std::array<Point3, 2>& points,

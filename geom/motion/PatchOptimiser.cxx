@@ -412,7 +412,7 @@ bool PatchOptimiser::staysAsClose(
   const auto areWithin = [&](double limit)
   {
     return std::all_of(middles.begin(), middles.end(),
-      [&](const Point3& middle) { return projector_->nearest(middle, limit).entity; });
+      [&](const Point3& middle) { return projector_->isWithinDistance(middle, limit); });
   };
   const double limit = boundaries_[vertex].limit;
   if (!farthestNow)

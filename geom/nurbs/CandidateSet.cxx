@@ -18,7 +18,7 @@ void CandidateSet::offer(const Candidate& candidate)
       return;
     }
   }
-  nearest_ = std::min(nearest_, candidate.distance);
+  nearest_ = takesAny_ ? 0 : std::min(nearest_, candidate.distance);
   const auto hopeless = [&](const Candidate& other)
   {
     return other.distance > limit() ||

@@ -32,6 +32,9 @@ public:
   {
   }
 
+  /// Lets the first candidate win.
+  void takeAny() { takesAny_ = true; }
+
   /// Smallest distance so far; at first the largest that is asked for.
   double nearest() const { return nearest_; }
   /// Points farther than this cannot win.
@@ -50,6 +53,7 @@ private:
   boost::container::small_vector<Candidate, usual> kept_;
   double nearest_;
   double tieTolerance_;
+  bool takesAny_ = false;
 };
 
 } // namespace cadrefine

@@ -237,6 +237,20 @@ ClosestPoint ClosestPointSearch::nearest(const Point3& point, const SearchScope&
     { visitTree(structure, structure.root, q, scope, query); });
 }
 
+bool ClosestPointSearch::isWithinDistance(const Point3& point, const SearchScope& scope) const
+{
+  const SearchStructure& structure = implementation_->structure;
+  if (!isFinite(point) || implementation_->nearer(point) != point)
+  {
+    return static_cast<bool>(nearest(point, scope).entity);
+  }
+  LeafQuery query(structure, point, scope.maximumDistance);
+  query.takeAny();
+  visitTree(structure, structure.root, point, scope, query);
+  query.finish();
+  return query.candidates().winner() != nullptr;
+}
+
 ClosestPoint ClosestPointSearch::nearestOn(EntityId entity, const Point3& point) const
 {
   const SearchStructure& structure = implementation_->structure;

@@ -78,6 +78,10 @@ public:
   /// or nothing is within the limit.
   ClosestPoint nearest(const Point3& point, const SearchScope& scope = {}) const;
 
+  /// Whether `nearest` would name an entity. Ends at the first point within the limit: where that
+  /// is larger than the distance, a fraction of the work.
+  bool isWithinDistance(const Point3& point, const SearchScope& scope) const;
+
   /// Nearest point of one entity and its closure: for a face also its edges and vertices, for an
   /// edge its end vertices, and the answer then names these.
   ClosestPoint nearestOn(EntityId entity, const Point3& point) const;

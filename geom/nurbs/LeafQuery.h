@@ -19,6 +19,8 @@ class LeafQuery
 public:
   LeafQuery(const SearchStructure& structure, const Point3& q, double maximumDistance);
 
+  /// Ends at the first point that is within the largest distance.
+  void takeAny() { candidates_.takeAny(); }
   /// Leaves outside the trim loops count too: for points known to be on the border.
   void ignoreTrim() { ignoreTrim_ = true; }
 

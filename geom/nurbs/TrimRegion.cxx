@@ -188,7 +188,19 @@ void TrimRegion::fitStrip(Piece& piece, const std::vector<ControlPoint2>& points
 int TrimRegion::sideOf(const Piece& piece, double u, double v) const
 {
   const double beside = u - piece.first[0] - piece.slope * (v - piece.first[1]);
-  return beside < piece.strip.low ? -1 : beside > piece.strip.high ? 1 : 0;
+  if (beside < piece.strip.low || !overlaps(piece.box, { u, u, v, v }, bandU_, bandV_))
+  {
+    return -1;
+  }
+  if (beside > piece.strip.high)
+  {
+    return 1;
+  }
+  const double onU = std::clamp(u, piece.box.s0, piece.box.s1);
+  const double onV = std::clamp(v, piece.box.t0, piece.box.t1);
+  const int ofCurve = compareOther(piece, 1, onV, { u - bandU_, u + bandU_ });
+  const bool isNear = ofCurve == 0 || compareOther(piece, 0, onU, { v - bandV_, v + bandV_ }) == 0;
+  return isNear ? 0 : -ofCurve;
 }
 
 int TrimRegion::binOf(double v) const
@@ -276,18 +288,27 @@ Point2 TrimRegion::pointOn(const Piece& piece, double x) const
   return toPoint(sum);
 }
 
-/// The coordinate (0: u, 1: v) other than `known` where the known one takes `value`, which lies
-/// between the piece's ends: regula falsi (Illinois), which always ends.
-double TrimRegion::otherCoordinate(const Piece& piece, int known, double value) const
+/// Whether the coordinate (0: u, 1: v) other than `known`, where the known one takes `value`, is
+/// below, in or above the interval (-1, 0, 1); `value` lies between the piece's ends. By regula
+/// falsi (Illinois), which always ends; the curve is monotone, so that its places on both sides of
+/// the one that is sought are bounds.
+int TrimRegion::compareOther(
+  const Piece& piece, int known, double value, const Interval& with) const
 {
   const int other = 1 - known;
+  const auto compare = [&](double a, double b) {
+    return std::max(a, b) < with.low ? -1 : std::min(a, b) > with.high ? 1 : 0;
+  };
   double low = 0;
   double high = 1;
   double atLow = piece.first[known] - value;
   double atHigh = piece.last[known] - value;
+  double otherAtLow = piece.first[other];
+  double otherAtHigh = piece.last[other];
   if (atLow == 0 || atHigh == 0 || atLow == atHigh)
   {
-    return atLow == 0 ? piece.first[other] : piece.last[other];
+    const double end = atLow == 0 ? otherAtLow : otherAtHigh;
+    return compare(end, end);
   }
   Point2 p = piece.first;
   const double small = 1e-15 * (std::abs(atLow) + std::abs(atHigh));
@@ -305,27 +326,21 @@ double TrimRegion::otherCoordinate(const Piece& piece, int known, double value) 
       high = x;
       atHigh = here;
       atLow *= 0.5;
+      otherAtHigh = p[other];
     }
     else
     {
       low = x;
       atLow = here;
       atHigh *= 0.5;
+      otherAtLow = p[other];
+    }
+    if (const int side = compare(otherAtLow, otherAtHigh); side != 0)
+    {
+      return side;
     }
   }
-  return p[other];
-}
-
-bool TrimRegion::isNear(const Piece& piece, double u, double v) const
-{
-  if (!overlaps(piece.box, { u, u, v, v }, bandU_, bandV_))
-  {
-    return false;
-  }
-  const double onU = std::clamp(u, piece.box.s0, piece.box.s1);
-  const double onV = std::clamp(v, piece.box.t0, piece.box.t1);
-  return std::abs(otherCoordinate(piece, 1, onV) - u) <= bandU_ ||
-         std::abs(otherCoordinate(piece, 0, onU) - v) <= bandV_;
+  return compare(p[other], p[other]);
 }
 
 bool TrimRegion::contains(double u, double v) const
@@ -353,16 +368,13 @@ bool TrimRegion::containsByRay(double u, double v) const
     {
       continue;
     }
-    const int side = u < piece.box.s0 - bandU_ ? -1 : sideOf(piece, u, v);
-    if (side == 0 && isNear(piece, u, v))
+    const int side = sideOf(piece, u, v);
+    if (side == 0)
     {
       return true;
     }
     const bool spans = (piece.first[1] <= v) != (piece.last[1] <= v);
-    if (spans && (side < 0 || (side == 0 && otherCoordinate(piece, 1, v) > u)))
-    {
-      inside = !inside;
-    }
+    inside = inside != (spans && side < 0);
   }
   return inside;
 }

@@ -59,11 +59,11 @@ private:
   int cellOf(double u, double v) const;
   bool containsByRay(double u, double v) const;
   void fitStrip(Piece& piece, const std::vector<ControlPoint2>& points) const;
-  /// Where a point in the piece's box is: to the left or to the right (-1, 1); 0: not told.
+  /// Where a point at the same v as the piece is: to the left or to the right (-1, 1), or on it
+  /// (0).
   int sideOf(const Piece& piece, double u, double v) const;
   Point2 pointOn(const Piece& piece, double x) const;
-  double otherCoordinate(const Piece& piece, int known, double value) const;
-  bool isNear(const Piece& piece, double u, double v) const;
+  int compareOther(const Piece& piece, int known, double value, const Interval& with) const;
 
   std::vector<Piece> pieces_;
   std::vector<ControlPoint2> points_;

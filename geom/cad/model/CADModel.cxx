@@ -290,6 +290,11 @@ ClosestPoint CADModel::nearest(const Point3& point, const SearchScope& scope) co
   return implementation_->search().nearest(point, scope);
 }
 
+bool CADModel::isWithinDistance(const Point3& point, const SearchScope& scope) const
+{
+  return implementation_->search().isWithinDistance(point, scope);
+}
+
 ClosestPoint CADModel::nearestOn(EntityId entity, const Point3& point) const
 {
   checkIndex(nurbs(), entity);

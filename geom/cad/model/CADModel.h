@@ -64,6 +64,7 @@ public:
   /// See ClosestPointSearch. The first query of a model builds the search structure, once for all
   /// threads; every later one only reads it.
   ClosestPoint nearest(const Point3& point, const SearchScope& scope = {}) const;
+  bool isWithinDistance(const Point3& point, const SearchScope& scope) const;
   ClosestPoint nearestOn(EntityId entity, const Point3& point) const;
 
   /// Point of `entity` at `parameters` (see ClosestPoint::parameters).

@@ -124,6 +124,30 @@ TEST(Limits, maximumDistance)
   EXPECT_NEAR(near.distance, 0.3, 1e-12);
 }
 
+TEST(Limits, withinDistance)
+{
+  NurbsModel model = shapes::plateWithHole();
+  model.faces.push_back(shapes::bumpyFace(2, 0.8, 31));
+  model.faces.push_back(shapes::torus(3.0, 1.0));
+  const ClosestPointSearch search(model);
+  shapes::Random random(33);
+  for (int i = 0; i < 1000; ++i)
+  {
+    const Point3 q = random.point(i % 10 == 0 ? 1e10 : 4.0);
+    const double away = search.nearest(q).distance;
+    const auto isWithin = [&](double distance)
+    {
+      SearchScope scope;
+      scope.maximumDistance = distance;
+      return search.isWithinDistance(q, scope);
+    };
+    EXPECT_TRUE(isWithin(1.000001 * away)) << i;
+    EXPECT_TRUE(isWithin(100 * away)) << i;
+    EXPECT_FALSE(isWithin(0.999999 * away)) << i;
+  }
+  EXPECT_FALSE(search.isWithinDistance({ std::nan(""), 0, 0 }, {}));
+}
+
 TEST(NearestOn, staysOnTheEntity)
 {
   const NurbsModel model = shapes::plateWithHole();
