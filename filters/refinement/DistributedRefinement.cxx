@@ -270,23 +270,6 @@ std::array<std::vector<GlobalId>, 4> numberChildren(
   return ids;
 }
 
-Moves movesOntoCAD(
-  const Mesh& mesh, const BoundaryProjector& projector, Classification& classification)
-{
-  Moves moves(mesh.points);
-  for (std::size_t v = 0; v < classification.entities.size(); ++v)
-  {
-    if (classification.distances[v] > 0)
-    {
-      const auto vertex = static_cast<Index>(v);
-      const ClosestPoint where = projector.nearestOn(classification.entities[v], mesh.points[v]);
-      classification.set(vertex, where);
-      moves.add(vertex, where.point);
-    }
-  }
-  return moves;
-}
-
 RefinementPlan planUniform(RankExchange& exchange, const DistributedMesh& mesh)
 {
   RefinementPlan plan{ findEdges(exchange, mesh, 1), {}, true };

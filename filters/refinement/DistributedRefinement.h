@@ -94,9 +94,4 @@ CutOntoCAD refineOntoCAD(RankExchange& exchange, DistributedMesh& mesh, const Re
   const ClassifiedBoundary& classified, Classification& classification, const CutSettings& settings,
   RunStatistics& statistics);
 
-/// The moves of all vertices that are not at their places on the CAD to these places, which are
-/// found anew.
-Moves movesOntoCAD(
-  const Mesh& mesh, const BoundaryProjector& projector, Classification& classification);
-
 } // namespace cadrefine
