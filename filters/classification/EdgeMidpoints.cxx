@@ -252,13 +252,13 @@ std::vector<MidpointOnCAD> projectMidpoints(RankExchange& exchange, const Mesh& 
     return edgeOf(classes[e].edgeClass, edges.table.edges[e], mesh, classification);
   };
   turnToFacets(exchange, edges, classified, classification, edgesOf, edgeAt, midpoints);
-  const bool staysOffCreases = edges.withOperations || exchange.any(mesh.hasNonSimplices());
+  const bool staysOffBorders = edges.withOperations || exchange.any(mesh.hasNonSimplices());
   const std::vector<Vector3> walls = findWalls(exchange, edges, classified);
-  for (std::size_t i = 0; (staysOffCreases || !walls.empty()) && i < midpoints.size(); ++i)
+  for (std::size_t i = 0; (staysOffBorders || !walls.empty()) && i < midpoints.size(); ++i)
   {
     const BoundaryEdge edge = edgeAt(i);
     ClosestPoint& where = midpoints[i].where;
-    where = staysOffCreases ? offCrease(classified.projector, edge, where) : where;
+    where = staysOffBorders ? offBorder(classified.projector, edge, where) : where;
     where = walls.empty() ? where : inPlane(classified.projector, edge, where, walls[edgesOf[i]]);
   }
   midpoints.erase(std::remove_if(midpoints.begin(), midpoints.end(),
@@ -322,7 +322,7 @@ void projectQuads(RankExchange& exchange, const Mesh& mesh, const MarkedQuads& q
     [&](const BoundaryEdge& middle)
     {
       const ClosestPoint where = projectMidpoint(classified.projector, middle);
-      return where.entity ? offCrease(classified.projector, middle, where) : where;
+      return where.entity ? offBorder(classified.projector, middle, where) : where;
     },
     [&](std::size_t place, const ClosestPoint& where)
     {

@@ -26,7 +26,7 @@ struct MarkedEdges
   EdgeTable table;
   SharedEdges sharedEdges;
   EdgeMarks marks;
-  /// Local operations follow: see offCrease in MidpointProjection.h and MoveSettings::smoothWorst.
+  /// Local operations follow: see offBorder in MidpointProjection.h and MoveSettings::smoothWorst.
   bool withOperations = false;
 };
 

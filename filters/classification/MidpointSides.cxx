@@ -60,8 +60,8 @@ void turnToFacets(RankExchange& exchange, const MarkedEdges& edges,
   {
     return;
   }
-  const auto far = indicesWhere(
-    midpoints.size(), [&](std::size_t i) { return isFarAcross(edgeAt(i), midpoints[i].where); });
+  const auto far = indicesWhere(midpoints.size(), [&](std::size_t i)
+    { return isFarAcross(classified.projector, edgeAt(i), midpoints[i].where); });
   if (!exchange.any(!far.empty()))
   {
     return;

@@ -14,7 +14,7 @@ namespace cadrefine
 /// the outward normal of the CAD has to point as theirs do (see facing in MidpointProjection.h). In
 /// meshes of area it does nothing. `edgesOf`: the number of the edge of each midpoint; `edgeAt`
 /// gives the edge. Collective; a reduction, and where a midpoint is farther from its place than a
-/// quarter of its edge is long, which is rare, findSides and an exchange of 24 bytes a shared edge.
+/// tenth of its edge is long, findSides and an exchange of 24 bytes a shared edge.
 void turnToFacets(RankExchange& exchange, const MarkedEdges& edges,
   const ClassifiedBoundary& classified, const Classification& classification,
   const std::vector<Index>& edgesOf, const std::function<BoundaryEdge(std::size_t)>& edgeAt,

@@ -25,8 +25,10 @@ constexpr int mostSteps = 20;
 constexpr double leastSlope = 0.17;
 /// A place on a face is taken instead of one on its border that is up to so many times nearer.
 constexpr double asNear = 1.25;
+/// Ends that are nearer to the border of a face than this part of the edge's length are on it.
+constexpr double atBorder = 1e-3;
 /// The CAD is so far from the middle of an edge that leads across a bore, in parts of its length.
-constexpr double farAcross = 0.25;
+constexpr double farAcross = 0.1;
 /// There its normal and that of the mesh have at most this cosine.
 constexpr double opposed = -0.3;
 /// A place nearer to an end of a mesh edge than this part of its length is not that of its middle.
@@ -177,6 +179,51 @@ ClosestPoint betweenOnFaces(
   return best;
 }
 
+/// The face that a place is inside, or a face at the smooth edge that it is on, as at a seam; -1:
+/// it is elsewhere.
+std::int32_t faceAt(const NurbsModel& model, const ClosestPoint& place)
+{
+  const auto [dimension, index] = place.entity;
+  if (dimension == 1)
+  {
+    const NurbsEdge& edge = model.edges[index];
+    return edge.sharp || edge.faces.empty() ? -1 : edge.faces.front();
+  }
+  return dimension == 2 ? index : -1;
+}
+
+/// The place that is as far from the border of its face as the ends of the edge are in the mean,
+/// over the place of the border that is nearest to the middle; with no entity if they are on the
+/// border, or the border is a corner.
+ClosestPoint placeAcross(
+  const BoundaryProjector& projector, const BoundaryEdge& edge, const ClosestPoint& border)
+{
+  const auto& [a, b] = edge.points;
+  const auto faces = projector.entitiesOf(edge.edgeClass, edge.entities);
+  if (border.entity.dimension != 1 || faces.empty())
+  {
+    return {};
+  }
+  const double away = 0.5 * (projector.nearestOn(border.entity, a).distance +
+                              projector.nearestOn(border.entity, b).distance);
+  if (!(away > atBorder * distance(a, b)))
+  {
+    return {};
+  }
+  const CADModel& model = projector.model();
+  const Vector3 across = cross(model.normalNear(faces.front(), border.point),
+    model.tangent(border.entity.index, border.parameters[0]));
+  ClosestPoint best; // beside the border, the face is on one side of it
+  for (const double step : { away, -away })
+  {
+    const ClosestPoint place =
+      projector.nearestOnShared(edge.edgeClass, edge.entities, border.point + step * across);
+    best = place.entity && isNearer(place, best) ? place : best;
+  }
+  best.distance = distance(0.5 * (a + b), best.point);
+  return best;
+}
+
 } // namespace
 
 ClosestPoint projectMidpoint(const BoundaryProjector& projector, const BoundaryEdge& edge)
@@ -262,7 +309,7 @@ ClosestPoint onNose(
   return best;
 }
 
-ClosestPoint offCrease(
+ClosestPoint offBorder(
   const BoundaryProjector& projector, const BoundaryEdge& edge, const ClosestPoint& where)
 {
   if (projector.kind() != BoundaryKind::Faces || edge.edgeClass.kind != EdgeClass::Smooth)
@@ -277,28 +324,31 @@ ClosestPoint offCrease(
   }
   const Point3 middle = 0.5 * (edge.points[0] + edge.points[1]);
   ClosestPoint border = where; // that of the face where it is nearest, not of another one behind it
+  bool isInside = false;       // of that face, as at its seam
   for (std::size_t f = 0; f < faces.size(); ++f)
   {
     const ClosestPoint onFace = projector.nearestOn({ 2, faces[f] }, middle);
-    border = f == 0 || isNearer(onFace, border) ? onFace : border;
+    if (f == 0 || isNearer(onFace, border))
+    {
+      border = onFace;
+      isInside = isWithin(projector.model().nurbs(), { 2, faces[f] }, border.entity);
+    }
   }
   const auto edges = entitiesAround(projector.model().nurbs(), border.entity, 1);
-  if (edges.empty())
+  if (isInside || edges.empty())
   {
     return border;
   }
-  if (std::none_of(edges.begin(), edges.end(),
-        [&](std::int32_t of) { return projector.model().nurbs().edges[of].sharp; }))
+  const bool isSmooth = std::none_of(edges.begin(), edges.end(),
+    [&](std::int32_t of) { return projector.model().nurbs().edges[of].sharp; });
+  const ClosestPoint across = isSmooth ? placeAcross(projector, edge, border) : ClosestPoint{};
+  if (across.entity)
   {
-    // Beyond a smooth edge the surface goes on.
-    const auto beside = entitiesAround(projector.model().nurbs(), border.entity, 2);
-    const bool isBeside = where.entity.dimension == 2 &&
-                          std::binary_search(beside.begin(), beside.end(), where.entity.index);
-    return isBeside ? where : border;
+    return across;
   }
-  // As far inside as the middle is outside; where the face is narrower than that, less, and where
-  // that is next to nothing, more.
-  for (int step = 0; step <= 2 * halvingsInside; ++step)
+  // As far inside as the middle is outside, or half as far where the surface goes on beyond; where
+  // the face is narrower than that, less, and where that is next to nothing, more.
+  for (int step = isSmooth ? 1 : 0; step <= 2 * halvingsInside; ++step)
   {
     const double part = std::ldexp(1.0, step <= halvingsInside ? -step : step - halvingsInside);
     ClosestPoint inside = projector.nearestOnShared(
@@ -364,28 +414,35 @@ ClosestPoint placeBeside(const BoundaryProjector& projector, const BoundaryEdge&
   return {};
 }
 
-bool isFarAcross(const BoundaryEdge& edge, const ClosestPoint& where)
+bool isFarAcross(
+  const BoundaryProjector& projector, const BoundaryEdge& edge, const ClosestPoint& where)
 {
-  return edge.edgeClass.kind == EdgeClass::Smooth && where.entity.dimension == 2 &&
+  return edge.edgeClass.kind == EdgeClass::Smooth &&
+         faceAt(projector.model().nurbs(), where) >= 0 &&
          where.distance > farAcross * distance(edge.points[0], edge.points[1]);
 }
 
 ClosestPoint facing(const BoundaryProjector& projector, const BoundaryEdge& edge,
   const ClosestPoint& where, const Vector3& normal, const FaceSides& sides)
 {
-  const auto cosine = [&](const ClosestPoint& place)
+  const CADModel& model = projector.model();
+  const auto cosine = [&](const ClosestPoint& place, std::int32_t face)
   {
-    return sides[place.entity.index] *
-           dot(projector.model().normal(place.entity.index, place.parameters), normal);
+    const Vector3 ofCAD = place.entity.dimension == 2 ? model.normal(face, place.parameters)
+                                                      : model.normalNear(face, place.point);
+    return sides[face] * dot(ofCAD, normal);
   };
-  if (cosine(where) > opposed)
+  if (cosine(where, faceAt(model.nurbs(), where)) > opposed)
   {
     return where;
   }
   const ClosestPoint place =
     placeBeside(projector, edge, normal, { 0.125, -0.125, 0.25, -0.25, 0.5, -0.5, 1.0, -1.0 },
       [&](const ClosestPoint& candidate)
-      { return candidate.entity.dimension == 2 && cosine(candidate) > -opposed; });
+      {
+        const std::int32_t face = faceAt(model.nurbs(), candidate);
+        return face >= 0 && cosine(candidate, face) > -opposed;
+      });
   return place.entity ? place : where;
 }
 

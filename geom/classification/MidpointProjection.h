@@ -28,11 +28,12 @@ ClosestPoint onNose(
 
 /// A place for the midpoint of an edge that is projected to `where`, in its face, or in those that
 /// both ends share: not on another one that is nearer to a chord which leaves its face, and not on
-/// a crease that the edge is not on, where it would meet the vertices of the crease's own mesh
-/// edges. As far inside the crease as the midpoint is outside, or less where the face is narrower,
-/// or more where the midpoint is right over the crease. Work: none where `where` is on such a face;
-/// else a projection a face, and up to 21 more.
-ClosestPoint offCrease(
+/// a CAD edge that the mesh edge is not on, where it would meet the vertices of the CAD edge's own
+/// mesh edges. Inside a smooth CAD edge, as the rim of a fillet, as far from it as the ends of the
+/// mesh edge are in the mean; inside a crease as far as the midpoint is outside, or less where the
+/// face is narrower, or more where the midpoint is right over the crease. Work: none where `where`
+/// is on such a face; else a projection a face, and up to 26 more.
+ClosestPoint offBorder(
   const BoundaryProjector& projector, const BoundaryEdge& edge, const ClosestPoint& where);
 
 /// A place on the CAD for the midpoint of a smooth edge that is projected to `where`, in the plane
@@ -52,8 +53,10 @@ ClosestPoint placeBeside(const BoundaryProjector& projector, const BoundaryEdge&
   const std::function<bool(const ClosestPoint&)>& accepts);
 
 /// Whether a smooth edge may lead so far across a bore that its midpoint was projected to the other
-/// side: the place is on a face, and farther away than a quarter of the edge's length.
-bool isFarAcross(const BoundaryEdge& edge, const ClosestPoint& where);
+/// side: the place is on a face or a smooth CAD edge, and farther away than a tenth of the edge's
+/// length, which may lead along the bore, too.
+bool isFarAcross(
+  const BoundaryProjector& projector, const BoundaryEdge& edge, const ClosestPoint& where);
 
 /// A place for the midpoint of an edge that is projected to `where`, on the side of a bore that the
 /// mesh is on: the CAD's outward normal there and this one of the mesh, a unit vector, make less

@@ -433,7 +433,7 @@ std::optional<ClosestPoint> SurfaceRule::placeOfMiddle(
   }
   const BoundaryEdge onCAD{ edgeClass, { mesh.vertex(a).wanted, mesh.vertex(b).wanted },
     { mesh.vertex(a).entity, mesh.vertex(b).entity } };
-  ClosestPoint where = offCrease(projector_, onCAD, projectMidpoint(projector_, onCAD));
+  ClosestPoint where = offBorder(projector_, onCAD, projectMidpoint(projector_, onCAD));
   for (const Index facet : mesh.facets().at(a, b))
   {
     if (mesh.kind() == EditableMesh::Kind::Solid && mesh.facets()[facet].label < 0)

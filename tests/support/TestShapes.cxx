@@ -71,6 +71,13 @@ TopoDS_Shape roundedCylinder(double radius, double height)
     .Shape();
 }
 
+TopoDS_Shape filletedDisc(double radius, double fillet)
+{
+  return BRepAlgoAPI_Fuse(
+    torus(radius, fillet), moved(cylinder(radius, 2 * fillet), { 0, 0, -fillet }))
+    .Shape();
+}
+
 TopoDS_Shape longCylinder(double radius, double height)
 {
   const TopoDS_Shape half = cylinder(radius, height);

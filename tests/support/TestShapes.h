@@ -26,6 +26,9 @@ TopoDS_Shape cylinder(double radius, double height);
 TopoDS_Shape pipe(double innerRadius, double outerRadius, double height);
 /// A cylinder from z = 0 that a hemisphere ends on top.
 TopoDS_Shape roundedCylinder(double radius, double height);
+/// A disc round the z axis, flat to this radius and round beyond; as thick as twice the fillet's
+/// radius, its middle at z = 0.
+TopoDS_Shape filletedDisc(double radius, double fillet);
 /// A cylinder of twice this height, its side of two faces.
 TopoDS_Shape longCylinder(double radius, double height);
 /// The lateral face of half a cylinder, where y is positive.

@@ -77,7 +77,7 @@ TEST_F(ThinSheet, keepsMidpointsInItsEnd)
   const EntityId end = projector.nearest(points[0], unlimited).entity;
   ASSERT_EQ(end.dimension, 2);
   const BoundaryEdge edge{ { EdgeClass::Smooth, end.index }, points, { end, end } };
-  EXPECT_EQ(offCrease(projector, edge, projectMidpoint(projector, edge)).entity, end);
+  EXPECT_EQ(offBorder(projector, edge, projectMidpoint(projector, edge)).entity, end);
 }
 
 /// Of a diameter all of the bow over it is as near to its middle as its ends are.
@@ -200,7 +200,7 @@ TEST(Ring, keepsTheMiddleOfAChordThatCrossesTheHole)
   const BoundaryEdge edge{ { EdgeClass::Smooth, -1 }, points, entities };
   const ClosestPoint nearest = projectMidpoint(projector, edge);
   EXPECT_EQ(nearest.entity, entities[0]);
-  const ClosestPoint where = offCrease(projector, edge, nearest);
+  const ClosestPoint where = offBorder(projector, edge, nearest);
   const Point3 middle = 0.5 * (points[0] + points[1]);
   const double radius = std::hypot(middle[0], middle[1]);
   ASSERT_LT(radius, 1);
@@ -209,6 +209,35 @@ TEST(Ring, keepsTheMiddleOfAChordThatCrossesTheHole)
   const double outside = (2 - radius) / radius;
   EXPECT_NEAR(distance(where.point, { outside * middle[0], outside * middle[1], 1 }), 0, 1e-9);
   EXPECT_NEAR(where.distance, distance(where.point, middle), 1e-15);
+}
+
+/// From the rim of a fillet to a vertex on the fillet, over the flat end inside the rim.
+TEST(Fillet, hasTheMiddleOfAChordOverTheFlatEndInsideItsRim)
+{
+  const auto model = cadtest::modelOf(cadtest::filletedDisc(1, 0.5));
+  const BoundaryProjector projector(*model, BoundaryKind::Faces);
+  const auto at = [](double degrees, double radius, double z)
+  {
+    const double angle = degrees * 3.14159265358979323846 / 180;
+    return Point3{ radius * std::cos(angle), radius * std::sin(angle), z };
+  };
+  const double high = std::sqrt(0.25 - 0.01);
+  const std::array<Point3, 2> points{ at(40, 1, 0.5), at(100, 1.1, high) };
+  const BoundaryEdge edge{ { EdgeClass::Smooth, -1 }, points, entitiesAt(projector, points) };
+  ASSERT_EQ(edge.entities[0].dimension, 1);
+  ASSERT_EQ(edge.entities[1].dimension, 2);
+  const ClosestPoint nearest = projector.nearest(0.5 * (points[0] + points[1]), unlimited);
+  ASSERT_NE(nearest.entity, edge.entities[1]); // but the flat end
+
+  const ClosestPoint where = offBorder(projector, edge, nearest);
+  EXPECT_EQ(where.entity, edge.entities[1]);
+  // Over the rim, half as far from it as the second end.
+  const double away = 0.5 * std::hypot(0.1, 0.5 - high);
+  const double onFillet = std::hypot(away, 0.5);
+  const double degrees = 180 / 3.14159265358979323846 *
+                         std::atan2(points[0][1] + points[1][1], points[0][0] + points[1][0]);
+  const Point3 expected = at(degrees, 1 + 0.5 * away / onFillet, 0.25 / onFillet);
+  EXPECT_NEAR(distance(where.point, expected), 0, 1e-9);
 }
 
 /// Where a chord crosses the hole at the seam of its wall, a CAD vertex is nearest to its middle.
@@ -220,7 +249,7 @@ TEST(Ring, keepsTheMiddleOfAChordThatCrossesTheHoleAtItsSeam)
   const BoundaryEdge edge{ { EdgeClass::Smooth, -1 }, points, entitiesAt(projector, points) };
   const ClosestPoint nearest = projectMidpoint(projector, edge);
   ASSERT_EQ(nearest.entity.dimension, 0);
-  const ClosestPoint where = offCrease(projector, edge, nearest);
+  const ClosestPoint where = offBorder(projector, edge, nearest);
   EXPECT_EQ(where.entity, projector.nearest({ 0, 1.25, 1 }, unlimited).entity);
   EXPECT_NEAR(distance(where.point, { 1.05, 0, 1 }), 0, 1e-9);
 }
@@ -237,11 +266,11 @@ TEST(Ring, takesTheMiddleOfAChordFromAnotherFaceToItsOwn)
   const EntityId ring = projector.nearest({ 0, 1.25, 1 }, unlimited).entity;
   ASSERT_EQ(wall.entity.dimension, 2);
   ASSERT_NE(wall.entity, ring);
-  const ClosestPoint where = offCrease(projector, edge, wall);
+  const ClosestPoint where = offBorder(projector, edge, wall);
   EXPECT_EQ(where.entity, ring);
-  EXPECT_EQ(where.point, offCrease(projector, edge, projectMidpoint(projector, edge)).point);
+  EXPECT_EQ(where.point, offBorder(projector, edge, projectMidpoint(projector, edge)).point);
   const BoundaryEdge onWall{ { EdgeClass::OnEdge, entities[0].index }, points, entities };
-  EXPECT_EQ(offCrease(projector, onWall, wall).entity, wall.entity) << "only of smooth edges";
+  EXPECT_EQ(offBorder(projector, onWall, wall).entity, wall.entity) << "only of smooth edges";
 }
 
 /// A sphere cut off its centre, by a plane that is not in the CAD.
@@ -298,7 +327,7 @@ TEST(Bore, facesTheMesh)
   const BoundaryEdge edge{ { EdgeClass::Smooth, -1 }, points, entitiesAt(projector, points) };
   const ClosestPoint nearest = projectMidpoint(projector, edge);
   ASSERT_NEAR(nearest.point[1], 1, 1e-9);
-  ASSERT_TRUE(isFarAcross(edge, nearest));
+  ASSERT_TRUE(isFarAcross(projector, edge, nearest));
   const ClosestPoint off = projector.nearest(at(0.8, 0.6), unlimited);
   const Vector3 normal = model->normal(off.entity.index, off.parameters);
   FaceSides sides(model->count(2), 0);
