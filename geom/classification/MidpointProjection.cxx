@@ -192,15 +192,31 @@ std::int32_t faceAt(const NurbsModel& model, const ClosestPoint& place)
   return dimension == 2 ? index : -1;
 }
 
+/// Whether edges of a face that are no seams meet at a CAD vertex.
+bool isCorner(const NurbsModel& model, EntityId vertex, std::int32_t face)
+{
+  const auto edges =
+    vertex.dimension == 0 ? entitiesAround(model, vertex, 1) : std::vector<std::int32_t>{};
+  const auto isOfFace = [&](std::int32_t edge)
+  {
+    const auto& faces = model.edges[edge].faces;
+    return !isSeam(model.edges[edge]) && std::binary_search(faces.begin(), faces.end(), face);
+  };
+  return std::count_if(edges.begin(), edges.end(), isOfFace) > 1;
+}
+
 /// The place that is as far from the border of its face as the ends of the edge are in the mean,
 /// over the place of the border that is nearest to the middle; with no entity if they are on the
-/// border, or the border is a corner.
+/// border, or an end or that place is a corner, where the face may taper to nothing.
 ClosestPoint placeAcross(
   const BoundaryProjector& projector, const BoundaryEdge& edge, const ClosestPoint& border)
 {
   const auto& [a, b] = edge.points;
   const auto faces = projector.entitiesOf(edge.edgeClass, edge.entities);
-  if (border.entity.dimension != 1 || faces.empty())
+  const auto isAtCorner = [&](EntityId end)
+  { return isCorner(projector.model().nurbs(), end, faces.front()); };
+  if (border.entity.dimension != 1 || faces.empty() ||
+      std::any_of(edge.entities.begin(), edge.entities.end(), isAtCorner))
   {
     return {};
   }

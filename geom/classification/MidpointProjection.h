@@ -30,9 +30,10 @@ ClosestPoint onNose(
 /// both ends share: not on another one that is nearer to a chord which leaves its face, and not on
 /// a CAD edge that the mesh edge is not on, where it would meet the vertices of the CAD edge's own
 /// mesh edges. Inside a smooth CAD edge, as the rim of a fillet, as far from it as the ends of the
-/// mesh edge are in the mean; inside a crease as far as the midpoint is outside, or less where the
-/// face is narrower, or more where the midpoint is right over the crease. Work: none where `where`
-/// is on such a face; else a projection a face, and up to 26 more.
+/// mesh edge are in the mean, or from a corner of the face half as far as the midpoint is outside;
+/// inside a crease as far as it is outside, or less where the face is narrower, or more where the
+/// midpoint is right over the crease. Work: none where `where` is on such a face; else a projection
+/// a face, and up to 26 more.
 ClosestPoint offBorder(
   const BoundaryProjector& projector, const BoundaryEdge& edge, const ClosestPoint& where);
 
