@@ -171,6 +171,24 @@ class GmshMeshes(driver.Case):
         self.assertGreater(last["minimum_quality"], 0.1)
         self.assertLess(last["maximum_distance"], 0.5)
 
+    def test_fillet_narrower_than_its_rim_bulges(self):
+        """The middle of an edge across the fillet is over the face beyond its rim."""
+        occ = gmsh.model.occ
+
+        def lens():
+            balls = [occ.addSphere(0, 0, side * 0.8, 1.2) for side in (-1, 1)]
+            occ.intersect([(3, balls[0])], [(3, balls[1])])
+            occ.synchronize()
+            (_, body), = gmsh.model.getEntities(3)
+            edges = [edge for _, edge in gmsh.model.getEntities(1)]
+            rim = [edge for edge in edges if np.abs(gmsh.model.getBoundingBox(1, edge)[2::3]).max() < 1e-6]
+            occ.fillet([body], rim, [0.02])
+            gmsh.option.setNumber("Mesh.MeshSizeMin", 0.35)
+
+        self.generate(3, lens, lens, 0.35)
+        report = self.expect_on_cad(3.3)
+        self.assertLess(report["steps"][-1]["maximum_distance"], 4e-3)
+
     def test_gap_round_a_body(self):
         """The bore is not in the CAD, but nearer to it than half of a facet is long."""
         occ = gmsh.model.occ
