@@ -8,9 +8,9 @@
 #include "motion/Untangling.h"
 
 #include <cadrefine/base/IndicesWhere.h>
-#include <cadrefine/classification/CADAdjacency.h>
 #include <cadrefine/mesh/ThinCells.h>
 #include <cadrefine/mesh/VertexFlags.h>
+#include <cadrefine/motion/MovesOntoCAD.h>
 
 #include <algorithm>
 #include <array>
@@ -349,23 +349,6 @@ void tryAgain(Motion& motion, const Left& left, int round)
   moveTo(motion, region, std::move(moving), std::move(settled));
 }
 
-/// The place on the CAD of a vertex that is not there yet (see movesOntoCAD).
-ClosestPoint placeOf(Index vertex, const Point3& point, const BoundaryProjector& projector,
-  const Classification& classification)
-{
-  const CADModel& model = projector.model();
-  const EntityId entity = classification.entities[vertex];
-  ClosestPoint place = projector.nearestOn(entity, point);
-  if (place.entity != entity && !isWithin(model.nurbs(), entity, place.entity))
-  {
-    place.entity = entity;
-    place.parameters = classification.parameters[vertex];
-    place.point = model.evaluate(entity, place.parameters);
-    place.distance = distance(place.point, point);
-  }
-  return place;
-}
-
 /// Sends vertices that slid and then stopped to the nearest point of their entity.
 void retarget(Motion& motion, const std::vector<Index>& stuck)
 {
@@ -433,23 +416,6 @@ std::vector<Index> movedInside(const Motion& motion)
 
 } // namespace
 
-Moves movesOntoCAD(
-  const Mesh& mesh, const BoundaryProjector& projector, Classification& classification)
-{
-  Moves moves(mesh.points);
-  for (std::size_t v = 0; v < classification.entities.size(); ++v)
-  {
-    if (classification.distances[v] > 0)
-    {
-      const auto vertex = static_cast<Index>(v);
-      const ClosestPoint where = placeOf(vertex, mesh.points[v], projector, classification);
-      classification.set(vertex, where);
-      moves.add(vertex, where.point);
-    }
-  }
-  return moves;
-}
-
 MotionTrace moveOntoCAD(RankExchange& exchange, DistributedMesh& mesh, Moves moves,
   Classification& classification, const MoveSettings& settings)
 {
@@ -515,7 +481,7 @@ std::vector<Point3> wantedPoints(RankExchange& exchange, const DistributedMesh& 
   Moves moves(piece.points);
   for (const Index vertex : off)
   {
-    moves.add(vertex, placeOf(vertex, piece.points[vertex], projector, classification).point);
+    moves.add(vertex, placeToReach(vertex, piece.points[vertex], projector, classification).point);
   }
   LayerColumns columns(exchange, mesh, verticesOf(mesh, classification), moves, projector,
     { fixed, {} }, planeNormal(exchange, piece, projector.kind() == BoundaryKind::Edges));

@@ -71,13 +71,7 @@ struct MotionTrace
 MotionTrace moveOntoCAD(RankExchange& exchange, DistributedMesh& mesh, Moves moves,
   Classification& classification, const MoveSettings& settings);
 
-/// The moves of all vertices that are not at their places on the CAD to these places, which are
-/// found anew: at the nearest point of their entity or, if that is on its border, where other mesh
-/// edges may be, at the place that they had.
-Moves movesOntoCAD(
-  const Mesh& mesh, const BoundaryProjector& projector, Classification& classification);
-
-/// Where the vertices are wanted: those off the CAD where movesOntoCAD would send them, the layers
+/// Where the vertices are wanted: those off the CAD at their places (see placeToReach), the layers
 /// over them along with them (see LayerColumns), all others where they are. `fixed`: see
 /// MoveSettings. Collective. Work: where vertices are off the CAD, that of nearestOn for each, and
 /// of LayerColumns.

@@ -9,6 +9,7 @@
 #include <cadrefine/base/ParallelFor.h>
 #include <cadrefine/mesh/Quality.h>
 #include <cadrefine/mesh/VertexFlags.h>
+#include <cadrefine/motion/MovesOntoCAD.h>
 #include <cadrefine/operations/Improvement.h>
 #include <cadrefine/operations/PinchedEdges.h>
 

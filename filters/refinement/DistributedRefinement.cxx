@@ -11,6 +11,7 @@
 #include <cadrefine/base/Error.h>
 #include <cadrefine/base/LargeMemory.h>
 #include <cadrefine/mesh/VertexFlags.h>
+#include <cadrefine/motion/MovesOntoCAD.h>
 
 #include <algorithm>
 #include <iterator>

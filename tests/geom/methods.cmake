@@ -7,6 +7,7 @@ cadrefine_geom_test(method_tests
     error/GeometricErrorTest.cxx
     motion/CellStacksTest.cxx
     motion/MoveGuardTest.cxx
+    motion/MovesOntoCADTest.cxx
     motion/PatchOptimiserTest.cxx
     motion/ShapeEnergyTest.cxx
     motion/ThreadsTest.cxx

@@ -1,6 +1,6 @@
 // Where vertices go that stopped on their way to the CAD.
 
-#include "motion/BoundaryMotion.h"
+#include <cadrefine/motion/MovesOntoCAD.h>
 
 #include "TestShapes.h"
 
