@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <tuple>
 
 namespace cadrefine
 {
@@ -27,12 +28,12 @@ constexpr std::size_t mostConflicts = 100;
 struct Entry
 {
   double size = 0; ///< Distance of a vertex, measure of a facet.
-  double id = 0;
+  double id = 0;   ///< Of a vertex.
   Point3 point{};
 
   bool operator<(const Entry& other) const
   {
-    return size != other.size ? size > other.size : id < other.id;
+    return std::tie(other.size, id, point) < std::tie(size, other.id, other.point);
   }
 };
 
@@ -129,6 +130,7 @@ public:
     std::vector<double> all;
     std::vector<double> inBox;
     std::vector<double> onCADToo;
+    std::vector<Entry> bridges;
     // Parts of the entities' own measures in units of 2^-40, which sum up the same on any ranks.
     std::vector<std::int64_t> parts(entities_, 0);
     entityOfFacet_.assign(task_.boundary.facets.size(), -1);
@@ -145,9 +147,15 @@ public:
       }
       // Listed ones inside the mesh need not be of the CAD.
       const bool isAsked = !record.free && !facets[f].isInside;
-      if (record.onCAD || (isAsked && isInBox(centroidOf(task_.mesh.mesh(), facets[f]))))
+      const Point3 middle = centroidOf(task_.mesh.mesh(), facets[f]);
+      const bool isOffInBox = !record.onCAD && isAsked && isInBox(middle);
+      if (record.onCAD || isOffInBox)
       {
         inBox.push_back(measure);
+      }
+      if (isOffInBox && isBetweenVerticesOnCAD(facets[f]))
+      {
+        bridges.push_back({ measure, 0, middle });
       }
       if (record.onCAD || isAsked)
       {
@@ -160,33 +168,6 @@ public:
     fit_.boundaryOnCAD = counted > 0 ? covering / counted : 0;
     fit_.boundaryInBox = total > 0 ? counted / total : 0;
     fit_.cadCovered = coveredShare(task_.exchange.sum(parts));
-  }
-
-  void findBridges()
-  {
-    const Mesh& mesh = task_.mesh.mesh();
-    std::vector<Entry> bridges;
-    for (std::size_t f = 0; f < result_.facets.size(); ++f)
-    {
-      const FacetRecord& record = result_.facets[f];
-      const Facet& facet = task_.boundary.facets[f];
-      if (record.onCAD || record.free || facet.isInside ||
-          !std::all_of(facet.begin(), facet.end(),
-            [&](Index vertex) { return bool(result_.classification.entities[vertex]); }))
-      {
-        continue;
-      }
-      const Point3 middle = centroidOf(mesh, facet);
-      if (isInBox(middle))
-      {
-        Index first = facet.vertices[0];
-        for (const Index vertex : facet)
-        {
-          first = mesh.ids[vertex] < mesh.ids[first] ? vertex : first;
-        }
-        bridges.push_back({ measureOf(mesh, facet), static_cast<double>(mesh.ids[first]), middle });
-      }
-    }
     fit_.bridgingFacets = task_.exchange.sum(bridges.size());
     for (const Entry& entry : firstOf(task_.exchange, std::move(bridges), mostListed))
     {
@@ -245,6 +226,13 @@ private:
   bool wasOnCAD(std::size_t vertex) const
   {
     return result_.distancesBefore[vertex] <= task_.rounded(vertex);
+  }
+
+  bool isBetweenVerticesOnCAD(const Facet& facet) const
+  {
+    const auto& entities = result_.classification.entities;
+    return std::all_of(facet.begin(), facet.end(),
+      [&](Index vertex) { return static_cast<bool>(entities[vertex]); });
   }
 
   bool isInBox(const Point3& p) const
@@ -368,7 +356,6 @@ Fit findFit(const ProjectionTask& task, const ProjectionResult& result)
   fit.cadBox = task.model().box();
   FitSearch search(task, result, fit);
   search.measureBoundary();
-  search.findBridges();
   search.countVerticesOnCurved();
   search.findStrays();
   findConflicts(task.exchange, task.mesh, result, fit);
