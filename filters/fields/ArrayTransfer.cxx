@@ -231,6 +231,20 @@ MeshArrays emptyArrays(const std::string& vertexIdName, const std::string& cellI
     vtkSmartPointer<vtkFieldData>::New(), vertexIdName, cellIdName };
 }
 
+std::vector<vtkAbstractArray*> arraysWithoutNames(vtkDataSetAttributes* attributes)
+{
+  std::vector<vtkAbstractArray*> arrays;
+  for (int a = 0; a < attributes->GetNumberOfArrays(); ++a)
+  {
+    vtkAbstractArray* array = attributes->GetAbstractArray(a);
+    if (!array->GetName() || *array->GetName() == 0)
+    {
+      arrays.push_back(array);
+    }
+  }
+  return arrays;
+}
+
 } // namespace
 
 vtkSmartPointer<vtkAbstractArray> emptyLike(vtkAbstractArray* array, vtkIdType count)
@@ -251,29 +265,14 @@ vtkSmartPointer<vtkAbstractArray> emptyLike(vtkAbstractArray* array, vtkIdType c
 vtkAbstractArray* arrayLike(
   vtkDataSetAttributes* attributes, int index, vtkDataSetAttributes* other)
 {
-  const auto nameless = [](vtkDataSetAttributes* of, int a)
-  {
-    const char* name = of->GetAbstractArray(a)->GetName();
-    return !name || *name == 0;
-  };
   vtkAbstractArray* array = attributes->GetAbstractArray(index);
-  vtkAbstractArray* found = nullptr;
-  if (!nameless(attributes, index))
-  {
-    found = other->GetAbstractArray(array->GetName());
-  }
-  else
-  {
-    int left = 0;
-    for (int a = 0; a < index; ++a)
-    {
-      left += nameless(attributes, a);
-    }
-    for (int a = 0; a < other->GetNumberOfArrays() && !found; ++a)
-    {
-      found = nameless(other, a) && left-- == 0 ? other->GetAbstractArray(a) : nullptr;
-    }
-  }
+  const auto mine = arraysWithoutNames(attributes);
+  const auto there = arraysWithoutNames(other);
+  const auto place =
+    static_cast<std::size_t>(std::find(mine.begin(), mine.end(), array) - mine.begin());
+  vtkAbstractArray* found = place == mine.size()   ? other->GetAbstractArray(array->GetName())
+                            : place < there.size() ? there[place]
+                                                   : nullptr;
   const bool isAlike = found && found->GetDataType() == array->GetDataType() &&
                        found->GetNumberOfComponents() == array->GetNumberOfComponents();
   return isAlike ? found : nullptr;
