@@ -234,7 +234,7 @@ ClosestPoint placeAcross(
   {
     const ClosestPoint place =
       projector.nearestOnShared(edge.edgeClass, edge.entities, border.point + step * across);
-    best = place.entity && isNearer(place, best) ? place : best;
+    best = isNearer(place, best) ? place : best;
   }
   best.distance = distance(0.5 * (a + b), best.point);
   return best;

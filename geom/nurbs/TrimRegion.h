@@ -59,8 +59,8 @@ private:
   int cellOf(double u, double v) const;
   bool containsByRay(double u, double v) const;
   void fitStrip(Piece& piece, const std::vector<ControlPoint2>& points) const;
-  /// Where a point at the same v as the piece is: to the left or to the right (-1, 1), or on it
-  /// (0).
+  /// Where a point that is not to the right of the piece's box is: on the piece (0), else, if it is
+  /// at the same v, to the left or to the right of it (-1, 1).
   int sideOf(const Piece& piece, double u, double v) const;
   Point2 pointOn(const Piece& piece, double x) const;
   int compareOther(const Piece& piece, int known, double value, const Interval& with) const;

@@ -18,6 +18,14 @@ using namespace cadrefine;
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
+constexpr double pi = 3.14159265358979323846;
+
+Point3 at(double radius, double degrees, double z)
+{
+  const double angle = degrees * pi / 180;
+  return { radius * std::cos(angle), radius * std::sin(angle), z };
+}
+
 std::array<EntityId, 2> entitiesAt(
   const BoundaryProjector& projector, const std::array<Point3, 2>& points)
 {
@@ -31,12 +39,6 @@ class ThinSheet : public testing::Test
 protected:
   std::shared_ptr<const CADModel> model = cadtest::modelOf(cadtest::pipe(1, 1.01, 1));
   BoundaryProjector projector{ *model, BoundaryKind::Faces };
-
-  static Point3 at(double radius, double degrees, double z)
-  {
-    const double angle = degrees * 3.14159265358979323846 / 180;
-    return { radius * std::cos(angle), radius * std::sin(angle), z };
-  }
 };
 
 TEST_F(ThinSheet, keepsMidpointsOnTheirSide)
@@ -216,13 +218,8 @@ TEST(Fillet, hasTheMiddleOfAChordOverTheFlatEndInsideItsRim)
 {
   const auto model = cadtest::modelOf(cadtest::filletedDisc(1, 0.5));
   const BoundaryProjector projector(*model, BoundaryKind::Faces);
-  const auto at = [](double degrees, double radius, double z)
-  {
-    const double angle = degrees * 3.14159265358979323846 / 180;
-    return Point3{ radius * std::cos(angle), radius * std::sin(angle), z };
-  };
   const double high = std::sqrt(0.25 - 0.01);
-  const std::array<Point3, 2> points{ at(40, 1, 0.5), at(100, 1.1, high) };
+  const std::array<Point3, 2> points{ at(1, 40, 0.5), at(1.1, 100, high) };
   const BoundaryEdge edge{ { EdgeClass::Smooth, -1 }, points, entitiesAt(projector, points) };
   ASSERT_EQ(edge.entities[0].dimension, 1);
   ASSERT_EQ(edge.entities[1].dimension, 2);
@@ -234,9 +231,9 @@ TEST(Fillet, hasTheMiddleOfAChordOverTheFlatEndInsideItsRim)
   // Over the rim, half as far from it as the second end.
   const double away = 0.5 * std::hypot(0.1, 0.5 - high);
   const double onFillet = std::hypot(away, 0.5);
-  const double degrees = 180 / 3.14159265358979323846 *
-                         std::atan2(points[0][1] + points[1][1], points[0][0] + points[1][0]);
-  const Point3 expected = at(degrees, 1 + 0.5 * away / onFillet, 0.25 / onFillet);
+  const Point3 sum = points[0] + points[1];
+  const double degrees = 180 / pi * std::atan2(sum[1], sum[0]);
+  const Point3 expected = at(1 + 0.5 * away / onFillet, degrees, 0.25 / onFillet);
   EXPECT_NEAR(distance(where.point, expected), 0, 1e-9);
 }
 

@@ -124,11 +124,18 @@ TEST(Limits, maximumDistance)
   EXPECT_NEAR(near.distance, 0.3, 1e-12);
 }
 
-TEST(Limits, withinDistance)
+/// A plate with a hole, a bumpy face, and a torus.
+NurbsModel threeFaces()
 {
   NurbsModel model = shapes::plateWithHole();
   model.faces.push_back(shapes::bumpyFace(2, 0.8, 31));
   model.faces.push_back(shapes::torus(3.0, 1.0));
+  return model;
+}
+
+TEST(Limits, withinDistance)
+{
+  const NurbsModel model = threeFaces();
   const ClosestPointSearch search(model);
   shapes::Random random(33);
   for (int i = 0; i < 1000; ++i)
@@ -164,9 +171,7 @@ TEST(NearestOn, staysOnTheEntity)
 
 TEST(NearestOn, nearestOfAllEntitiesIsNearestOfTheModel)
 {
-  NurbsModel model = shapes::plateWithHole();
-  model.faces.push_back(shapes::bumpyFace(2, 0.8, 31));
-  model.faces.push_back(shapes::torus(3.0, 1.0));
+  const NurbsModel model = threeFaces();
   const ClosestPointSearch search(model);
   shapes::Random random(32);
   for (int i = 0; i < 300; ++i)
