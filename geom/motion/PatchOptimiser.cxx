@@ -18,6 +18,8 @@ namespace
 /// Shortest and longest step that is tried, as parts of Newton's step.
 constexpr double shortestStep = 1.0 / 32;
 constexpr double longestStep = 8;
+/// The chord of half of an arc is so far from it, in terms of the distance of the whole one's.
+constexpr double ofHalfAnArc = 0.25;
 /// Exponent of ShapeEnergy where the worst cell counts most.
 constexpr int exponentForWorst = 16;
 
@@ -360,7 +362,7 @@ void PatchOptimiser::findBoundaries()
     {
       boundary.limit = std::max(boundary.limit, away[neighbour]);
     }
-    boundary.limit += tie;
+    boundary.limit = ofHalfAnArc * boundary.limit + tie;
   }
 }
 

@@ -47,8 +47,8 @@ Directions directionsOn(const BoundaryProjector& projector, EntityId entity, con
 /// A vertex on a CAD face or edge moves in its tangents there and is put back onto the entity; it
 /// stays where that is not possible (at a pole, or where it would leave the entity for its border),
 /// and where an edge of the boundary there would be longer than all are now, and a facet farther
-/// from the CAD than any is now, and than the corners of these were at the start: after a
-/// bisection, than their parents.
+/// from the CAD than any is now, and than a quarter of what the corners of these were at the start:
+/// after a bisection, of what their parents were.
 ///
 /// No step raises the energy that it is for. Work of a sweep: linear in the number of cells, some
 /// 10 microseconds a vertex, and up to 8 projections for each vertex on the CAD, with up to six for
