@@ -30,7 +30,7 @@ namespace
 
 constexpr int maximumRounds = 6;
 constexpr int ringsOfCells = 3;
-/// Cells below this are operated on in the neighbourhood of those below the user's limit.
+/// Cells below this are operated on, too: at new vertices, and round cells below the user's limit.
 constexpr double aim = 0.3;
 /// Cells are cut at most `maximumCuts` times, each time in up to `mostTries` tries if one is not
 /// worth it. It is worth up to `newCellsForOne` new cells for each bad one that is gone, or one new
@@ -67,11 +67,15 @@ public:
       return; // the CAD's edges do not tell on which surface they are
     }
     openPinched();
-    Left left = operateInRounds();
+    Left left = operateInRounds(options_.minimumQuality);
     const std::int64_t mostCells = std::max(largestGrowth * left.cells, fewCells);
     for (int cut = 0; cut < maximumCuts && mayCut(left) && cutUntilWorthwhile(left, mostCells);
          ++cut)
     {
+    }
+    if (options_.newVertices && options_.minimumQuality > 0 && options_.minimumQuality < aim)
+    {
+      operateInRounds(aim);
     }
   }
 
@@ -139,19 +143,19 @@ private:
     std::size_t stages_;
   };
 
-  /// Does rounds of operations as long as that brings something, and returns what is left. While
-  /// vertices are off, one round that brings nothing may be followed by one that does, as it
-  /// smooths in the other way.
-  Left operateInRounds()
+  /// Does rounds of operations for vertices off the CAD and cells below `least`, as long as each
+  /// leaves at least a tenth less, and returns what is left. While vertices are off, one round that
+  /// brings nothing may be followed by one that does, as it smooths in the other way.
+  Left operateInRounds(double least)
   {
-    std::int64_t least = std::numeric_limits<std::int64_t>::max();
+    std::int64_t fewest = std::numeric_limits<std::int64_t>::max();
     int idle = 0;
     for (int round = 0;; ++round)
     {
-      const Bad bad = findBad();
+      const Bad bad = findBad(least);
       const std::int64_t count = bad.left.count();
-      idle = count < least ? 0 : idle + 1;
-      least = std::min(least, count);
+      idle = count < fewest - fewest / 10 ? 0 : idle + 1;
+      fewest = std::min(fewest, count);
       if (count == 0 || idle > (bad.left.verticesOff > 0 ? 1 : 0) || round == maximumRounds)
       {
         return bad.left;
@@ -159,7 +163,7 @@ private:
       exchange_.progress().say(static_cast<double>(round) / maximumRounds,
         "improving cells, round " + std::to_string(round + 1) + " of at most " +
           std::to_string(maximumRounds));
-      if (!improve(bad.vertices, round))
+      if (!improve(bad.vertices, round, least))
       {
         return bad.left;
       }
@@ -181,7 +185,7 @@ private:
       {
         cutBad();
       }
-      const Left last = std::exchange(now, operateInRounds());
+      const Left last = std::exchange(now, operateInRounds(options_.minimumQuality));
       if (now.isWorthwhile(left, mostCells))
       {
         left = now;
@@ -217,7 +221,7 @@ private:
       marks[c] = std::any_of(
         cells[c].begin(), cells[c].end(), [&](Index vertex) { return distances[vertex] > 0; });
     }
-    for (const Index cell : badCells(wanted()))
+    for (const Index cell : badCells(wanted(), options_.minimumQuality))
     {
       marks[cell] = 1;
     }
@@ -242,8 +246,8 @@ private:
     Left left;
   };
 
-  /// Finds vertices off the CAD, and cells that are badly shaped once they are on it. Collective.
-  Bad findBad()
+  /// Finds vertices off the CAD, and cells below `least` once they are on it. Collective.
+  Bad findBad(double least)
   {
     const auto& distances = state_.classification->distances;
     const std::vector<Point3> points = wanted();
@@ -255,7 +259,7 @@ private:
       flags[v] = isOff || points[v] != mesh().points[v];
       owned += isOff && state_.mesh.shared.owner(static_cast<Index>(v)) == exchange_.rank();
     }
-    const std::vector<Index> cells = badCells(points);
+    const std::vector<Index> cells = badCells(points, least);
     flagVertices(mesh(), cells, flags);
     const auto all = visitOwnSimplices(mesh(),
       [](const auto& cellsOfMesh) { return static_cast<std::int64_t>(cellsOfMesh.size()); });
@@ -264,34 +268,47 @@ private:
     return { std::move(flags), { counts[0], counts[1], counts[2] } };
   }
 
-  /// Whether a cell's mean ratio is below the minimum: for tetrahedra, of which there are most, by
-  /// the cubes of both.
-  bool isBad(const std::array<Index, 4>& cell, const std::vector<Point3>& points) const
+  /// Whether a cell's mean ratio is below `least`: for tetrahedra, of which there are most, by the
+  /// cubes of both.
+  bool isBad(
+    const std::array<Index, 4>& cell, const std::vector<Point3>& points, double least) const
   {
     const auto& [a, b, c, d] = cell;
     const double twelfth = squaredEdgeLengths(points[a], points[b], points[c], points[d]) / 12;
     const double volume = sixfoldVolume(points[a], points[b], points[c], points[d]) / 2;
-    const double least = options_.minimumQuality * twelfth;
-    return volume <= 0 || volume * volume < least * least * least;
+    const double bound = least * twelfth;
+    return volume <= 0 || volume * volume < bound * bound * bound;
   }
 
-  bool isBad(const std::array<Index, 3>& cell, const std::vector<Point3>& points) const
+  bool isBad(
+    const std::array<Index, 3>& cell, const std::vector<Point3>& points, double least) const
   {
     const std::vector<Point3>& now = state_.mesh.mesh().points;
     const Vector3 side =
       plane_ != Vector3{} ? plane_ : twofoldAreaVector(now[cell[0]], now[cell[1]], now[cell[2]]);
-    return stateAt(shapes::Triangle{}, cornersOf(cell, points), side).quality <
-           options_.minimumQuality;
+    return stateAt(shapes::Triangle{}, cornersOf(cell, points), side).quality < least;
   }
 
-  std::vector<Index> badCells(const std::vector<Point3>& points) const
+  /// Cells below `least`; if that is above the user's limit, those at new vertices.
+  std::vector<Index> badCells(const std::vector<Point3>& points, double least) const
   {
     return visitOwnSimplices(state_.mesh.mesh(),
       [&](const auto& cells)
       {
         return indicesWhere(state_.parallelFor, cells.size(),
-          [&](std::size_t c) { return isBad(cells[c], points) && mayChange(cells[c]); });
+          [&](std::size_t c)
+          {
+            return isBad(cells[c], points, least) && mayChange(cells[c]) &&
+                   (least <= options_.minimumQuality || isNew(cells[c]));
+          });
       });
+  }
+
+  template<std::size_t Corners>
+  bool isNew(const std::array<Index, Corners>& cell) const
+  {
+    return std::any_of(cell.begin(), cell.end(),
+      [&](Index vertex) { return state_.mesh.mesh().ids[vertex] >= *options_.newVertices; });
   }
 
   template<std::size_t Corners>
@@ -303,11 +320,15 @@ private:
   }
 
   /// The limits for a block: where a vertex is on the way to the CAD, those in flat walls beside it
-  /// may go.
-  ImprovementLimits limitsFor(const EditableMesh& block) const
+  /// may go. Cells that are not bad are not to lose vertices of theirs.
+  ImprovementLimits limitsFor(const EditableMesh& block, double least) const
   {
     ImprovementLimits limits{ std::max(options_.minimumQuality, aim), options_.minimumQuality,
       options_.surface };
+    if (least > options_.minimumQuality)
+    {
+      limits.collapseBelow = options_.minimumQuality;
+    }
     for (std::size_t v = 0; v < block.vertexCount(); ++v)
     {
       const EditableMesh::Vertex& vertex = block.vertex(static_cast<Index>(v));
@@ -329,12 +350,13 @@ private:
     }
   }
 
-  /// Improves the cells round flagged vertices once. Returns whether cells have changed.
-  bool improve(const std::vector<unsigned char>& flags, int round)
+  /// Improves the cells round flagged vertices once, for those below `least`. Returns whether cells
+  /// have changed.
+  bool improve(const std::vector<unsigned char>& flags, int round, double least)
   {
     return operate(flags, round,
       [&](BlockMesh& block, const SurfaceRule& rule)
-      { return improveCells(block.mesh(), &rule, limitsFor(block.mesh())); });
+      { return improveCells(block.mesh(), &rule, limitsFor(block.mesh(), least)); });
   }
 
   /// Does a round of operations on the cells round flagged vertices. Returns whether cells have

@@ -292,6 +292,7 @@ private:
 
   void refineOnce(RefinementPlan& plan)
   {
+    const GlobalId newVertices = state_.mesh.vertexIdBound;
     const bool withOperations = options_.projectNewVertices && options_.minimumQuality;
     plan.withOperations = withOperations;
     if (state_.classification)
@@ -304,6 +305,7 @@ private:
       const auto stopwatch = watch("seconds local operations");
       CellImprovementOptions improvement{ *options_.minimumQuality };
       improvement.surface.keepsError = options_.keepsError;
+      improvement.newVertices = newVertices;
       improveMesh(context_, state_, improvement);
     }
   }

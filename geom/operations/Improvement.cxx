@@ -170,7 +170,7 @@ private:
         considerMoveOnCAD(corners[k]);
       }
     }
-    if (!best_.count)
+    if (!best_.count && mesh_.qualityOf(cell) < limits_.collapseBelow)
     {
       forEdges(corners, false,
         [&](Index a, Index b)

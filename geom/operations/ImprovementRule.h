@@ -19,6 +19,8 @@ struct ImprovementLimits
   /// Edges of cells below this are split; below it, none gets worse where the vertices are.
   double minimum = 0.1;
   SurfaceLimits surface = {};
+  /// Edges of cells below this may be collapsed, which takes refinement back.
+  double collapseBelow = std::numeric_limits<double>::infinity();
 };
 
 /// The cost of cells by their mean ratios: 0 above a floor, and growing without limit below it, so

@@ -105,7 +105,8 @@ def add_steps(group):
                        "swaps, collapses and splits edges there (default); cut-only does not")
     group.add_argument("--minimum-quality", type=part, default=0.1, metavar="Q",
                        help="use these operations to improve cells with a mean ratio below Q, also those of MESH; 1 is "
-                       "equilateral (default 0.1; 0: use them only for vertices off the CAD)")
+                       "equilateral; new cells below 0.3 are improved, too, by swaps and moves (default 0.1; 0: use "
+                       "them only for vertices off the CAD)")
     group.add_argument("--conserve", type=names, default=[], metavar="NAME,...",
                        help="cell arrays of MESH that are densities, per volume (per area for triangles): their "
                        "integrals are conserved whatever becomes of the cells (default: none)")

@@ -5,6 +5,9 @@
 #include "MeshChecks.h"
 
 #include <gtest/gtest.h>
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkMeshValidity.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
@@ -81,6 +84,22 @@ TEST_P(Wing, everyVertexOnTheCadIsThere)
     farthest = std::max(farthest, distance(mesh.points[v], projected.points[v]));
   }
   EXPECT_LE(farthest, 1e-12 * 3) << "a second projection finds nothing left to do";
+}
+
+/// Edges and faces are swapped, and vertices moved, where new cells are poor; none is taken back.
+TEST_P(Wing, fewCellsArePoor)
+{
+  const auto data = filters.refineUniformly(filters.project(coarse), 2);
+  const auto cells = cadtest::fieldValue(data, "GlobalCells");
+  EXPECT_GT(cells, 0.98 * 64 * static_cast<double>(coarse->GetNumberOfCells()));
+  const auto measured = filters.run<vtkMeshValidity>(data, [](auto*) {});
+  vtkDataArray* qualities = measured->GetCellData()->GetArray("CellQuality");
+  int poor = 0;
+  for (vtkIdType c = 0; c < qualities->GetNumberOfTuples(); ++c)
+  {
+    poor += qualities->GetTuple1(c) < 0.3;
+  }
+  EXPECT_LT(poor, 0.08 * cells);
 }
 
 /// Straight refinement leaves the gap between mesh and CAD as it is.
