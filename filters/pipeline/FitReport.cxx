@@ -175,8 +175,8 @@ std::string describeFit(const Fit& fit, const std::string& cadUnit)
   if (fit.bridgingFacets > 0)
   {
     text
-      << "\nfacets off the CAD though all their vertices are on it, as over a hole of the CAD that "
-         "the mesh has not got: "
+      << "\nfacets off the CAD though all their vertices are on it, as over a hole or a ridge of "
+         "the CAD that the mesh does not resolve: "
       << fit.bridgingFacets;
   }
   for (const Point3& centroid : fit.bridges)
